@@ -1,7 +1,7 @@
 """A course on ROS 1 services.
 
-The notebooks import these names. Each name is imported when it is first used. So `import course_pkg` is fast
-for nodes and tools, which do not use these names.
+The notebooks import these names. Each name is imported when it is first used. `import course_pkg` is
+therefore fast for nodes and tools, because they do not use these names.
 """
 
 from pkgutil import extend_path
@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from course_pkg.ros import join
     from course_pkg.ros.explain import explain
 
-# catkin generates `course_pkg.srv` in another folder. Without this line, Python searches only the checkout.
+# catkin generates `course_pkg.srv` in another folder. Without this line, Python searches for this module only
+# in the checkout.
 __path__ = extend_path(__path__, __name__)
 
 __all__ = [

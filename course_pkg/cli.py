@@ -1,7 +1,8 @@
 """Runs the commands of `course`. Each package declares its commands in its module `commands.py`.
 
-Any Python of the machine can run this module before anything is installed, because it imports only the
-standard library and the modules `commands.py`. Each command imports other modules when it runs.
+Any Python interpreter of the machine can run this module before anything is installed, because the module
+imports only the standard library and the modules `commands.py`. Each command imports other modules when it
+runs.
 """
 
 from __future__ import annotations
@@ -60,7 +61,8 @@ def parse(arguments: Sequence[str]) -> SimpleNamespace:
 
 
 def _parser() -> ArgumentParser:
-    from argparse import ArgumentParser  # imported here, because it takes 10 ms and `run` does not need it
+    # imported here, because the import takes 10 ms and the command `run` does not need it
+    from argparse import ArgumentParser
 
     parser = ArgumentParser(
         prog="course",
@@ -91,9 +93,10 @@ def _dispatch(arguments: Sequence[str]) -> int:
 
 
 def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
-    """Set up the parts of the environment that are missing, and apply the environment.
+    """Set up the missing parts of the environment, and set its environment variables.
 
-    If the command imports libraries, the interpreter of the environment replaces this process and runs it.
+    If the command imports libraries, the Python interpreter of the environment replaces this process, and
+    runs the command.
     """
     from course_pkg.setup import Places, ensure, environment
 

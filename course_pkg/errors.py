@@ -2,7 +2,7 @@
 
 CourseError
 ├── SetupError: something that the course needs is missing and could not be created
-├── InterfaceError: a service or message type, or a value of one, is wrong
+├── InterfaceError: a type is unknown or wrong, or a value does not fit its field
 │   ├── UnknownType: there is no such type
 │   ├── BrokenDefinition: a .srv or .msg text that ROS does not accept; with line and column
 │   └── FieldError: a value that its field cannot hold; also a ValueError
@@ -14,14 +14,14 @@ CourseError
 │   ├── PortBusy: another program uses the port
 │   ├── NodeNameTaken: another running node has this name
 │   ├── NotJoined: this kernel is not a node, or is the wrong kind of node
-│   ├── NotAServiceType, NotAMessageType: the argument is another class
+│   ├── NotAServiceType, NotAMessageType: the argument is not a service or message type
 │   ├── CallError: CallTimeout, CallCancelled: a call ended without a response
-│   ├── NothingHeard: too few messages within the time
-│   ├── TooFewSubscribers: too few subscribers within the time
+│   ├── NothingHeard: too few messages within the time limit
+│   ├── TooFewSubscribers: too few subscribers within the time limit
 │   ├── PublisherStopped: this publisher was stopped
 │   ├── UnknownExecutable: no such package, or no such program or launch file in it
 │   └── NodeFailed: the process of a node ended; contains the end of its output
-├── ChannelError: ChannelBroken, ChannelClosed, ChannelTimeout, between two processes of the course
+├── ChannelError: ChannelBroken, ChannelClosed, ChannelTimeout: a channel between two processes failed
 ├── CheckError: a check cannot run
 │   ├── UnknownCheck: no check has this id
 │   └── ToolMissing: this machine lacks a tool that the exercise needs
@@ -34,8 +34,8 @@ CourseError
 │   └── WorkerFailed: the process that runs submissions ended, or did not start
 ├── HandoutError: an edition for students cannot be made, or work cannot be collected
 ├── PanelError: a panel cannot do what a cell asks for
-│   ├── NoServiceSelected: no service is selected, or one without a form
-│   ├── CallInProgress: a panel makes one call at a time
+│   ├── NoServiceSelected: no service is selected, or the selected service has no form
+│   ├── CallInProgress: the panel is already making a call
 │   ├── DrawingFailed: graphviz failed
 │   ├── InvalidPredictions: the file of predictions cannot be read
 │   ├── NotAChoice: an invalid case of choose()
@@ -43,7 +43,7 @@ CourseError
 ├── ExportFailed: a file with the student's progress cannot be written
 └── SiteError: the site cannot be built, or a check of the built site failed
 
-Each message says what happened, where, and what to do next.
+Each message explains what happened, where, and what to do next.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class SetupError(CourseError):
 
 
 class InterfaceError(CourseError):
-    """A service or message type, or a value of one, is wrong."""
+    """A service or message type is unknown or wrong, or a value does not fit its field."""
 
 
 class UnknownType(InterfaceError):
@@ -72,12 +72,12 @@ class UnknownType(InterfaceError):
 class BrokenDefinition(InterfaceError):
     """ROS does not accept the text of a service or message type.
 
-    `source` names the type or file. `line` and `column` count from 1. `text` is the wrong line. `problem` and
-    `remedy` are the two parts of the message.
+    `source` is the name of the type or of the file. `line` and `column` count from 1. `text` is the wrong
+    line. `problem` and `remedy` are the two parts of the message.
     """
 
     def __init__(self, source: str, line: int, column: int, text: str, problem: str, remedy: str) -> None:
-        # A tab becomes one space, so that the mark ^ is below the right letter.
+        # Each tab is replaced by one space; the mark ^ is then below the right letter.
         shown = text.replace("\t", " ").rstrip()
         excerpt = f"\n    {shown}\n    {' ' * (column - 1)}^" if shown else ""
         super().__init__(f"{source}, line {line}, column {column}: {problem}; {remedy}{excerpt}")
@@ -148,7 +148,7 @@ class NotAMessageType(GraphError, TypeError):
 
 
 class CallError(GraphError):
-    """A service call ended without a response, and rospy has no exception for the reason."""
+    """A service call ended without a response, and rospy defines no exception for this case."""
 
 
 class CallTimeout(CallError):
@@ -160,11 +160,11 @@ class CallCancelled(CallError):
 
 
 class NothingHeard(GraphError):
-    """Fewer messages than requested arrived within the time."""
+    """Fewer messages than requested arrived within the time limit."""
 
 
 class TooFewSubscribers(GraphError):
-    """Fewer subscribers than requested connected within the time."""
+    """Fewer subscribers than requested connected within the time limit."""
 
 
 class PublisherStopped(GraphError):
@@ -172,11 +172,11 @@ class PublisherStopped(GraphError):
 
 
 class UnknownExecutable(GraphError):
-    """There is no package of this name, or no program or launch file of this name in it."""
+    """There is no package with this name, or the package has no such program or launch file."""
 
 
 class NodeFailed(GraphError):
-    """The process of a node ended. `output` is the end of its output, and `returncode` its exit status."""
+    """The process of a node ended. `output` is the end of its output, and `returncode` is its exit status."""
 
     def __init__(self, message: str, output: str = "", returncode: int | None = None) -> None:
         super().__init__(message)
@@ -189,7 +189,7 @@ class ChannelError(CourseError):
 
 
 class ChannelBroken(ChannelError):
-    """A message on the channel breaks the protocol."""
+    """A message on the channel violates the protocol."""
 
 
 class ChannelClosed(ChannelError):
@@ -249,7 +249,7 @@ class PanelError(CourseError):
 
 
 class NoServiceSelected(PanelError):
-    """No service is selected, or the selected one has no form."""
+    """No service is selected, or the selected service has no form."""
 
 
 class CallInProgress(PanelError):
@@ -265,7 +265,7 @@ class InvalidPredictions(PanelError):
 
 
 class NotAChoice(PanelError):
-    """A case of choose() expects an unknown option, or is in the list twice."""
+    """A case of choose() expects an option that does not exist, or the case is in the list twice."""
 
 
 class NotATopic(PanelError):

@@ -7,7 +7,9 @@ from pathlib import Path
 
 
 def write_atomically(path: Path, content: str | bytes, encoding: str = "utf-8") -> None:
-    """Write `content` to `path`, and create its folders. A reader gets the complete old or new file.
+    """Write `content` to `path`, and create its folders.
+
+    While the file is being written, a reader gets either the complete old file or the complete new file.
 
     Raises OSError if the file cannot be written, or UnicodeEncodeError if `encoding` cannot represent the
     text. In both cases, the old file does not change.

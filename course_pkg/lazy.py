@@ -1,4 +1,4 @@
-"""Names that a package imports on first use, so that importing the package itself is fast."""
+"""Import the names of a package only on their first use. This makes the import of the package itself fast."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The folder for a student's results and own packages. Each checkout has one, outside the checkout."""
+"""The folder for a student's results and own packages.
+
+Each checkout of the course has its own folder, which is outside the checkout.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,8 @@ from typing import IO, Any
 from course_pkg.files import write_atomically
 from course_pkg.waiting import wait_until
 
-LOCK = 5.0  # s; the time limit for a lock, which is enough because each program writes only one small file
+# maximum time in s to wait for a lock; this is enough because each program writes only one small file
+LOCK = 5.0
 
 
 def state_folder() -> Path:
@@ -29,16 +33,19 @@ def state_folder() -> Path:
 
 
 def write_json(path: Path, data: Mapping[str, Any]) -> None:
-    """Write `data` to `path` as JSON, completely or not at all. Raises OSError if it cannot be written."""
+    """Write `data` to `path` as JSON, completely or not at all.
+
+    Raises OSError if the file cannot be written.
+    """
     write_atomically(path, json.dumps(data, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
 
 
 @contextmanager
 def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
-    """Hold the lock of `folder` during the block, so that two kernels do not use it at the same time.
+    """Hold the lock of `folder` during the block. Two kernels then cannot use the folder at the same time.
 
-    Creates the folder. Raises OSError if this fails, or if another process holds the lock for `timeout` s.
-    On a file system without locks, the block runs without a lock.
+    Creates the folder. Raises OSError if the lock cannot be created, or if another process holds it for
+    `timeout` s. On a file system without locks, the block runs without a lock.
     """
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / ".lock").open("ab") as file:
@@ -53,7 +60,7 @@ def now() -> str:
 
 
 def _lock(file: IO[bytes]) -> bool:
-    """Take the lock of `file`, which is released when the file is closed; return whether it was free."""
+    """Take the lock of `file`, and return whether it was free. Closing the file releases the lock."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

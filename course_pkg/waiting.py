@@ -1,4 +1,4 @@
-"""Waits with a time limit: deadlines, a wait for a condition, and an interrupt of code after a limit."""
+"""Time limits: a deadline, a wait for a condition, and a limit after which running code is interrupted."""
 
 from __future__ import annotations
 
@@ -12,12 +12,15 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 Value = TypeVar("Value")
-INTERVAL = 0.01  # s between two evaluations of a condition
-MOST = 4.0  # the largest factor for a limit on a busy machine
+INTERVAL = 0.01  # time in s between two evaluations of a condition
+MOST = 4.0  # maximum factor by which a limit grows on a busy machine
 
 
 class Deadline:
-    """A point in time, `seconds` from now on the monotonic clock; with None, it never passes."""
+    """A point in time, `seconds` from now on the monotonic clock.
+
+    If `seconds` is None, the deadline never passes.
+    """
 
     def __init__(self, seconds: float | None) -> None:
         self.seconds = seconds  # the seconds that were given
@@ -30,7 +33,7 @@ class Deadline:
 
     @property
     def milliseconds(self) -> int | None:
-        """The milliseconds that are left, rounded up, for select.poll; None if the deadline never passes."""
+        """The milliseconds that are left, rounded up, for select.poll. None if the deadline never passes."""
         return None if self.seconds is None else math.ceil(self.left * 1000)
 
     @property
@@ -47,9 +50,9 @@ def wait_until(
 ) -> Value:
     """Return the first true value of `condition`, or its last value when `timeout` s have passed.
 
-    The condition is evaluated immediately, then every `interval` s, and once more after the deadline.
-    Therefore even a thread that could not run for a long time returns the present value. If the event
-    `stopped` is set, the wait ends early.
+    The condition is evaluated immediately, then every `interval` s, and once more after the deadline. A
+    thread that could not run for a long time therefore also returns the current value. If the event `stopped`
+    is set, the wait ends early.
     """
     deadline = Deadline(timeout)
     while True:
@@ -65,10 +68,10 @@ def wait_until(
 
 
 def at_this_load(seconds: float) -> float:
-    """Return a limit (s) for work that takes `seconds` s at most on an idle machine.
+    """Return a time limit in s for work that takes at most `seconds` s on an idle machine.
 
-    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Without
-    this factor, a program that waits for the processor would look like a program that never ends.
+    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Without a
+    longer limit, a program that waits for the processor would look like a program that never ends.
     """
     load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
     return seconds * min(max(load, 1.0), MOST)
@@ -76,11 +79,11 @@ def at_this_load(seconds: float) -> float:
 
 @contextmanager
 def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 0.0) -> Iterator[None]:
-    """Raise `error` in the block when it has run for `seconds` s, and again every `repeat` s.
+    """Raise `error` in the block when the block has run for `seconds` s, and again every `repeat` s.
 
     If `repeat` is 0, `error` is raised only once. Use `repeat` for code that may catch the first error. This
-    function uses an alarm signal (SIGALRM), so the block has to run in the main thread, and such blocks may
-    not be nested. Raises ValueError in another thread.
+    function uses an alarm signal (SIGALRM). The block therefore has to run in the main thread, and such
+    blocks may not be nested. Raises ValueError in another thread.
     """
 
     def alarm(*_: object) -> None:

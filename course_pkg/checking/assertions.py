@@ -23,7 +23,7 @@ Hints: TypeAlias = "str | Sequence[tuple[Condition, str]]"
 
 
 class AssertionFailed(Exception):
-    """An assertion does not hold, so the check ends."""
+    """An assertion does not hold, so the check ends, or the goal in which it is."""
 
 
 def matches(pattern: str) -> re.Pattern[str]:
@@ -87,18 +87,43 @@ class Results:
         # returns the text of the call, which is needed only when a check fails
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
+        self.marked: set[str] = set()  # the goals for which the check has reached a mark
+        self._goals: dict[str, bool] = {}  # the goals that were examined separately, and whether they hold
 
     @property
     def assertions(self) -> tuple[Assertion, ...]:
         """The assertions, in the order in which they were first checked."""
         return tuple(self._assertions.values())
 
+    @property
+    def failed_goals(self) -> set[str]:
+        """The goals of which an assertion does not hold."""
+        return {goal for goal, fulfilled in self._goals.items() if not fulfilled}
+
+    @property
+    def kept_goals(self) -> set[str]:
+        """The goals that are fulfilled even if the check does not reach its end."""
+        return self.marked - self.failed_goals
+
+    @property
+    def fulfilled_goals(self) -> set[str]:
+        """The goals that are fulfilled if the check reaches its end."""
+        return (self.marked | self._goals.keys()) - self.failed_goals
+
+    def goal_ended(self, goal: str, *, fulfilled: bool) -> None:
+        """Record whether the assertions of `goal` hold; a goal that failed once stays so."""
+        self._goals[goal] = fulfilled and self._goals.get(goal, True)
+
     def passes(self, assertion: str) -> None:
         """Record that `assertion` holds; it may still fail when it is checked again."""
         self._assertions.setdefault(assertion, Assertion(assertion, holds=True))
 
     def fails(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:
-        """Record that `assertion` does not hold, and end the check by raising AssertionFailed."""
-        self._assertions.pop(assertion, None)
-        self._assertions[assertion] = Assertion(assertion, False, self.asked(), expected, actual, hint)
+        """Record that `assertion` does not hold, and end the check or the goal by raising AssertionFailed.
+
+        If it fails several times, which is possible inside goals, the report shows the first time.
+        """
+        known = self._assertions.pop(assertion, None)
+        failed = Assertion(assertion, False, self.asked(), expected, actual, hint)
+        self._assertions[assertion] = known if known and not known.holds else failed
         raise AssertionFailed(assertion)

@@ -3,7 +3,7 @@
 They use a stream socket; each line is one JSON object of at most `LIMIT` bytes. The runner never unpickles or
 evaluates the data that it receives.
 
-    client -> runner   {"protocol": 3, "check": "05.1"}            once, first
+    client -> runner   {"protocol": 4, "check": "05.1"}            once, first
     runner -> client   {"ask": 1, "do": "look", "name": "measure"}
     client -> runner   {"answer": 1, "kind": "function"}           or {"answer": 1, "wrong": "..."}
     ...                                                            as often as the check needs
@@ -24,6 +24,7 @@ The requests, their arguments, and the fields of the replies:
     start    argv, folder                 process (its number)
     poll     process                      status, null while it runs
     stop     process                      as run; status is null if it was still running
+    ports    process                      ports (the TCP ports on which the command listens)
 
 The connection is closed after a line that is too long, that is not a JSON object, or that replies to another
 request. For the runner, the check has then failed.
@@ -38,8 +39,9 @@ from collections.abc import Mapping
 from course_pkg.errors import ChannelBroken, ChannelClosed, CheckError
 from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 from course_pkg.types import Plain
+from course_pkg.waiting import at_this_load
 
-PROTOCOL = 3
+PROTOCOL = 4
 LIMIT = 1 << 20  # maximum bytes of a line
 LONGEST = 400  # maximum characters of a received message in a report
 
@@ -52,13 +54,15 @@ class Channel(JsonChannel):
         self._asked = 0
 
     def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:
-        """Send the request `do` to the check client, and return its reply, within `timeout` s.
+        """Send the request `do` to the check client, and return its reply.
 
-        Raises ChannelBroken if the reply belongs to another request, and the exceptions of JsonChannel.
+        The time limit is `timeout` s, or longer on a busy machine. Raises ChannelBroken if the reply belongs
+        to another request, and the exceptions of JsonChannel.
         """
         self._asked += 1
-        self.send({"ask": self._asked, "do": do, **arguments}, timeout)
-        reply = self.receive(timeout)
+        limit = at_this_load(timeout)
+        self.send({"ask": self._asked, "do": do, **arguments}, limit)
+        reply = self.receive(limit)
         if type(reply.get("answer")) is not int or reply["answer"] != self._asked:
             raise ChannelBroken(f"an answer to another request: {str(reply)[:80]}")
         if "wrong" in reply:

@@ -22,17 +22,18 @@ from course_pkg.checking.report import Report, Verdict, report_from
 from course_pkg.errors import ChannelClosed, ChannelError, CheckError
 from course_pkg.ros.notebook.cells import Cells
 
-# time limit in s between two messages of the check runner; a check's own deadline is much shorter
-TIMEOUT = 90.0
+# time limit in s between two messages of the check runner. In grading, another process runs the commands of a
+# check, so the kernel may receive no message until the deadline, which is 600 s at most on a busy machine.
+TIMEOUT = 900.0
 RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.runner_process import main; main()"
 
 
 def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report:
     """Let a separate node examine part `check_id`, such as "05.1", and return the report.
 
-    The names that the check needs are looked up in `namespace`, or in the notebook if no namespace is given.
-    Errors are in the report and are not raised. Only an interrupt is raised, after the check runner has
-    ended.
+    The check looks up the names that it needs in `namespace`, or in the notebook if `namespace` is None.
+    Errors are contained in the report and are not raised. Only an interrupt is raised, and only after the
+    check runner has ended.
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():
@@ -52,7 +53,7 @@ def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report
 
 
 def _serve(channel: Channel, check_id: str, agent: KernelAgent) -> Report:
-    """Reply to the check runner's requests until it sends its report."""
+    """Respond to the check runner's requests until it sends its report."""
     channel.send({"protocol": PROTOCOL, "check": check_id})
     while True:
         message = channel.receive(TIMEOUT)
@@ -65,7 +66,7 @@ def _serve(channel: Channel, check_id: str, agent: KernelAgent) -> Report:
 def _runner() -> Iterator[Channel]:
     """Connect to the check runner whose address is in COURSE_CHECK_RUNNER.
 
-    Start a check runner if this variable is not set.
+    Start a check runner if the variable is not set.
     """
     if address := os.environ.get("COURSE_CHECK_RUNNER"):
         channel = connect(address)
@@ -80,7 +81,7 @@ def _runner() -> Iterator[Channel]:
 
 @contextmanager
 def _started_runner() -> Iterator[Channel]:
-    """Start a check runner; it ends when this block ends, even if this process is killed."""
+    """Start a check runner; it ends with this block, even if this process is killed."""
     if "ROS_MASTER_URI" not in os.environ:
         raise CheckError("There is no node yet: first run the set-up cell, which calls join().")
     ours, theirs = socket.socketpair()
@@ -93,16 +94,17 @@ def _started_runner() -> Iterator[Channel]:
         except ChannelError as error:
             raise ChannelClosed(_how_it_ended(process, log)) from error
         finally:
-            channel.close()  # the runner notices that the connection is closed, and unregisters its node
+            # the check runner notices that the connection is closed, and unregisters its node
+            channel.close()
             _end(process)
 
 
 def _spawn(theirs: socket.socket, log: IO[bytes]) -> subprocess.Popen[bytes]:
-    """Start the runner in a separate session, so that an interrupt of the kernel does not interrupt it.
+    """Start the check runner in a separate session, so that an interrupt of the kernel does not reach it.
 
-    The runner imports the course and the workspace from the same folders as this process. The notebook's
-    folder is last in its path or not in it, so that a student's file rospy.py cannot replace the module
-    rospy.
+    The check runner imports the course and the workspace from the same folders as this process. The
+    notebook's folder is the last one in its path, or is not in it, so that a student's file rospy.py cannot
+    replace the module rospy.
     """
     here = os.getcwd()
     course = str(Path(course_pkg.__file__).resolve().parent.parent)
@@ -127,7 +129,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 def _how_it_ended(process: subprocess.Popen[bytes], log: IO[bytes]) -> str:
-    """Return a message that says what to do, with the last lines that the check runner wrote."""
+    """Return a message that says what to do; it contains the last lines that the check runner wrote."""
     _end(process)
     log.seek(0)
     last = log.read()[-2000:].decode("utf-8", errors="replace").strip().splitlines()[-3:]
@@ -135,7 +137,7 @@ def _how_it_ended(process: subprocess.Popen[bytes], log: IO[bytes]) -> str:
 
 
 def _notebook() -> Mapping[str, Value]:
-    """Return the names of the notebook or of the program that calls this function."""
+    """Return the names that the notebook, or the program that calls this function, defines."""
     if "IPython" in sys.modules:
         from IPython.core.getipython import get_ipython
 
@@ -146,7 +148,7 @@ def _notebook() -> Mapping[str, Value]:
 
 
 def _cells() -> Cells:
-    """Return the data about the runs of the notebook's cells, or None before rospy is imported."""
+    """Return the data about the runs of the notebook's cells; None if rospy is not imported yet."""
     if "rospy" not in sys.modules:
         return Cells(lambda _closes: None)
     from course_pkg.ros.node.join import cells

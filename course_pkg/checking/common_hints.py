@@ -5,10 +5,10 @@ from __future__ import annotations
 from course_pkg.checking.assertions import Hints, matches
 
 NO_RETURN = "The function returned None, because it ended without a return line."
-# A handler that raises ServiceException chooses the error message itself. After a wrong return value, rospy
-# writes the error message.
+# If a handler raises ServiceException, the handler chooses the error message. If a handler returns a wrong
+# value, rospy chooses the error message.
 REFUSED_BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
-# The error message that rospy sends to the client if a handler raises another exception than
+# The error message that rospy sends to the client if a handler raises an exception other than
 # ServiceException.
 HANDLER_RAISED: Hints = [
     (

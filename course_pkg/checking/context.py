@@ -5,8 +5,8 @@ from __future__ import annotations
 import difflib
 import signal
 import time
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from types import TracebackType
 from typing import NoReturn, overload
@@ -24,7 +24,6 @@ from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.checking.placed.host import PlacedObjects
 from course_pkg.checking.plain_values import Item, ServiceClass, Value, of_kind, plain
 from course_pkg.checking.random_inputs import RandomInputs
-from course_pkg.checking.report import Assertion
 from course_pkg.checking.result import Finished, Result
 from course_pkg.errors import ChannelError, CheckError, GraphError
 from course_pkg.ros.protocol.json_channel import Json
@@ -39,8 +38,8 @@ KNOWN = (AssertionFailed, ChannelError, CheckError)
 class CheckContext:
     """One run of a check.
 
-    The first assertion that fails ends the run. At the end of a run, all servers, topics and folders that it
-    opened are closed.
+    The first assertion that fails ends the run, unless it is inside of a `goal`. At the end of a run, all
+    servers, topics and folders that it opened are closed.
     """
 
     def __init__(self, check: str, channel: Channel, node: Node, seed: int) -> None:
@@ -53,9 +52,34 @@ class CheckContext:
         self._placed: PlacedObjects | None = None
 
     @property
-    def assertions(self) -> tuple[Assertion, ...]:
-        """The assertions that were checked."""
-        return self._results.assertions
+    def results(self) -> Results:
+        """The assertions that were checked, and the goals that were marked."""
+        return self._results
+
+    # -- the goals of a part, for partial credit
+
+    def fulfilled(self, goal: str) -> None:
+        """Mark a goal of the part as fulfilled: it earns its points even if a later assertion fails.
+
+        So a goal counts only if all assertions before its mark hold. Put the part's main goal first; then a
+        program that does nothing, or refuses everything, earns nothing for a later goal. If the goal was
+        examined with `goal`, it counts only if it did not fail there.
+        """
+        self._results.marked.add(goal)
+
+    @contextmanager
+    def goal(self, goal: str) -> Iterator[None]:
+        """Examine a goal of the part that does not depend on other goals; a failed assertion ends only it.
+
+        The goal may be examined several times, such as in a loop. It earns its points if its assertions hold
+        each time, and if the check reaches its end.
+        """
+        try:
+            yield
+        except AssertionFailed:
+            self._results.goal_ended(goal, fulfilled=False)
+        else:
+            self._results.goal_ended(goal, fulfilled=True)
 
     # -- assertions
 
@@ -192,9 +216,11 @@ class CheckContext:
             )
         )
 
-    def fake_node(self, name: str, topic: str, kind: str, *, alive: bool = True) -> FakeNode:
+    def fake_node(
+        self, name: str, topic: str, kind: str, *, alive: bool = True, reused: bool = False
+    ) -> FakeNode:
         """Register the node `name` as a publisher of `topic`, alive or killed; see peers/node.py."""
-        return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive))
+        return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive, reused=reused))
 
     # -- the student's topics
 

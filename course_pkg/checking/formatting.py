@@ -1,4 +1,4 @@
-"""The texts in a report about calls, values and errors."""
+"""Texts for reports about calls, values and errors."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def command_line(name: str, kind: ServiceClass, request: Message) -> str:
 
 
 def explained(error: str) -> str:
-    """Return what an error message of ROS means, and what the student can do.
+    """Return what an error message of ROS means, and what the student can do; "" for an unknown message.
 
     The result is empty for an unknown message.
     """

@@ -1,8 +1,8 @@
-"""The packed source of checks, for the students' edition.
+"""Packs the source of checks for the students' edition.
 
-A check compares values with expected values, and adds its own files to a student's package. So its source
-contains answers, but `check()` needs this source on the student's computer. Students cannot read packed
-source by accident or find it with a search. They can still unpack it on purpose.
+A check compares values with expected values, and adds files to a student's package. Therefore, its source
+contains answers, but `check()` needs the source on the student's computer. Students do not see the packed
+source by accident, and cannot find it with a search. They can still unpack it deliberately.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import base64
 import textwrap
 import zlib
 
-WIDTH = 100  # maximum number of characters of a line
+WIDTH = 100  # maximum number of characters in a line
 MODULE = '''"""Packed by `course release`, because the source of a check contains answers."""
 
 from course_pkg.checking.packed import load
@@ -26,17 +26,17 @@ load(
 
 
 def pack(source: str) -> str:
-    """Return the source of a module that works like the module with `source`."""
+    """Return the source of a module that does the same as the module with `source`."""
     packed = base64.b85encode(zlib.compress(source.encode(), 9)).decode()
     return MODULE.format("\n".join(textwrap.wrap(packed, WIDTH, break_on_hyphens=False)))
 
 
 def unpack(packed: str) -> str:
-    """Return the source that pack() has packed."""
+    """Return the source that was passed to pack()."""
     return zlib.decompress(base64.b85decode("".join(packed.split()))).decode()
 
 
 def load(module: dict[str, object], packed: str) -> None:
-    """Run packed source as the module with the global names `module`."""
+    """Run packed source as the code of the module whose global names are `module`."""
     code = compile(unpack(packed), str(module["__file__"]), "exec", dont_inherit=True)
     exec(code, module)  # noqa: S102 -- it is the module's own source

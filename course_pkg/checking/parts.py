@@ -6,11 +6,12 @@ import difflib
 import importlib
 import pkgutil
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from course_pkg.checking.credit import Goal, goals_of
 from course_pkg.errors import CheckError, UnknownCheck
 
 if TYPE_CHECKING:
@@ -33,6 +34,7 @@ class Part:
     a handler may have another name than in the exercise if its service exists. `deadline` is the time limit
     of the whole check in s. If the student has to repair a file, `start` is the whole `%%writefile` cell that
     the student gets. Otherwise `start` is empty, and the student gets the solution's cell without its answer.
+    `goals` divide the points; a part without goals gives all of its points or none.
     """
 
     check: str
@@ -42,6 +44,7 @@ class Part:
     deadline: float
     examine: Callable[[CheckContext], None]
     start: str = ""
+    goals: tuple[Goal, ...] = ()
 
     @property
     def package_files(self) -> dict[str, list[str]]:
@@ -65,11 +68,18 @@ def part(
     needs: Sequence[str] = (),
     deadline: float = 10.0,
     start: str = "",
+    goals: Sequence[str] | Mapping[str, float] = (),
 ) -> Callable[[Callable[[CheckContext], None]], Part]:
-    """Return a decorator that declares the check of the part with the id `check`, such as "05.1"."""
+    """Return a decorator that declares the check of the part with the id `check`, such as "05.1".
+
+    `goals` are the goals among which the points are divided: a sequence divides them equally, and a mapping
+    contains weights. The check marks a goal with `context.fulfilled` or `context.goal`; the last goal needs
+    no mark if it is fulfilled exactly when the check passes. Without goals, only a pass earns points.
+    """
+    divided = goals_of(check, points, goals)
 
     def declare(examine: Callable[[CheckContext], None]) -> Part:
-        return Part(check, points, goal, tuple(needs), deadline, examine, start)
+        return Part(check, points, goal, tuple(needs), deadline, examine, start, divided)
 
     return declare
 

@@ -1,4 +1,7 @@
-"""The values that a student's code made, as plain data. The channel transports only plain data."""
+"""Converts values of the student's code into plain data, because the channel transports only plain data.
+
+Plain data are JSON values.
+"""
 
 from __future__ import annotations
 
@@ -21,10 +24,9 @@ ITEMS = 10_000
 
 
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
-    """Return `value`, which the check's own code made in the kernel; it is an instance of `kind`.
+    """Return `value`, which must be an instance of `kind`. The check's own code in the kernel has made it.
 
-    Raises CheckError for a value of another type, which means that the student's code has changed the check's
-    code.
+    Raises CheckError for a value of another type; then the student's code has changed the check's code.
     """
     if not isinstance(value, kind):
         raise CheckError(
@@ -36,8 +38,8 @@ def of_kind(kind: type[Item], value: Json, name: str) -> Item:
 def plain(value: Value, depth: int = DEPTH) -> Json:
     """Return `value` as None, bool, int, float, str, list and dict.
 
-    A ROS message becomes a dict of its fields, bytes become a list of integers, and a NumPy scalar a number.
-    A value without a plain form becomes {"object": name of its type}, which no check expects.
+    A ROS message becomes a dict of its fields, bytes become a list of integers, and a NumPy scalar becomes a
+    number. Any other value becomes {"object": name of its type}; no check expects this value.
     """
     kind = type(value)
     if value is None or (isinstance(value, (bool, int, float)) and kind in (bool, int, float)):
@@ -71,7 +73,10 @@ def _compound(value: Value, depth: int) -> Json:
 
 
 def _exact(value: Value) -> Json:
-    """Return a number or a string of a subclass, such as IntEnum, as a value of the base class."""
+    """Return a number or a string as a value of its base class.
+
+    An example is an IntEnum, which becomes an int.
+    """
     if isinstance(value, int):
         return int(int.__int__(value))
     if isinstance(value, float):

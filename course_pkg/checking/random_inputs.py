@@ -1,4 +1,4 @@
-"""Random inputs for a check: they are different in each run, but the same for the same seed."""
+"""Random inputs for a check: they differ in each run, but are the same for the same seed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ Item = TypeVar("Item")
 
 
 class RandomInputs:
-    """A source of random inputs. A check uses no other source, so the seed is enough to repeat its inputs."""
+    """A source of random inputs.
+
+    A check uses no other source, so its inputs can be repeated if the seed is known.
+    """
 
     def __init__(self, seed: str) -> None:
         self._random = random.Random(seed)  # noqa: S311 -- these numbers are not secrets
@@ -22,7 +25,7 @@ class RandomInputs:
         return round(self._random.uniform(low, high), digits)
 
     def numbers(self, count: int, low: float, high: float, *, digits: int = 2) -> list[float]:
-        """Return `count` different numbers, so that no wrong answer is right by accident."""
+        """Return `count` different numbers, so that a wrong answer is not right by accident."""
         found: list[float] = []
         while len(found) < count:
             number = self.number(low, high, digits=digits)
@@ -31,15 +34,15 @@ class RandomInputs:
         return found
 
     def integer(self, low: int, high: int) -> int:
-        """Return an integer from `low` to `high`, both included."""
+        """Return a random integer from `low` to `high`; both limits are possible."""
         return self._random.randint(low, high)
 
     def integers(self, count: int, low: int, high: int) -> list[int]:
-        """Return `count` different integers from `low` to `high`, both included."""
+        """Return `count` different random integers from `low` to `high`; both limits are possible."""
         return self._random.sample(range(low, high + 1), count)
 
     def choice(self, items: Sequence[Item]) -> Item:
-        """Return one of `items`."""
+        """Return one of `items`, drawn at random."""
         return self._random.choice(items)
 
     def shuffled(self, items: Sequence[Item]) -> list[Item]:
@@ -47,10 +50,10 @@ class RandomInputs:
         return self._random.sample(items, len(items))
 
     def word(self, length: int = 6) -> str:
-        """Return a word of lower-case letters."""
+        """Return a random word of `length` lower-case letters."""
         self._words.append("".join(self._random.choices(string.ascii_lowercase, k=length)))
         return self._words[-1]
 
     def made(self, text: str) -> bool:
-        """Return whether `text` contains a random word; an assertion must not show such a text."""
+        """Return whether `text` contains a random word; the title of an assertion must not contain one."""
         return any(word in text for word in self._words)

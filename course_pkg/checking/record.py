@@ -1,14 +1,15 @@
-"""The student's own record: one file for each part, with its last result and its first pass.
+"""The student's own record: a file for each part, with the last result and the time of the first pass.
 
-The record shows a student the progress in the course. It is in the student's own folder, so the student can
-change or forge it. Therefore only the student's own overview reads the record, and it is never used for a
-grade. Grades come from check runners that `course grade` starts. These check runners store nothing here: a
-contract of import-linter in pyproject.toml forbids the packages grading and sandbox to import this module.
+The record shows students their progress in the course. It is in the student's own folder, so the student can
+change or forge it. Therefore, only the student's own overview reads the record; it is never used for a grade.
+Grades come from check runners that `course grade` starts. They store nothing here: a contract of
+import-linter in pyproject.toml forbids the packages grading and sandbox to import this module.
 """
 
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import count
@@ -17,36 +18,37 @@ from pathlib import Path
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.state import locked, now, state_folder, write_json
 
-FOLDER = "results-2"  # `results` is the folder of the first edition, whose chapters have other numbers
+FOLDER = "results-2"  # the folder `results` belongs to the first edition, whose chapters have other numbers
 PASSED = "passed"
 
 
 @dataclass(frozen=True)
 class PartRecord:
-    """The results of the checks of one part. Times are ISO 8601 in UTC, or "" if there is none yet."""
+    """The results of the checks of one part. A time is ISO 8601 in UTC; "" means that it is not known yet."""
 
     check: str
-    verdict: str  # of the last check
+    verdict: str  # the verdict of the last check
     checked: str  # the time of the last check
-    passed: str  # when the part was first passed
+    passed: str  # the time at which the part passed for the first time
     checks: int
+    points: float = 0  # of the last check
 
 
 class DamagedRecord(Exception):
-    """A file of the record cannot be read, or does not contain a record."""
+    """A file of the record cannot be read, or its content is not a record."""
 
 
 class StudentRecord:
-    """The results of the checks that this student ran, in a folder of the course's state."""
+    """The results of the checks that this student has run, in a folder of the course's state."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder or state_folder() / FOLDER
 
     def store(self, check: str, result: Mapping[str, Json]) -> str:
-        """Store the result of a check, and return a message about a problem; "" if there was none.
+        """Store the result of a check; return a message if there was a problem, or "" if there was none.
 
-        A damaged file is kept next to the new one. If nothing can be written, the file does not change. No
-        error is raised: the report of a check does not depend on its record.
+        A damaged file is renamed and kept. If the disk cannot be written, the file does not change. This
+        method raises no error, because the report of a check must not depend on the record.
         """
         path = self._path(check)
         try:
@@ -63,7 +65,7 @@ class StudentRecord:
         return message
 
     def read(self, checks: Iterable[str]) -> tuple[dict[str, PartRecord], str]:
-        """Return the records of these parts by id, and a message about damaged records, or ""."""
+        """Return the records of these parts by their ids, and a message about damaged records, or ""."""
         found: dict[str, PartRecord] = {}
         damaged: dict[str, list[str]] = {}
         for check in checks:
@@ -83,7 +85,10 @@ class StudentRecord:
         return self.folder / f"{check}.json"
 
     def _before(self, check: str) -> tuple[PartRecord | None, str]:
-        """Return the record of a part and a message; if the file is damaged, rename it and return None."""
+        """Return the earlier record of a part, and a message.
+
+        If the file is damaged, rename it and return None.
+        """
         try:
             return self._read(check), ""
         except DamagedRecord as error:
@@ -97,7 +102,7 @@ class StudentRecord:
             )
 
     def _read(self, check: str) -> PartRecord | None:
-        """Return the record of a part, or None if there is none. Raises DamagedRecord."""
+        """Return the record of a part, or None if there is no record. Raises DamagedRecord."""
         try:
             data = json.loads(self._path(check).read_text("utf-8"))
         except FileNotFoundError:
@@ -111,7 +116,7 @@ class StudentRecord:
 
 
 def _record(check: str, data: object) -> PartRecord | None:
-    """Return the record of a part in `data`, or None if the data do not have the form that `store` writes."""
+    """Return the record of a part in `data`, or None if `store` has not written these data."""
     if not isinstance(data, dict):
         return None
     texts = [data.get(name) for name in ("verdict", "checked", "passed")]
@@ -121,7 +126,9 @@ def _record(check: str, data: object) -> PartRecord | None:
     if not all(isinstance(text, str) for text in texts):
         return None
     verdict, checked, passed = map(str, texts)
-    return PartRecord(check, verdict, checked, passed, checks)
+    points = data.get("points")
+    earned = points if isinstance(points, (int, float)) and math.isfinite(points) else 0
+    return PartRecord(check, verdict, checked, passed, checks, earned)
 
 
 def _reason(error: Exception) -> str:
@@ -131,6 +138,6 @@ def _reason(error: Exception) -> str:
 
 
 def _listed(parts: list[str], most: int = 5) -> str:
-    """Return the ids of parts as a text, but only the first `most` ids."""
+    """Return the ids of parts as one text; it contains only the first `most` ids."""
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(parts[:most]) + more

@@ -13,11 +13,13 @@ from dataclasses import asdict, dataclass, field
 from enum import Enum
 from html import escape
 
+from course_pkg.checking.credit import Goal, total
 from course_pkg.checking.plain_values import Value
 from course_pkg.ros.protocol.json_channel import Json
 
 WIDTH = 100
 RIGHT, NEXT, FIRST = "Right so far:", "Fix this next:", "Fix this first:"
+GOALS = "Points for each goal:"
 
 
 class Verdict(str, Enum):
@@ -75,6 +77,7 @@ class Report:
     assertions: tuple[Assertion, ...] = ()
     note: str = ""  # what the student should do next, if no assertion shows this
     printed: str = field(default="", compare=False)  # the text that student code printed during the check
+    goals: tuple[Goal, ...] = ()  # the goals among which the points are divided; none for all or nothing
     inconclusive: bool = False  # True if grading counts a check that did not finish as failed
     review: Review | None = None  # in grading, if an instructor has reviewed the answer
 
@@ -97,6 +100,17 @@ class Report:
             about = f"The instructor changed the points from {computed:g} to {self.points:g}."
         return [*filter(None, [about, comment and f"The instructor's comment: {comment}"])]
 
+    def credits(self) -> list[str]:
+        """Return a line for each goal with its points.
+
+        There are none for a pass, if no assertion was checked, or if the part gives all points or none.
+        """
+        if self.verdict is Verdict.PASSED or not self.assertions or not total(self.goals):
+            return []
+        return [
+            f"{goal.points if goal.fulfilled else 0:g} of {goal.points:g}: {goal.text}" for goal in self.goals
+        ]
+
     def sections(self) -> list[tuple[str, tuple[Assertion, ...]]]:
         """Return the assertions with their headings; the assertions that hold come first.
 
@@ -118,6 +132,8 @@ class Report:
                 for label, text in assertion.details():
                     lines += _block(f"      {label:<10}", text)
         lines += _block("  ", self.note)
+        if shown := self.credits():
+            lines += [f"  {GOALS}", *(line for each in shown for line in _block("    ", each))]
         for sentence in self.about_review():
             lines += _block("  ", sentence)
         if self.verdict is not Verdict.PASSED and self.goal:
@@ -133,12 +149,14 @@ class Report:
         """Return the report as complete HTML; every text in it is escaped."""
         passed = self.verdict is Verdict.PASSED
         sections = "".join(_section_html(*section) for section in self.sections())
+        items = "".join(f"<li>{escape(each)}</li>" for each in self.credits())
+        divided = f"{_paragraph(GOALS)}<ul>{items}</ul>" if items else ""
         goal = "" if passed or not self.goal else _paragraph(f"The goal: {self.goal}")
         printed = "" if passed else _printed_html(self.printed)
         return (
             f'<section class="course-report" style="{_frame(self.verdict)}">'
             f"<p><strong>{escape(self.headline())}</strong></p>"
-            f"{sections}{_paragraph(self.note)}{goal}{printed}</section>"
+            f"{sections}{_paragraph(self.note)}{divided}{goal}{printed}</section>"
         )
 
     def as_dict(self) -> dict[str, Json]:
@@ -149,8 +167,9 @@ class Report:
 def report_from(data: Mapping[str, Value]) -> Report:
     """Return the report from `data`, the result of `as_dict`."""
     assertions = tuple(Assertion(**each) for each in data["assertions"])
+    goals = tuple(Goal(**each) for each in data.get("goals", ()))
     review = Review(**data["review"]) if data.get("review") else None
-    known = {"assertions": assertions, "verdict": Verdict(data["verdict"]), "review": review}
+    known = {"assertions": assertions, "goals": goals, "review": review, "verdict": Verdict(data["verdict"])}
     return Report(**{**data, **known})
 
 

@@ -1,4 +1,4 @@
-"""The results of the student's code that a check ran: a function in the kernel, or a command."""
+"""The results of student code that a check runs: of a function in the kernel, or of a command."""
 
 from __future__ import annotations
 
@@ -13,30 +13,33 @@ from course_pkg.ros.protocol.json_channel import Json
 
 
 class Result:
-    """The result of one call of a student's function: either a value or an error, never both."""
+    """The result of one call of a student's function: a value or an error."""
 
     def __init__(
         self, results: Results, label: str, reply: Mapping[str, Json], took: float, hints: Hints
     ) -> None:
         self.printed = str(reply.get("printed", ""))
-        self.took = took  # duration in s, measured by the check runner
+        self.took = took  # duration in s, as the check runner measured it
         self._value = reply.get("value")
         error = reply.get("error")
         self._error = error if isinstance(error, dict) else None
         self._results = results
-        self._label = label  # the call as assertions show it: "measure()"
+        self._label = label  # the call, as the titles of assertions show it: "measure()"
         self._hints = hints
 
     @property
     def error(self) -> str:
-        """The error in the form `TypeName: message`, or an empty string if there was no error."""
+        """The error in the form `TypeName: message`, or "" if there was no error."""
         if self._error is None:
             return ""
         return f"{self._error.get('type')}: {self._error.get('text')}"
 
     @property
     def value(self) -> Json:
-        """The value that the function returned, as plain data; None after an error. Asserts nothing."""
+        """The value that the function returned, as plain data; None if it raised an error.
+
+        Asserts nothing.
+        """
         return self._value
 
     @overload
@@ -44,10 +47,10 @@ class Result:
     @overload
     def returned(self, kind: type[Item]) -> Item: ...
     def returned(self, kind: type[Item] | None = None) -> Json | Item:
-        """Assert that the function returned, and return its value as plain data.
+        """Assert that the function returned without an error, and return its value as plain data.
 
-        For the check's own function, pass the `kind` of the value. CheckError is raised for a value of
-        another kind.
+        For a function of the check itself, pass the expected class as `kind`. CheckError is raised if the
+        value has another class.
         """
         assertion = f"{self._label} returns"
         if self.error:
@@ -57,9 +60,9 @@ class Result:
         return self._value if kind is None else of_kind(kind, self._value, self._label)
 
     def raised(self, assertion: str, kind: str, *, saying: str = "", hints: Hints = ()) -> str:
-        """Assert that the call raised an error of the type `kind` (or derived from it); return its text.
+        """Assert that the call raised an error of the class `kind` or a subclass; return the error's message.
 
-        `saying` is a pattern that the text has to match.
+        `saying` is a pattern that the message has to match.
         """
         actual = self.error or f"the value {shown(self._value)}"
         if not self._is(kind) or not matches(saying).search(self.error):
@@ -86,7 +89,7 @@ class Finished:
 
     def __init__(self, reply: Mapping[str, Json]) -> None:
         status, took = reply.get("status"), reply.get("took")
-        # None means that the command was still running.
+        # None means that the command was still running
         self.status = status if isinstance(status, int) else None
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
@@ -94,4 +97,4 @@ class Finished:
         # For a command that was still running: its CPU time, and the time that it waited for a CPU, in s.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
-        self.queued = queued if isinstance(queued, float) else math.inf  # infinity if the time is not known
+        self.queued = queued if isinstance(queued, float) else math.inf  # infinity if this time is not known

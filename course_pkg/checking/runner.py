@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import secrets
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
@@ -14,10 +14,11 @@ from typing import TypeAlias
 from course_pkg.checking.assertions import AssertionFailed
 from course_pkg.checking.channel import PROTOCOL, Channel, require_current
 from course_pkg.checking.context import CheckContext
+from course_pkg.checking.credit import earned, with_fulfilled
 from course_pkg.checking.parts import Part, find
 from course_pkg.checking.peers.node import on_the_graph
 from course_pkg.checking.report import Assertion, Report, Verdict
-from course_pkg.errors import ChannelError, CourseError, ToolMissing
+from course_pkg.errors import ChannelError, CheckError, CourseError, ToolMissing
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import at_this_load, interrupt_after
 
@@ -68,19 +69,31 @@ def _run(part: Part, channel: Channel, seed: int) -> Report:
 
 
 def _reported(part: Part, context: CheckContext) -> Report:
+    results = context.results
     try:
         with context, interrupt_after(at_this_load(part.deadline), DeadlinePassed):
             part(context)
     except AssertionFailed:
-        return _report(part, Verdict.FAILED, context.assertions)
+        return _report(part, Verdict.FAILED, results.assertions, goals=results.kept_goals)
     except ToolMissing as error:
         return _report(part, Verdict.NOT_ATTEMPTED, note=str(error))
     except DeadlinePassed:
-        return _report(part, Verdict.FAILED, (*context.assertions, _too_slow(part, context)))
+        shown = (*results.assertions, _too_slow(part, context))
+        return _report(part, Verdict.FAILED, shown, goals=results.kept_goals)
     except ChannelError as error:
         note = f"The kernel sent a reply that is not valid: {error}."
-        return _report(part, Verdict.FAILED, context.assertions, note)
-    return _report(part, Verdict.PASSED, context.assertions)
+        return _report(part, Verdict.FAILED, results.assertions, note)
+    _require_marks(part, results.fulfilled_goals | results.failed_goals)
+    if results.failed_goals:
+        return _report(part, Verdict.FAILED, results.assertions, goals=results.fulfilled_goals)
+    return _report(part, Verdict.PASSED, results.assertions, goals=[goal.text for goal in part.goals])
+
+
+def _require_marks(part: Part, marked: set[str]) -> None:
+    """Raise CheckError if the check did not mark exactly the goals of the part; the last needs no mark."""
+    texts = {goal.text for goal in part.goals}
+    if wrong := (marked - texts) | (texts - marked - {goal.text for goal in part.goals[-1:]}):
+        raise CheckError(f"The check itself has a bug (goals: {', '.join(sorted(wrong))}).")
 
 
 def _not_attempted(part: Part, channel: Channel) -> str:
@@ -125,9 +138,17 @@ def _too_slow(part: Part, context: CheckContext) -> Assertion:
     )
 
 
-def _report(part: Part, verdict: Verdict, assertions: tuple[Assertion, ...] = (), note: str = "") -> Report:
-    earned = part.points if verdict is Verdict.PASSED else 0
-    return Report(part.check, verdict, part.goal, earned, part.points, assertions, note)
+def _report(
+    part: Part,
+    verdict: Verdict,
+    assertions: tuple[Assertion, ...] = (),
+    note: str = "",
+    goals: Iterable[str] = (),
+) -> Report:
+    """Return the report of `part`; `goals` are the texts of the goals that are fulfilled."""
+    found = with_fulfilled(part.goals, goals)
+    points = part.points if verdict is Verdict.PASSED else earned(found)
+    return Report(part.check, verdict, part.goal, points, part.points, assertions, note, goals=found)
 
 
 def _course_version() -> str:

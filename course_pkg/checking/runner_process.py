@@ -1,4 +1,7 @@
-"""The process of a check runner that a notebook starts: it stores the result in the student's own record."""
+"""The process of a check runner that a notebook has started.
+
+It stores the result in the student's own record.
+"""
 
 from __future__ import annotations
 
@@ -17,21 +20,21 @@ from course_pkg.checking.runner import run_check
 
 
 class RunnerStopped(BaseException):
-    """The kernel has ended, or this process got SIGTERM."""
+    """The kernel has ended, or this process has received SIGTERM."""
 
 
 def main() -> None:
-    """Run one check over the socket whose descriptor is the first argument, and then end immediately."""
+    """Run one check over the socket whose descriptor is the first argument, and exit at once."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     with suppress(RunnerStopped), _stopped_by(channel):
         run_check(channel, StudentRecord().store)
     sys.stderr.flush()
-    os._exit(0)  # skip rospy's shutdown, which sleeps for 0.6 s; nothing is registered any more
+    os._exit(0)  # skips rospy's shutdown, which sleeps for 0.6 s; nothing is registered any more
 
 
 @contextmanager
 def _stopped_by(channel: Channel) -> Iterator[None]:
-    """Raise RunnerStopped in the main thread when `channel` is closed by the kernel, or after SIGTERM."""
+    """Raise RunnerStopped in the main thread when the kernel closes `channel`, or after SIGTERM."""
 
     def stop(*_: object) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second signal would interrupt the clean-up

@@ -1,9 +1,11 @@
-"""Faults of services, nodes and masters, which are really caused on the graph and then undone.
+"""Faults of services, nodes and masters.
+
+A fault is not simulated: it is caused on the graph, and then undone.
 
     with caused("stale") as stage:
         seen = stage.symptom()
 
-The module `fault` describes one fault, `program` and `stage` run it, and `catalogue` lists all faults. The
+The module `fault` describes one fault, `program` and `stage` cause it, and `catalogue` lists all faults. The
 panel BreakIt shows the faults to students as cases.
 """
 

@@ -20,7 +20,7 @@ from course_pkg.faults.stage import Stage
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.ros.protocol.xmlrpc import port_of
 
-NO_HOST = "robot-2"  # a name that this machine cannot look up
+NO_HOST = "robot-2"  # a host name that this machine cannot resolve
 
 _well = partial(Fault, group="calling", chapter="06", play=serving('return SetBoolResponse(True, "open")'))
 _python = partial(
@@ -123,10 +123,12 @@ def _hog(stage: Stage) -> None:
 def _misname(stage: Stage) -> None:
     """Start a server with a host name that cannot be resolved.
 
-    Because of this name, no other process can connect to the server, so this function does not test it.
+    Because of this name, no other process can connect to the server, so this function does not check whether
+    the server answers.
     """
     master = MasterClient(stage.uri)
-    # If the client's host name is localhost, rospy refuses all other names before it looks them up.
+    # If the client's own host name is localhost, rospy rejects all other host names before it tries to
+    # resolve them.
     stage.visitor_env = {"ROS_HOSTNAME": "127.0.0.1"}
     program = stage.keep(keeper(), {"ROS_HOSTNAME": NO_HOST})
     stage.await_that(lambda: master.lookup_service(stage.door), program)

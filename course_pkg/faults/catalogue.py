@@ -33,7 +33,7 @@ def named(name: str) -> Fault:
 
 @contextmanager
 def caused(name: str) -> Iterator[Stage]:
-    """Cause the fault called `name` for the block of a `with`, and undo it when the block ends.
+    """Cause the fault called `name` during the block of a `with` statement, and undo the fault at the end.
 
     Raises UnknownFault if there is no such fault, and NodeFailed if the fault could not be caused.
     """
@@ -46,7 +46,7 @@ def caused(name: str) -> Iterator[Stage]:
 
 
 def select(*chosen: str) -> tuple[Fault, ...]:
-    """Return the faults with the `chosen` names and groups, or all faults if `chosen` is empty.
+    """Return the faults with a name or group in `chosen`, or all faults if `chosen` is empty.
 
     Raises UnknownFault if a name is neither a fault nor a group.
     """

@@ -1,4 +1,4 @@
-"""One fault: its cause, the program that shows its symptom, and the texts about it."""
+"""One fault: its cause, the program that shows its symptom, and the texts that describe it."""
 
 from __future__ import annotations
 
@@ -14,13 +14,14 @@ TIMEOUT = 10.0  # s; the time limit for a program that ends by itself
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault. At first students see only `story`; `diagnosis` and `remedy` are the correct choices.
+    """One fault. At first, students see only `story`; `diagnosis` and `remedy` are the correct choices.
 
-    `play` causes the fault on a stage. `visitor` shows the symptom: it is the text of a Python program, or
-    "$ " and a command line. `look` names the kind of symptom: a word for the group of similar symptoms, and
-    sometimes a second word for very similar symptoms. The wrong diagnoses that a student can choose belong to
-    faults with a similar `look`. The diagnoses of the faults in `unlike` are never offered as wrong choices,
-    because they would be correct, too.
+    The function `play` causes the fault on a stage (see the module `stage`). `visitor` shows the symptom: it
+    is the text of a Python program, or "$ " and a command line. `look` names the kind of symptom: its first
+    word names a group of similar symptoms, and its second word, if any, names a smaller group of very similar
+    symptoms. The wrong diagnoses that a student can choose belong to faults with a similar `look`. The
+    diagnoses of the faults in `unlike` are never offered as wrong choices, because they would also be
+    correct.
     """
 
     name: str
@@ -38,7 +39,7 @@ class Fault:
 
     @property
     def timeout(self) -> float:
-        """The time limit for the visitor in s."""
+        """The time limit in s for the visitor."""
         return (HANG + START if self.is_command else HANG) if self.hangs else TIMEOUT
 
     @property

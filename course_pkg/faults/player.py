@@ -1,10 +1,13 @@
-"""Runs one short program of a case as `python FILE` does, in a process that waits for a byte to begin.
+"""Runs one short program of a case, as `python FILE` does.
+
+The process waits for a byte before it runs the program.
 
 usage: player.py READY GO NAME CODE [ARGUMENT …]
 
 READY and GO are file descriptors. This program writes a byte to READY when the interpreter and rospy are
-loaded. It then reads a byte from GO, and begins the code. When the code has ended, it writes the exit status
-to READY as one byte. So a case can start the interpreter early, and measure only the time of the code.
+loaded. It then reads a byte from GO, and runs the code. When the code has ended, this program writes the exit
+status to READY as one byte. A case can therefore start the interpreter early, and measure only the time that
+the code takes.
 """
 
 from __future__ import annotations
@@ -16,10 +19,10 @@ import traceback
 
 
 def main(argv: list[str]) -> int:
-    """Run the code, and return its exit status. A traceback shows only lines of the code."""
+    """Run the code, and return its exit status. A traceback shows only lines of this code."""
     ready, go = int(argv[1]), int(argv[2])
     name, code = argv[3:5]
-    del sys.path[0]  # The program must not import the other modules in the folder of this file.
+    del sys.path[0]  # The program must not import other modules from the folder of this file.
     import rospy  # noqa: F401 -- slow imports run before the first byte
     import std_srvs.srv  # noqa: F401
 
@@ -31,7 +34,8 @@ def main(argv: list[str]) -> int:
     sys.stdout.flush()
     sys.stderr.flush()
     os.write(ready, bytes([status & 255]))
-    # Wait here until the case kills this process, because rospy's own shutdown takes 0.6 s or more.
+    # Wait here until the case kills this process. This is faster than rospy's own shutdown, which takes 0.6 s
+    # or more.
     os.read(go, 1)
     return status
 
@@ -50,7 +54,7 @@ def _run(name: str, code: str) -> int:
 
 
 def _cut(shown: traceback.TracebackException, name: str) -> None:
-    """Remove all lines of other files from a traceback, and the causes that are inside rospy."""
+    """Remove the lines of all other files from a traceback, and remove the chained exceptions."""
     shown.stack = traceback.StackSummary.from_list([each for each in shown.stack if each.filename == name])
     shown.__cause__ = shown.__context__ = None
 

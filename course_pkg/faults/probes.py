@@ -1,4 +1,4 @@
-"""The tools with which a student examines a case. They are real commands with a time limit."""
+"""The tools with which a student examines a case. The tools are real commands with a time limit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from course_pkg.faults.stage import Stage
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.ros.protocol.registrations import remove_stale
 
-TIMEOUT = 4.0  # s for a tool, which needs 0.5 s to start
+TIMEOUT = 4.0  # maximum time in s for a tool; a tool needs 0.5 s to start
 
 COMMANDS = {
     "services": "rosservice list",
@@ -25,7 +25,7 @@ TOOLS = {
 
 
 def probe(stage: Stage, tool: str) -> Seen:
-    """Use a tool of TOOLS on a case, and return its output. This takes at most 10 s."""
+    """Run a tool from TOOLS on a case, and return the tool's output. A tool takes at most 10 s."""
     if tool == "again":
         return stage.symptom()
     if tool == "output":
@@ -39,7 +39,7 @@ def probe(stage: Stage, tool: str) -> Seen:
 
 
 def _output(stage: Stage) -> Seen:
-    """Return the output of the server, and whether its process still runs."""
+    """Return the output of the server, and whether its process is still running."""
     keeper = stage.keeper
     if keeper is None:
         return Seen("the server's output", "No server was started in this case.", 0.0, 0)
@@ -48,7 +48,7 @@ def _output(stage: Stage) -> Seen:
 
 
 def _cleaned(stage: Stage) -> Seen:
-    """Remove stale registrations, as `rosnode cleanup` does, but only of the nodes of this case."""
+    """Remove stale registrations as `rosnode cleanup` does, but only registrations of this case's nodes."""
     try:
         nodes = MasterClient(stage.uri).system_state().nodes
         own = [node for node in nodes if node.startswith(f"{stage.namespace}/")]

@@ -1,4 +1,7 @@
-"""A short program of a case as a process. It starts early, and runs its code after begin()."""
+"""Runs a short program of a case in a separate process.
+
+The process starts early, and runs the code only after begin().
+"""
 
 from __future__ import annotations
 
@@ -19,17 +22,19 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.waiting import wait_until
 
 PLAYER = Path(__file__).with_name("player.py")
-READY = 15.0  # s; the time limit for the start of an interpreter and rospy, which usually takes 0.3 s
-LONGEST = 8000  # bytes; only the last part of a longer output is shown
+READY = 15.0  # maximum time in s to start an interpreter and import rospy; usually 0.3 s
+LONGEST = 8000  # maximum number of bytes of an output; of a longer output, only the last part is shown
 INTERVAL = 0.01  # s between polls
-_FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")  # the codes for colours and the window's title
+# the terminal's escape codes for colours and for the window's title
+_FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")
 
 
 @dataclass(frozen=True)
 class Seen:
-    """The result of a program: its code or command, its output, its time in s, and its exit status.
+    """The result of a program: its code or command, its output, its running time in s, and its exit status.
 
-    `status` is None if the program still ran at the time limit, and negative if a signal ended the program.
+    `status` is None if the program was still running at the time limit, and negative if a signal ended the
+    program.
     """
 
     shown: str
@@ -39,7 +44,7 @@ class Seen:
 
     @property
     def waiting(self) -> bool:
-        """Whether the program still ran at the time limit."""
+        """Whether the program was still running at the time limit."""
         return self.status is None
 
     @property
@@ -52,7 +57,9 @@ class Seen:
 
 
 class Program:
-    """A Python program or a command in a process, which ends at the latest when this process ends.
+    """A Python program or a command in a separate process.
+
+    The separate process ends when this process ends, or earlier.
 
     A Python program waits for begin(). A command begins at once.
     """
@@ -71,13 +78,13 @@ class Program:
 
     @classmethod
     def python(cls, name: str, code: str, env: Mapping[str, str], *args: str) -> Program:
-        """Return a program that runs `code` as the file `name` after begin()."""
+        """Return a program that runs `code` as the file `name` after begin() is called."""
         return cls(code, [sys.executable, str(PLAYER), "READY", "GO", name, code, *args], env)
 
     def begin(self) -> None:
         """Begin the code of a Python program, after its interpreter has started.
 
-        Raises NodeFailed if the interpreter ends, or does not start within READY.
+        Raises NodeFailed if the interpreter ends, or does not start within READY s.
         """
         if self._pipes:
             self._await_byte(READY)
@@ -86,7 +93,7 @@ class Program:
             self._began = time.monotonic()
 
     def watch(self, timeout: float) -> Seen:
-        """Wait until the program ends, at most `timeout` s after its beginning, and return its result."""
+        """Wait until the program ends, or until `timeout` s after its start, and return its result."""
         wait_until(lambda: self.over, self._began + timeout - time.monotonic(), INTERVAL)
         took = time.monotonic() - self._began
         return Seen(self.shown, self.output(), took, self._status)
@@ -108,7 +115,7 @@ class Program:
         return self._process.returncode is None
 
     def output(self) -> str:
-        """Return the program's output until now, at most its last 8000 bytes."""
+        """Return the program's output so far, at most its last 8000 bytes."""
         file = self._output.fileno()
         size = os.fstat(file).st_size
         text = os.pread(file, LONGEST, max(size - LONGEST, 0)).decode("utf-8", "replace")
@@ -123,17 +130,20 @@ class Program:
         self._process.signal(number)
 
     def kill(self) -> None:
-        """Kill the program by SIGKILL. It cannot unregister, so its registrations stay at the master."""
+        """Kill the program with SIGKILL.
+
+        The program cannot unregister, so its registrations remain at the master.
+        """
         self._process.signal(signal.SIGKILL)
         self._process.wait(3.0)
 
     def freeze(self) -> None:
-        """Stop the program by SIGSTOP, and return when all its threads are stopped."""
+        """Suspend the program with SIGSTOP, and return when all its threads are suspended."""
         self._process.signal(signal.SIGSTOP)
         wait_until(lambda: _still(self.pid), 3.0, INTERVAL)
 
     def end(self) -> None:
-        """End the program at once, and all processes that it started. A second call changes nothing."""
+        """End the program and all processes that it started, at once. A second call changes nothing."""
         if self.running:
             self._process.end(grace=0)
         _close(self._pipes)
@@ -162,7 +172,10 @@ class Program:
 
 
 def _still(pid: int) -> bool:
-    """Return whether all threads of a process are stopped. psutil returns only the state of the process."""
+    """Return whether all threads of a process are suspended.
+
+    psutil reports only one state for the whole process.
+    """
     try:
         stats = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]
     except OSError:

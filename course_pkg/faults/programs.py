@@ -31,9 +31,9 @@ rospy.spin()
 
 
 def keeper(body: str = WELL, **changes: str) -> str:
-    """Return the program that provides /door, with `body` as the code of its handler.
+    """Return a program that provides /door; `body` is the code of its handler.
 
-    `changes` maps old text of the program to new text.
+    In the program, each key of `changes` is replaced by its value.
     """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():
@@ -42,7 +42,7 @@ def keeper(body: str = WELL, **changes: str) -> str:
 
 
 def running(code: str) -> Callable[[Stage], None]:
-    """Return a function that causes a fault: it runs `code`, which provides /door."""
+    """Return a function that causes a fault: it runs `code`, a server that provides /door."""
 
     def play(stage: Stage) -> None:
         stage.serve(code)
@@ -51,7 +51,7 @@ def running(code: str) -> Callable[[Stage], None]:
 
 
 def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
-    """Return a function that causes a fault: it runs a server with `body` as the code of its handler."""
+    """Return a function that causes a fault: it runs a server whose handler has the code `body`."""
     return running(imports + keeper(body))
 
 
@@ -60,15 +60,15 @@ def nothing(_: Stage) -> None:
 
 
 def kill_server(stage: Stage) -> None:
-    """Start a server, and kill it by SIGKILL."""
+    """Start a server, and kill it with SIGKILL."""
     stage.serve(keeper()).kill()
 
 
 def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:
-    """Return a visitor that runs `lines` after it has become a node."""
+    """Return the text of a visitor that becomes a node and then runs `lines`."""
     return f'import rospy\n{imports}\n\nrospy.init_node("visitor")\n{lines}\n'
 
 
 def calling(call: str) -> str:
-    """Return a client that runs `call` in place of its usual call of /door."""
+    """Return the text of a client that runs `call` instead of its usual call to /door."""
     return VISITOR.replace("print(move_door(True))", call)

@@ -1,11 +1,11 @@
-"""Waits while a case exists, and cleans up if the notebook's kernel is killed.
+"""Waits as long as a case exists, and cleans up if the notebook's kernel is killed.
 
 usage: reaper.py MASTER NAMESPACE FOLDER
 
-The processes of a case end with the kernel. But if a case has killed a process on purpose, the registrations
-of this process stay at the master. This program removes them when it receives SIGTERM, because then the
-kernel has ended. It runs for every case, but is rarely needed. Therefore it imports other modules only after
-SIGTERM.
+The processes of a case end when the kernel ends. But if a case has killed a process on purpose, the
+registrations of this process remain at the master. This program removes these registrations when it receives
+SIGTERM, because the kernel has then ended. This program runs for every case, but is rarely needed. Therefore
+it imports other modules only after SIGTERM.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from __future__ import annotations
 import signal
 import sys
 
-DURATION = 1.5  # s; less than 2 s, because this program is killed 2 s after SIGTERM
+DURATION = 1.5  # length of the clean-up in s; less than 2 s, because this program is killed 2 s after SIGTERM
 COURSE = __file__.rpartition("/course_pkg/")[0]
 
 
@@ -25,7 +25,10 @@ def main(argv: list[str]) -> None:
 
 
 def clean_up(master: str, namespace: str, folder: str) -> None:
-    """Remove the folder, and for DURATION remove all registrations in the namespace from the master."""
+    """Remove the folder.
+
+    For DURATION s, repeatedly remove all registrations in the namespace from the master.
+    """
     import shutil
     import time
 
@@ -37,7 +40,8 @@ def clean_up(master: str, namespace: str, folder: str) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     deadline = time.monotonic() + DURATION
     try:
-        while time.monotonic() < deadline:  # Programs that are just ending may still register.
+        # A program that is just ending may still register, so this is repeated.
+        while time.monotonic() < deadline:
             withdraw_below(MasterClient(master, timeout=0.5), f"{namespace}/")
             time.sleep(0.1)
     except GraphError:

@@ -1,4 +1,6 @@
-"""A stage causes a fault and undoes it. It has the programs of the fault, and if necessary its own master.
+"""A stage causes a fault and undoes it.
+
+A stage runs the programs of the fault, and if necessary a separate master.
 
 All nodes and services of a stage are in one namespace of the running graph, such as /lab. Other parts of the
 graph do not change.
@@ -30,13 +32,17 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 REAPER = Path(__file__).with_name("reaper.py")
-FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")  # variables that name folders for files
-READY = 10.0  # s; the time limit until a program is on the graph, which usually takes 0.4 s
+# environment variables that contain folders in which files are stored
+FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")
+READY = 10.0  # maximum time in s until a program is on the graph; usually 0.4 s
 NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
 
 
 class Playable(Protocol):
-    """The attributes of a Fault that a stage uses. This class exists because `fault` imports this module."""
+    """The attributes of a Fault that a stage uses.
+
+    This module cannot import the class Fault, because the module `fault` imports this module.
+    """
 
     @property
     def play(self) -> Callable[[Stage], None]:
@@ -52,14 +58,15 @@ class Playable(Protocol):
 
     @property
     def timeout(self) -> float:
-        """The time limit for the visitor in s."""
+        """The time limit in s for the visitor."""
 
 
 class Stage:
-    """A fault on the running graph, or on its own master.
+    """A fault on the running graph, or on a separate master.
 
-    undo() ends the fault. The fault also ends when this object is deleted, or when this process ends, even by
-    SIGKILL. Raises MasterUnreachable or MasterSilent if there is no master, or if the master does not answer.
+    undo() ends the fault. The fault also ends when this object is deleted, or when this process ends, even if
+    it is killed with SIGKILL. Raises MasterUnreachable or MasterSilent if there is no master, or if the
+    master does not answer.
     """
 
     def __init__(self, fault: Playable) -> None:
@@ -82,13 +89,14 @@ class Stage:
         try:
             self.fault.play(self)
             if not self.fault.is_command:
-                self.expect_visitor()  # last, because on a busy machine its start would delay the fault
+                # the visitor starts last, because on a busy machine its start would delay the fault
+                self.expect_visitor()
         except BaseException:
             self.undo()
             raise
 
     def symptom(self) -> Seen:
-        """Run the visitor, and return its result. Raises NodeFailed if it does not start."""
+        """Run the visitor, and return its result. Raises NodeFailed if the visitor does not start."""
         self.expect_visitor()
         visitor, self._visitor = self._visitor, None
         assert visitor is not None
@@ -100,11 +108,14 @@ class Stage:
         return seen
 
     def undo(self) -> None:
-        """End the fault, and return when the graph is as before. A second call changes nothing."""
+        """End the fault, and return when the graph is in its earlier state again.
+
+        A second call changes nothing.
+        """
         self._end()
 
     def expect_visitor(self) -> None:
-        """Start the visitor early, so that symptom() does not have to wait for the visitor's interpreter."""
+        """Start the visitor's interpreter early; otherwise, symptom() would have to wait for its start."""
         if self._visitor is None:
             text = self.fault.visitor
             self._visitor = (
@@ -114,13 +125,16 @@ class Stage:
             )
 
     def serve(self, code: str) -> Program:
-        """Run `code` as the server of /door, and return when it answers. Raises NodeFailed if it does not."""
+        """Run `code` as the server of /door, and return when it answers.
+
+        Raises NodeFailed if the server does not answer.
+        """
         keeper = self.keep(code)
         self.await_that(lambda: self._answers(keeper), keeper)
         return keeper
 
     def keep(self, code: str, env: dict[str, str] | None = None) -> Program:
-        """Begin the program whose output a student may read, and return at once."""
+        """Start the faulty program, and return at once. A student may read the output of this program."""
         self.keeper = self.program("keeper.py", code, env)
         self.keeper.begin()
         return self.keeper
@@ -131,13 +145,13 @@ class Stage:
         self.await_that(lambda: self._answers(program), program)
 
     def program(self, name: str, code: str, env: dict[str, str] | None = None) -> Program:
-        """Start a Python program, which waits for begin()."""
+        """Start a Python program; its code runs after begin()."""
         program = Program.python(name, self.local(code), self.environment(env or {}))
         self._resources.programs.append(program)
         return program
 
     def command(self, line: str, env: dict[str, str] | None = None) -> Program:
-        """Start a command line, which begins at once."""
+        """Start a command line; the command begins at once."""
         line = self.local(line)
         program = Program(f"$ {line}", shlex.split(line), self.environment(env or {}))
         self._resources.programs.append(program)
@@ -151,7 +165,7 @@ class Stage:
         return master
 
     def hang(self, master: PrivateMaster) -> None:
-        """Stop this fault's own master by SIGSTOP. undo() continues the master before it ends it."""
+        """Suspend this fault's own master with SIGSTOP. undo() continues the master and then ends it."""
         pid = master.pid
         self.later(partial(os.kill, pid, signal.SIGCONT))
         os.kill(pid, signal.SIGSTOP)
@@ -161,7 +175,7 @@ class Stage:
         self._resources.ends.append(end)
 
     def await_that(self, condition: Callable[[], object], program: Program) -> None:
-        """Return when `condition` is true. Raises NodeFailed if `program` ends before, or after 10 s."""
+        """Return when `condition` is true. Raises NodeFailed if `program` ends first, or after 10 s."""
 
         def settled() -> str:
             # Read this before the condition, because the program may fulfil the condition and then end.
@@ -172,7 +186,10 @@ class Stage:
             raise NodeFailed(f"A case could not be set up. The output of its program: {program.output()}")
 
     def environment(self, more: dict[str, str]) -> dict[str, str]:
-        """Return the environment of the case's programs: its master, its namespace, and its log folder."""
+        """Return the environment variables for the case's programs.
+
+        They set the master, the namespace and the log folder.
+        """
         own = {
             "ROS_MASTER_URI": self.uri,
             "ROS_NAMESPACE": self.namespace,
@@ -181,7 +198,10 @@ class Stage:
         return {**local_environment(), **own, **more}
 
     def local(self, text: str) -> str:
-        """Return `text` with the namespace of this stage in place of /lab, and the port of its master."""
+        """Return `text` with this stage's namespace in place of /lab.
+
+        The word MASTER_PORT is replaced by the port of the stage's master.
+        """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
     def _answers(self, program: Program) -> bool:
@@ -230,7 +250,7 @@ class _Resources:
 
 
 def _free_namespace(uri: str) -> str:
-    """Return a namespace that no node uses, because another notebook on this graph may have a stage, too."""
+    """Return a namespace that no node uses. Another notebook may already have a stage on this graph."""
     taken = [node for node in MasterClient(uri).system_state().nodes if node.startswith("/lab")]
     free = (name for name in NAMESPACES if not any(node.startswith(f"{name}/") for node in taken))
     return next(free, f"/lab_{os.getpid()}")

@@ -1,1 +1,5 @@
-"""Place a student's answers into the reference notebook, run it in a sandbox, and check it from outside."""
+"""Grading.
+
+A student's answers are placed into the reference notebook, which runs in a sandbox and is checked from
+outside.
+"""

@@ -1,4 +1,4 @@
-"""Make strings from a submission safe for a page, a table, XML, or the name of a file.
+"""Makes strings from a submission safe for a page, a table, XML, or the name of a file.
 
 No other module cleans strings. A string that is already clean does not change.
 """
@@ -77,7 +77,7 @@ def cell(value: object, limit: int = SHORT) -> str:
 
 
 def record(fields: Mapping[str, Plain]) -> dict[str, Plain]:
-    """Return plain data: each string in it is cleaned, and a list has at most ITEMS items."""
+    """Return plain data in which each string is cleaned; a list keeps at most ITEMS items."""
     return {line(key): _value(item) for key, item in fields.items()}
 
 
@@ -92,17 +92,22 @@ def _value(value: Plain) -> Plain:
 
 
 def identity(name: str) -> str:
-    """Return the name of a student for records. Different names stay different."""
+    """Return the name of a student for records; different names give different results.
+
+    Different names stay different.
+    """
     known = unicodedata.normalize("NFC", name)
     kept = line(known, 120)
     return kept if kept == known else f"{kept}~{_mark(name)}".strip()
 
 
 def file_name(name: str) -> str:
-    """Return a safe file name for `name`: never the name of a device, and never a path out of its folder.
+    """Return a safe file name for `name`.
 
-    Different names stay different, even on a file system that ignores upper and lower case: each changed name
-    gets its own suffix.
+    It is never the name of a device, and never leads out of its folder.
+
+    Different names get different file names, even on a file system that ignores upper and lower case: each
+    changed name gets a suffix.
     """
     if PLAIN_NAME.fullmatch(name) and _may_stand(name):
         return name

@@ -5,12 +5,12 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from course_pkg.errors import GradingError
-from course_pkg.grading.deadlines.deadline import deadlines
+from course_pkg.grading.deadlines.deadline import Deadlines, deadlines
 from course_pkg.grading.deadlines.extensions import extensions_of
 from course_pkg.grading.deadlines.late import LatePolicy, LateTable, late_policy, late_table
 from course_pkg.grading.deadlines.lateness import LAST, Lateness, attempts_to_grade, best_attempts
@@ -18,19 +18,21 @@ from course_pkg.grading.deadlines.moments import zone_of
 from course_pkg.grading.deadlines.times import times_of
 from course_pkg.grading.extras import Extras, read_extras
 from course_pkg.grading.flags.finding import wanted_kinds, with_flags
-from course_pkg.grading.grade import Grade, Submission
+from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.grading.intake.folders import require_other_folder
 from course_pkg.grading.intake.naming import NOTEBOOK
 from course_pkg.grading.intake.submissions import submissions
 from course_pkg.grading.marking import key_of
+from course_pkg.grading.points import read_points
 from course_pkg.grading.queue import Task, grade_all, pool_of
 from course_pkg.grading.reports import write_reports
+from course_pkg.grading.reports.asked import Asked, columns_of
 from course_pkg.grading.reports.records import RESULTS
 from course_pkg.grading.required import require_references
 from course_pkg.grading.review.applying import about_reviews, reviewed
 from course_pkg.grading.review.overrides import read_overrides
 from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of, read_lists
-from course_pkg.grading.run.changes import changes, described, write_changes
+from course_pkg.grading.run.changes import changes, described, worth_changes, write_changes
 from course_pkg.grading.run.earlier import Earlier, read_earlier
 from course_pkg.grading.run.regrade import Regrade
 from course_pkg.grading.run.selection import Selection, selection
@@ -67,6 +69,7 @@ class Options:
     late_max_days: float | None = None
     roster: Path | None = None
     moodle_worksheet: Path | None = None
+    points: Path | None = None
     validate: str = "missing"  # "all", "none" or "missing": the students whose notebooks nbval runs
     flags: tuple[str, ...] = ()  # the kinds of flags; all of them if it is empty
 
@@ -84,8 +87,11 @@ def grade(options: Options) -> int:
     require_other_folder(options.source, options.out)
     kinds = wanted_kinds(options.flags)
     extras = read_extras(options.private)
+    points = read_points(options.points or extras.points)
     selected = selection(options.students, options.chapters, options.parts)
-    everyone = _dated(options, _handed_in(options, selected), lists, table)
+    found = _handed_in(options, selected)
+    due = _deadlines(options, found, lists)
+    everyone = _dated(options, found, due, table)
     selected = selected.for_students(everyone)
     if options.sandboxed:
         require_sandbox()
@@ -106,14 +112,16 @@ def grade(options: Options) -> int:
         # The threads would wait until their notebooks have ended. The processes that they run end with this
         # process.
         os._exit(130)
-    graded = best_attempts([_with_lateness(each, policy) for each in graded])
+    graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
+    rest = [points.weighed(each) for each in rest]
     overrides.require_parts([*graded, *rest])
     graded, rest = reviewed(graded, overrides), reviewed(rest, overrides)
     class_list = _class_list(lists, options.source, [*everyone, *rest])
-    chapters = {each.chapter for each in graded}
+    chapters = frozenset({*selected.chapters, *(each.chapter for each in graded)})
+    asked = Asked(chapters, columns_of(selected.chapters, points), due.is_over)
     reported = with_flags([*graded, *rest], everyone, kinds)
-    _report(_in_order(reported), options.out, class_list, chapters)
+    _report(_in_order(reported), options.out, class_list, asked)
     earlier.forget_files(graded, selected)
     about = [*class_list.summary(), *about_flags(reported), *about_reviews(reported)]
     sys.stdout.writelines(f"{sentence}\n" for sentence in about)
@@ -127,9 +135,9 @@ def _print_end(
     """Print the changes since the last run, the results that stayed, and the last line."""
     lines = []
     if earlier.grades:
-        found = changes(earlier.grades, graded)
+        found = changes(earlier.grades, [*graded, *rest])
         write_changes(found, out)
-        lines += described(found, out)
+        lines += [*worth_changes(earlier.grades, [*graded, *rest]), *described(found, out)]
     if earlier.unreadable:
         lines.append(
             f"{earlier.unreadable} files in {out / RESULTS} are not results of this version of the course."
@@ -140,9 +148,9 @@ def _print_end(
     sys.stdout.write("\n".join([*lines, ""]))
 
 
-def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, chapters: Collection[str]) -> None:
+def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, asked: Asked) -> None:
     try:
-        write_reports(grades, out, class_list, chapters)
+        write_reports(grades, out, class_list, asked)
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written ({error}). Correct this problem, and type the same command "
@@ -150,7 +158,14 @@ def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, chapters:
         ) from error
 
 
-def grade_one(notebook: Path, out: Path, *, sandboxed: bool = True, private: Path | None = None) -> int:
+def grade_one(
+    notebook: Path,
+    out: Path,
+    *,
+    sandboxed: bool = True,
+    private: Path | None = None,
+    points: Path | None = None,
+) -> int:
     """Grade one notebook into the file `out`, and store nothing else; a job array of a cluster uses this."""
     require_references()
     found = submissions(notebook)
@@ -158,10 +173,12 @@ def grade_one(notebook: Path, out: Path, *, sandboxed: bool = True, private: Pat
         raise GradingError(f"{notebook} is not a notebook of this course.")
     if sandboxed:
         require_sandbox()
-    key = key_of(found[0], read_extras(private), "missing", sandboxed=sandboxed)
+    extras = read_extras(private)
+    worth = read_points(points or extras.points)
+    key = key_of(found[0], extras, "missing", sandboxed=sandboxed)
     folder = str(private.resolve()) if private else ""
     task = Task(found[0], os.urandom(16).hex(), key, sandboxed, folder, "missing")
-    write_json(out, task.grade())
+    write_json(out, worth.weighed(grade_from(task.grade())).as_dict())
     return 0
 
 
@@ -176,15 +193,20 @@ def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Gra
     return lists.matched(origins_of(there), source)
 
 
-def _dated(
-    options: Options, found: Sequence[Submission], lists: Lists, table: LateTable | None
-) -> list[Submission]:
-    """Return the submissions to grade, with their days late."""
+def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
+    """Return the deadlines, with the extensions in the roster."""
     # A wrong number is reported before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None
-    due = deadlines(options.deadlines, options.grace_minutes, zone, extensions_of(people))
+    return deadlines(options.deadlines, options.grace_minutes, zone, extensions_of(people))
+
+
+def _dated(
+    options: Options, found: Sequence[Submission], due: Deadlines, table: LateTable | None
+) -> list[Submission]:
+    """Return the submissions to grade, with their days late."""
+    zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
     asked = bool(options.deadlines or options.times)  # without a deadline, a wrong times.csv does no harm
     lateness = Lateness(due, times_of(str(times), options.source, zone) if asked else lambda _: None)

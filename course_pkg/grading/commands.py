@@ -118,7 +118,13 @@ def _grade_arguments(parser: ArgumentParser) -> None:
 def _grade_one(options: SimpleNamespace) -> int:
     from course_pkg.grading.command import grade_one
 
-    return grade_one(options.notebook, options.out, sandboxed=options.sandboxed, private=options.private)
+    return grade_one(
+        options.notebook,
+        options.out,
+        sandboxed=options.sandboxed,
+        private=options.private,
+        points=options.points,
+    )
 
 
 def _grade_one_arguments(parser: ArgumentParser) -> None:
@@ -133,6 +139,12 @@ def _add_common(parser: ArgumentParser) -> None:
         type=Path,
         metavar="DIR",
         help="a folder with private checks and other points, which students never see",
+    )
+    parser.add_argument(
+        "--points",
+        type=Path,
+        metavar="FILE",
+        help="a JSON file with the points of parts and of their goals; `course points FILE` writes one",
     )
     parser.add_argument(
         UNSAFE, dest="sandboxed", action="store_false", help="run students' code without a sandbox"
@@ -168,6 +180,20 @@ def _review_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--no-browser", dest="browser", action="store_false", help="open no browser")
 
 
+def _points(options: SimpleNamespace) -> int:
+    from course_pkg.grading.points import write_points
+
+    write_points(options.file, options.chapters)
+    return 0
+
+
+def _points_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("file", type=Path, metavar="FILE", help="the new file, such as points.json")
+    parser.add_argument(
+        "--chapters", type=_chapters, default=(), metavar="05,06", help="only the parts of these chapters"
+    )
+
+
 COMMANDS = {
     "grade": Command("grade what students handed in, and write the reports", _grade, NEEDS, _grade_arguments),
     "grade-one": Command(
@@ -175,6 +201,12 @@ COMMANDS = {
         _grade_one,
         NEEDS,
         _grade_one_arguments,
+    ),
+    "points": Command(
+        "write the points of each part and goal into a file, to change them for course grade --points",
+        _points,
+        NEEDS,
+        _points_arguments,
     ),
     "review": Command(
         "review answers by hand: change points, and write comments, on a page",

@@ -2,43 +2,37 @@
 
 private_05.py   further parts for exercises of chapter 05, declared like the chapter's own checks, with ids
                 such as "05.1.1": they are examined after the student's cell of exercise 05.1
-points.json     other points, by part: {"05.1": 4, "05.1.1": 2}; 0 leaves a part out of the sum
+points.json     other points, as in points.py
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from course_pkg.checking.parts import add_private, chapters, parts_of
-from course_pkg.checking.report import Report
 from course_pkg.errors import GradingError
-from course_pkg.grading.run.private_folder import require_names, require_parts
+from course_pkg.grading.run.private_folder import POINTS, require_names, require_parts
 from course_pkg.setup.stamps import digest
 
 
 @dataclass(frozen=True)
 class Extras:
-    """The private folder, if there is one, and the points that it contains."""
+    """The private folder, if there is one."""
 
     folder: Path | None = None
-    points: Mapping[str, int] = field(default_factory=dict)
 
     @property
     def digest(self) -> str:
-        """Return a digest of all files in the folder."""
+        """Return a digest of the private parts; the results of checks do not depend on the points."""
         files = sorted(self.folder.glob("*.py")) if self.folder else []
-        texts = [part for path in files for part in (path.name, path.read_bytes())]
-        return digest([*texts, json.dumps(dict(self.points))])
+        return digest([part for path in files for part in (path.name, path.read_bytes())])
 
-    def weighed(self, report: Report) -> Report:
-        """Return `report` with the points that the instructor gives to its part."""
-        if report.check not in self.points:
-            return report
-        possible = self.points[report.check]
-        return replace(report, points=possible if report.points else 0, possible=possible)
+    @property
+    def points(self) -> Path | None:
+        """The file with other points, if there is one."""
+        path = self.folder / POINTS if self.folder else None
+        return path if path and path.exists() else None
 
 
 def read_extras(folder: Path | None) -> Extras:
@@ -53,25 +47,11 @@ def read_extras(folder: Path | None) -> Extras:
     require_names(folder, chapters())
     add_private(str(folder))
     try:
-        known = {part.check for chapter in chapters() for part in parts_of(chapter)}
+        for chapter in chapters():
+            parts_of(chapter)
     except Exception as error:
         raise GradingError(
             f"The private parts in {folder} cannot be read: {type(error).__name__}: {error}"
         ) from error
     require_parts(folder)
-    return Extras(folder, _points(folder / "points.json", known))
-
-
-def _points(path: Path, known: set[str]) -> dict[str, int]:
-    if not path.exists():
-        return {}
-    try:
-        points = json.loads(path.read_text("utf-8"))
-        assert all(type(value) is int and value >= 0 for value in points.values())
-    except (ValueError, AttributeError, AssertionError) as error:
-        raise GradingError(
-            f'{path} is not a table of points: it should be like {{"05.1": 4}}, a whole number for each part.'
-        ) from error
-    if unknown := sorted(set(points) - known):
-        raise GradingError(f"{path} gives points to {', '.join(unknown)}, but there is no such part.")
-    return {str(check): int(value) for check, value in points.items()}
+    return Extras(folder)

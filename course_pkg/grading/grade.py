@@ -132,7 +132,7 @@ class Grade:
     def for_student(self) -> Grade:
         """Return the grade without flags, and without the data that show how a private part is examined."""
         shown = (
-            replace(report, goal="A further check.", assertions=(), note="", printed="")
+            replace(report, goal="A further check.", assertions=(), goals=(), note="", printed="")
             if report.check in self.private
             else report
             for report in self.reports

@@ -80,9 +80,7 @@ def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: 
     return digest.hexdigest()[:32]
 
 
-def mark(
-    submission: Submission, plan: Plan, extras: Extras, run: Run, secret: str, key: str, *, sandboxed: bool
-) -> Grade:
+def mark(submission: Submission, plan: Plan, run: Run, secret: str, key: str, *, sandboxed: bool) -> Grade:
     """Return the grade of one submission.
 
     `secret` is the seed for the random inputs of the checks. So students do not know these inputs, but they
@@ -101,12 +99,9 @@ def mark(
     rebuilt = None if submission.problem else plan.rebuilder.rebuild(submission.content)
     problem = rebuilt.problem if rebuilt else submission.problem
     if problem and not submission.packages:
-        return _nothing(grade, plan, extras, problem)
+        return _nothing(grade, plan, problem)
     answers = Answers(submission.packages, None if problem else rebuilt, problem)
-    reports = [
-        extras.weighed(_examined(each, answers, run, _seed(secret, key, each.part.check)))
-        for each in plan.parts
-    ]
+    reports = [_examined(each, answers, run, _seed(secret, key, each.part.check)) for each in plan.parts]
     code = {each.part.check: text for each in plan.parts if (text := answers.code(each))}
     return replace(grade, reports=tuple(reports), notes=tuple(_notes(plan, answers)), code=code)
 
@@ -117,8 +112,8 @@ def _notes(plan: Plan, answers: Answers) -> Iterator[str]:
     yield from answers.notebook.notes if answers.notebook else [answers.problem]
 
 
-def _nothing(grade: Grade, plan: Plan, extras: Extras, problem: str) -> Grade:
-    reports = [extras.weighed(_not_attempted(each, problem)) for each in plan.parts]
+def _nothing(grade: Grade, plan: Plan, problem: str) -> Grade:
+    reports = [_not_attempted(each, problem) for each in plan.parts]
     return replace(grade, reports=tuple(reports), problem=problem)
 
 

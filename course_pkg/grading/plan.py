@@ -1,4 +1,4 @@
-"""The parts of a chapter and the cells that each of them needs, computed once for all submissions."""
+"""The parts of a chapter, and the cells that each part needs; computed once for all submissions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from course_pkg.setup.stamps import digest
 
 @dataclass(frozen=True)
 class PartPlan:
-    """One part: its check, and the cells of the reference to run before and after the answer."""
+    """One part: its check, and the reference's cells that run before and after the answer."""
 
     part: Part
     before: str
@@ -25,18 +25,18 @@ class PartPlan:
 
     @property
     def exercise(self) -> str:
-        """The exercise whose answer is examined."""
+        """The id of the exercise whose answer is examined."""
         return exercise_of(self.part.check)
 
     @property
     def private(self) -> bool:
-        """Whether it is a private part of an instructor."""
+        """Whether it is an instructor's private part."""
         return self.exercise != self.part.check
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A chapter: the object that places answers into its reference notebook, and its parts in order."""
+    """A chapter: its parts in order, and the object that places answers into the reference notebook."""
 
     chapter: str
     rebuilder: Rebuilder
@@ -64,7 +64,7 @@ def course_digest() -> str:
 
 
 def _counts(path: Path) -> bool:
-    apart = {"site", "lab"} & set(path.parts)  # grades do not depend on these
+    apart = {"site", "lab"} & set(path.parts)  # grades do not depend on these folders
     return (
         path.is_file() and not apart and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}
     )

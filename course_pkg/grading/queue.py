@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from course_pkg.checking.parts import chapters
-from course_pkg.grading.extras import Extras, read_extras
+from course_pkg.grading.extras import read_extras
 from course_pkg.grading.grade import Grade, Submission, grade_from
 from course_pkg.grading.marking import mark
 from course_pkg.grading.nbval.validation import validated, wanted
@@ -51,14 +51,13 @@ class Task:
     def grade(self) -> dict[str, Any]:
         """Grade the submission in this process, with the sandbox worker of this thread."""
         tools = _tools(os.getpid(), threading.get_ident(), self.sandboxed, self.private)
-        planned, extras = _plan(self.submission.chapter), _extras(os.getpid(), self.private)
+        _declare(os.getpid(), self.private)
+        planned = _plan(self.submission.chapter)
         if self.parts:
             planned = replace(
                 planned, parts=tuple(each for each in planned.parts if each.part.check in self.parts)
             )
-        grade = mark(
-            self.submission, planned, extras, tools.run, self.secret, self.key, sandboxed=self.sandboxed
-        )
+        grade = mark(self.submission, planned, tools.run, self.secret, self.key, sandboxed=self.sandboxed)
         if self.submission.content and not self.parts and wanted(grade, self.validate):
             grade = validated(grade, self.submission, planned)
         return grade.as_dict()
@@ -116,8 +115,9 @@ def _tools(_pid: int, _thread: int, sandboxed: bool, private: str) -> SandboxWor
 
 
 @cache
-def _extras(_pid: int, private: str) -> Extras:
-    return read_extras(Path(private) if private else None)
+def _declare(_pid: int, private: str) -> None:
+    """Declare the private parts in this process."""
+    read_extras(Path(private) if private else None)
 
 
 @cache

@@ -1,4 +1,4 @@
-"""The files with which grading compares submissions: the solution and the fixtures of each chapter."""
+"""The files that grading needs for each chapter: the solution and the fixtures."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ SHOWN = 3  # maximum number of names in the message
 
 
 def require_references(asked: Sequence[str] = (), root: Path | None = None) -> None:
-    """Raise GradingError if a chapter of `asked`, such as "05", lacks its solution or its fixtures.
+    """Raise GradingError if the solution or the fixtures of a chapter in `asked` are missing.
 
-    The default is every chapter. The chapter of a submission is found by a comparison with all solutions. So
-    without one of them, all students of this chapter would get no points. `root` is the checkout.
+    By default, all chapters are tested. To find the chapter of a submission, grading compares it with all
+    solutions. Therefore, if a solution is missing, all students of this chapter would get no points. `root`
+    is the checkout.
     """
     missing = list(_missing(asked or chapters(), NotebookStore(root).root))
     if missing:
@@ -29,7 +30,7 @@ def require_references(asked: Sequence[str] = (), root: Path | None = None) -> N
 
 
 def _missing(wanted: Sequence[str], root: Path) -> Iterator[str]:
-    for chapter in sorted(set(wanted) & set(chapters())):  # an unknown chapter has its own message
+    for chapter in sorted(set(wanted) & set(chapters())):  # an unknown chapter gets another message
         fixtures = Path("course_pkg", "chapters", folder_of(chapter).name, "fixtures.py")
         for path in (Path("solutions", notebook_of(chapter)), fixtures):
             if not (root / path).is_file():

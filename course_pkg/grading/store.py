@@ -1,4 +1,4 @@
-"""The files that a grading run keeps in its folder, so that a killed run can be continued."""
+"""The files that a grading run stores in its folder, so that a killed run can continue."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NOBODY = ""
 
 
 def handed_in(grade: Grade, submission: Submission) -> Grade:
-    """Return the grade of a notebook with the student and the origin of this submission."""
+    """Return the grade of a notebook, with the student and the origin of this submission."""
     return replace(
         grade,
         student=submission.student,
@@ -30,9 +30,9 @@ def handed_in(grade: Grade, submission: Submission) -> Grade:
 
 
 class Store:
-    """The finished grades, by their keys. Each file is complete, and no file contains a student's name.
+    """The finished grades; each has a key. Each file is complete, and no file contains a student's name.
 
-    Only the instructor may read the folder, because it contains the seed of all random inputs of the checks.
+    Only the instructor can read the folder, because it contains the seed of the checks' random inputs.
     """
 
     def __init__(self, out: Path) -> None:
@@ -58,7 +58,10 @@ class Store:
             return None
 
     def keep(self, grade: Grade) -> None:
-        """Store `grade` under its key, unless a part could not be examined; the next run tries it again."""
+        """Store `grade` under its key, unless a part could not be examined.
+
+        Then the next run examines it again.
+        """
         if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
             self.drop(grade.key)
             return

@@ -1,4 +1,4 @@
-"""Reads an instructor's CSV tables in the forms in which spreadsheets save them."""
+"""Reads an instructor's CSV tables, in all forms that spreadsheet programs save."""
 
 from __future__ import annotations
 
@@ -10,12 +10,14 @@ from pathlib import Path
 from course_pkg.errors import GradingError
 
 LARGEST = 1_000_000  # bytes
-SPREADSHEET = b"PK\x03\x04"  # the beginning of .xlsx and .ods
+SPREADSHEET = b"PK\x03\x04"  # the first bytes of .xlsx and .ods files
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
-    """Return the contents of the file at `path`; messages call it `what`, such as "table of late days".
+    """Return the content of the file at `path`.
+
+    In messages, its name is `what`, such as "table of late days".
 
     Raises GradingError if the file cannot be read, has more than `largest` bytes, or is not CSV but a
     spreadsheet.
@@ -36,7 +38,7 @@ def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
 
 
 def table_rows(path: Path, what: str) -> list[list[str]]:
-    """Return the rows of the CSV file at `path`; commas, semicolons or tabs may separate the columns.
+    """Return the rows of the CSV file at `path`; the separator is a comma, a semicolon or a tab.
 
     Raises GradingError as `table_bytes` does, and if the contents are not CSV in UTF-8 (or in UTF-16 with a
     byte order mark).
@@ -50,7 +52,7 @@ def table_rows(path: Path, what: str) -> list[list[str]]:
 
 
 def delimiter_of(text: str) -> str:
-    """Return the separator of the columns, which is the most frequent of three in the first line."""
+    """Return the separator of the columns: the one of the three that is most frequent in the first line."""
     first = text.partition("\n")[0]
     return max(",;\t", key=first.count)
 

@@ -11,7 +11,9 @@ from course_pkg.setup.commands import Command
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-NO_COMMANDS = frozenset({"release", "collect", "grade", "grade-one", "site", "sync", "test"})  # for students
+NO_COMMANDS = frozenset(
+    {"release", "collect", "grade", "grade-one", "points", "site", "sync", "test"}
+)  # for students
 
 
 def _release(options: SimpleNamespace) -> int:

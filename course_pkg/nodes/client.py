@@ -13,12 +13,12 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.srv import geometry
 
-TIMEOUT = 5.0  # s; the limit of the wait for the server, and of the wait for its response
+TIMEOUT = 5.0  # maximum time in s to wait for the server, and again to wait for its response
 USAGE = "usage: client LENGTH WIDTH HEIGHT   (three numbers, in metres, such as 1.2 5.2 8.9)"
 
 
 def main() -> None:
-    """Measure the box whose sides are the arguments of the command line.
+    """Call the service with the sides from the command line, and print the response.
 
     Exits with status 1 if the call fails, and with status 2 if the arguments are wrong.
     """
@@ -34,7 +34,7 @@ def main() -> None:
 
 
 def read_sides(arguments: Sequence[str]) -> tuple[float, float, float] | None:
-    """Return length, width and height, or None if the arguments are not three numbers."""
+    """Return the length, width and height, or None if the arguments are not three numbers."""
     try:
         length, width, height = map(float, arguments)
     except ValueError:
@@ -45,10 +45,11 @@ def read_sides(arguments: Sequence[str]) -> tuple[float, float, float] | None:
 def measure(sides: tuple[float, float, float]) -> str:
     """Start the node, wait for the service, call it, and return its response as two lines.
 
-    Raises MasterUnreachable if there is no master, ROSException if the service does not exist within TIMEOUT,
-    CallTimeout if the response does not arrive within TIMEOUT, and ServiceException if the call fails.
+    Raises MasterUnreachable if there is no master, and ServiceException if the call fails. Raises
+    ROSException if the service does not exist within TIMEOUT s, and CallTimeout if the response does not
+    arrive within TIMEOUT s.
     """
-    MasterClient(master_uri()).pid()  # raises an error without a master; init_node would wait for ever
+    MasterClient(master_uri()).pid()  # raises an error if no master answers; init_node would wait for ever
     rospy.init_node("client", anonymous=True)
     prepare_node()
     rospy.wait_for_service("getGeometry", timeout=TIMEOUT)

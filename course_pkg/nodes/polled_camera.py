@@ -22,10 +22,11 @@ from course_pkg.shop.pictures import shop_picture
 from course_pkg.shop.watch import Watch
 from course_pkg.srv import PolledImage, PolledImageRequest, PolledImageResponse
 
-WIDTH, HEIGHT = 320, 240  # pixels; the size if the request has 0
+WIDTH, HEIGHT = 320, 240  # pixels; the size that is used if the request contains 0
 LEAST, MOST = 16, 1280  # pixels
-SILENCE = 1.0  # s without a message on `counter`, after which its last message is not used any more
-UNCHANGED = 4.0  # s for which the random number of customers stays the same
+# maximum time in s without a message on `counter`; after this time, its last message is no longer used
+SILENCE = 1.0
+UNCHANGED = 4.0  # time in s after which the random number of customers may change
 
 
 class PolledCamera:
@@ -36,7 +37,7 @@ class PolledCamera:
         rospy.Subscriber("counter", UInt32MultiArray, self._watch.hear)
 
     def knows_the_shop(self) -> bool:
-        """Return whether shop_camera publishes the customers at the moment."""
+        """Return whether a message of shop_camera has arrived in the last SILENCE s."""
         return self._watch.silent_for < SILENCE
 
     def handle_request(self, request: PolledImageRequest) -> PolledImageResponse:
@@ -64,7 +65,7 @@ class PolledCamera:
 
 
 def picture(width: int, height: int, customers: int) -> Image:
-    """Return a picture of the shop with this number of customers; its stamp is the present time."""
+    """Return a picture of the shop with this number of customers; its stamp is the current time."""
     image = Image(height=height, width=width, encoding="rgb8", step=3 * width)
     image.header.stamp = rospy.Time.now()
     image.header.frame_id = "camera"
@@ -85,7 +86,8 @@ def main() -> None:
     rate = number_parameter("~stream", 0.0, 0.0, 100.0)
     with undisturbed():
         camera = PolledCamera()
-    wait_until(camera.knows_the_shop, SILENCE / 2)  # so that the first picture shows the real customers
+    # wait for the first message, because the first picture should show the real customers
+    wait_until(camera.knows_the_shop, SILENCE / 2)
     with undisturbed():
         rospy.Service("request_image", PolledImage, camera.handle_request)
     rospy.loginfo("Ready to take pictures")

@@ -58,7 +58,10 @@ def main() -> None:
 
 
 def joint_state(at: float) -> JointState:
-    """Return positions (rad) and velocities (rad/s) of the joints, `at` s after the start of the motion."""
+    """Return the positions (rad) and velocities (rad/s) of the joints.
+
+    `at` is the time in s since the start of the motion.
+    """
     return JointState(
         name=[joint.name for joint in ARM],
         position=[joint.position(at) for joint in ARM],

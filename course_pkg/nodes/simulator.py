@@ -16,8 +16,8 @@ from std_msgs.msg import UInt32
 
 from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
 
-DRAWING = 0.4  # s for one picture
-QUIET = 5.0  # s between two warnings
+DRAWING = 0.4  # time in s that the drawing of one picture takes
+QUIET = 5.0  # minimum time in s between two warnings
 
 
 class Simulator:
@@ -31,7 +31,10 @@ class Simulator:
         self._robot = rospy.Subscriber("joint_states", JointState, self.show, tcp_nodelay=True)
 
     def show(self, message: JointState) -> None:
-        """Publish the mirror image of a valid joint state. rospy calls this method on its own thread."""
+        """Publish the mirror image of a valid joint state.
+
+        rospy calls this method on one of its own threads.
+        """
         try:
             self._shown.publish(mirrored(message))
         except ValueError as error:
@@ -58,7 +61,7 @@ def main() -> None:
 def mirrored(message: JointState) -> JointState:
     """Return the mirror image of a joint state: each position and each velocity with the opposite sign.
 
-    The header, which contains the time, stays the same. Raises ValueError if a position or a velocity is not
+    The header, which contains the time, does not change. Raises ValueError if a position or a velocity is not
     finite, or if the number of positions or velocities differs from the number of joints.
     """
     count = len(message.name)

@@ -28,9 +28,9 @@ class PartProgress:
         return bool(self.record and self.record.passed)
 
     @property
-    def earned(self) -> int:
-        """The points of the part if it has passed, otherwise 0."""
-        return self.possible if self.passed else 0
+    def earned(self) -> float:
+        """The points of the part if it has passed, otherwise the points of the last check."""
+        return self.possible if self.passed else self.record.points if self.record else 0
 
     @property
     def state(self) -> str:
@@ -67,9 +67,9 @@ class ChapterProgress:
         return self.passed == len(self.parts)
 
     @property
-    def points(self) -> tuple[int, int]:
+    def points(self) -> tuple[float, int]:
         """The earned and the possible points."""
-        return sum(part.earned for part in self.parts), sum(part.possible for part in self.parts)
+        return round(sum(part.earned for part in self.parts), 2), sum(part.possible for part in self.parts)
 
     @property
     def right(self) -> tuple[int, int]:
@@ -124,9 +124,10 @@ class Progress:
         return sum(each.passed for each in self.chapters), sum(len(each.parts) for each in self.chapters)
 
     @property
-    def points(self) -> tuple[int, int]:
+    def points(self) -> tuple[float, int]:
         """The earned and the possible points."""
-        return _sum([each.points for each in self.chapters])
+        pairs = [each.points for each in self.chapters]
+        return round(sum(earned for earned, _ in pairs), 2), sum(possible for _, possible in pairs)
 
     @property
     def right(self) -> tuple[int, int]:

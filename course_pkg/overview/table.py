@@ -31,7 +31,7 @@ def table(progress: Progress) -> str:
     return text.getvalue()
 
 
-def _rows(chapter: ChapterProgress) -> Iterator[tuple[str | int, ...]]:
+def _rows(chapter: ChapterProgress) -> Iterator[tuple[str | float, ...]]:
     for part in chapter.parts:
         record = part.record
         details = (
@@ -54,9 +54,9 @@ def _state(prediction: Prediction) -> str:
     return "right" if prediction.right else "wrong"
 
 
-def _cell(value: str | int) -> str | int:
+def _cell(value: str | float) -> str | float:
     """Return the value on one line; a text that could be a formula begins with a quote."""
-    if isinstance(value, int):
+    if isinstance(value, (int, float)):
         return value
     line = " ".join(value.split())
     return f"'{line}" if line.startswith(FORMULA) else line

@@ -36,16 +36,16 @@ def chapter_text(progress: Progress, steps: Sequence[Step]) -> str:
         line
         for part in chapter.parts
         for line in _wrapped(
-            f"  {part.mark} {part.check:<6}{part.state:<15}{part.earned} of {part.possible}  ", part.goal
+            f"  {part.mark} {part.check:<6}{part.state:<15}{part.earned:g} of {part.possible}  ", part.goal
         )
     ]
     lines = [headline(progress, chapter.number), *rows, *_steps(steps), *_end(progress)]
     return "\n".join(lines)
 
 
-def of(pair: tuple[int, int]) -> str:
+def of(pair: tuple[float, float]) -> str:
     """Return a pair of numbers as text; (3, 5) becomes "3 of 5"."""
-    return f"{pair[0]} of {pair[1]}"
+    return f"{pair[0]:g} of {pair[1]:g}"
 
 
 def answers(chapter: ChapterProgress) -> str:

@@ -1,6 +1,10 @@
-"""The ROS graph: find or start a master, join as a node, run nodes, call with a deadline, list all nodes.
+"""Work with the ROS graph.
 
-Each name is imported on its first use, because `course` starts a master before it can import rospy.
+The modules find or start a master, make this process a node, run other nodes, call services with a time
+limit, and list all nodes.
+
+Each name is imported only when it is used for the first time, because the program `course` has to start a
+master before it can import rospy.
 """
 
 from typing import TYPE_CHECKING

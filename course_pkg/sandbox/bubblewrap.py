@@ -155,9 +155,14 @@ def _course() -> Iterator[Path]:
 
 
 def _variables() -> Iterator[str]:
-    """Yield options that set the course's environment, without variables of the user who grades."""
+    """Yield options that set the course's environment, without variables of the user who grades.
+
+    With more than one arena, glibc reserves about 64 MiB of address space for each thread of a process.
+    Then a student's code could start only about ten threads within the limit MEMORY.
+    """
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")
+    known["MALLOC_ARENA_MAX"] = "1"
     for name, value in known.items():
         yield from ("--setenv", name, value)
 

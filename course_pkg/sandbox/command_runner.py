@@ -19,7 +19,7 @@ from course_pkg.sandbox.namespaces import be_unreadable
 from course_pkg.types import Plain
 
 OWN = "/tmp"  # noqa: S108 -- only this process uses it, in its sandbox
-COMMANDS = frozenset({"folder", "run", "start", "poll", "stop"})
+COMMANDS = frozenset({"folder", "run", "start", "poll", "stop", "ports"})
 
 
 def is_command(do: object, name: object) -> bool:

@@ -1,4 +1,7 @@
-"""The shop of several chapters: its counter, its camera, and the printer of its till. It needs no rospy."""
+"""The shop that several chapters use: its counter, its camera, and the printer of its cash register.
+
+This package does not need rospy.
+"""
 
 from typing import TYPE_CHECKING
 

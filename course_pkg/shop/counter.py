@@ -1,4 +1,7 @@
-"""The counter of a shop: it knows when each customer comes and leaves. This module needs no ROS."""
+"""The counter of a shop, with the times at which each customer comes and leaves.
+
+This module does not need ROS.
+"""
 
 from __future__ import annotations
 
@@ -8,13 +11,13 @@ from dataclasses import dataclass
 
 from course_pkg.errors import FieldError
 
-MOST = 1000  # customers in one call
-LONGEST = 3600.0  # s; the longest delay and the longest stay
+MOST = 1000  # maximum number of customers in one call
+LONGEST = 3600.0  # s; the maximum delay and the maximum stay of a customer
 
 
 @dataclass(frozen=True)
 class Visit:
-    """The visit of one customer: the customer's number, and the times of coming and leaving in s."""
+    """One visit: the customer's number, and the times in s at which the customer comes and leaves."""
 
     number: int
     comes: float
@@ -22,7 +25,7 @@ class Visit:
 
 
 class Counter:
-    """The present and the future visits; `number` is the number of the next new customer."""
+    """The current and the planned visits; `number` is the number of the next new customer."""
 
     def __init__(self, number: int = 1) -> None:
         self.number = number
@@ -32,7 +35,7 @@ class Counter:
         """Plan a visit of `stay` s for each element of `after`, and return the new visits.
 
         `after` contains delays in s from the time `now`. Visits that earlier calls have planned for the
-        future are removed. Raises FieldError for impossible times; then nothing changes.
+        future are removed. Raises FieldError for impossible times; the visits then do not change.
         """
         if len(after) > MOST:
             raise FieldError(
@@ -52,7 +55,7 @@ class Counter:
         return tuple(visit.number for visit in self._visits if visit.comes <= now < visit.goes)
 
     def next_change(self, now: float) -> float:
-        """Return the time at which the next customer comes or leaves, or infinity if there is none."""
+        """Return the time at which the next customer comes or leaves, or infinity if there is no visit."""
         times = (time for visit in self._visits for time in (visit.comes, visit.goes) if time > now)
         return min(times, default=math.inf)
 

@@ -1,4 +1,7 @@
-"""Computes pictures of the shop: a colour picture, and the frames of a small grey camera. It needs no ROS."""
+"""Computes pictures of the shop: a colour picture, and the frames of a small grey camera.
+
+This module does not need ROS.
+"""
 
 from __future__ import annotations
 
@@ -13,15 +16,16 @@ COUNTER: Colour = (120, 84, 56)
 TOP: Colour = (160, 118, 82)
 FACE: Colour = (226, 184, 150)
 COATS: tuple[Colour, ...] = ((46, 98, 150), (168, 60, 56), (62, 122, 78), (122, 84, 146), (196, 140, 44))
-MOST = 12  # the most customers that a picture shows separately
+MOST = 12  # maximum number of customers that a picture shows
 HALF_BREADTH = 0.13  # half the breadth of a customer, as a fraction of the picture's height
 
-WIDTH, HEIGHT = 160, 120  # points; the size of a frame
-DARK = 96  # points below this brightness are dark
-SHARE = 10  # one dark point in 10 means that there is a customer
-BRIGHT, DARK_COAT = 208, 40  # the least brightness of the wall and of a coat
-SHADE = 12  # the brightness of a point is higher by less than this
-HEAD, SHOULDERS = 0.14, 0.2  # half the breadth of a figure, as a fraction of the frame's height
+WIDTH, HEIGHT = 160, 120  # size of a frame in points (pixels)
+DARK = 96  # a point with a lower brightness is dark
+SHARE = 10  # if at least one point in 10 is dark, the frame shows a customer
+BRIGHT, DARK_COAT = 208, 40  # minimum brightness of a point of the wall, and of a point of a coat
+SHADE = 12  # a point is brighter than its minimum brightness by less than SHADE
+# half the breadth of a figure's head and shoulders, as a fraction of the frame's height
+HEAD, SHOULDERS = 0.14, 0.2
 
 
 def shop_picture(width: int, height: int, customers: int) -> bytes:
@@ -39,7 +43,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
     if y >= 0.72:
         return bytes(TOP if y < 0.76 else COUNTER) * width
     row = bytearray(bytes(WALL if y < 0.6 else FLOOR) * width)
-    # The figures are narrower if there are many customers, so that there is a gap between them.
+    # If there are many customers, the figures are drawn narrower, to keep a gap between them.
     squeeze = min(height, 0.44 / HALF_BREADTH * width / (customers + 1))
     for number, coat in enumerate(islice(cycle(COATS), customers), 1):
         half, colour = _figure_at(y, coat)
@@ -50,7 +54,10 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
 
 
 def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
-    """Return half the breadth of a customer at `y`, as a fraction of the picture's height, and the colour."""
+    """Return half the breadth of a customer at `y`, and the colour.
+
+    The breadth is a fraction of the picture's height.
+    """
     head = 0.08**2 - (y - 0.3) ** 2
     if head > 0:
         return float(head**0.5), FACE
@@ -67,7 +74,7 @@ class Frame(Protocol):
     data: bytes
 
 
-@lru_cache(maxsize=16)  # because the camera needs a frame ten times per second
+@lru_cache(maxsize=16)  # cached, because the camera needs a frame ten times per second
 def frame_points(customers: int) -> bytes:
     """Return the points of a frame, row by row: a light wall, with a dark figure for each customer."""
     return b"".join(_frame_row(row, customers) for row in range(HEIGHT))

@@ -1,4 +1,4 @@
-"""The printer of a till, which is a cash register. This module needs no ROS."""
+"""The printer of a cash register. This module does not need ROS."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ import time
 
 from course_pkg.errors import PrinterFailed
 
-LINE = 0.01  # s for a line
+LINE = 0.01  # time in s to print a line
 
 
 class Printer:
-    """Prints one line at a time, and stores the lines in `lines`. It jams if two threads print at once."""
+    """Prints one line at a time, and stores the lines in `lines`.
+
+    The paper jams if two threads print at the same time.
+    """
 
     def __init__(self, paper: int = 1000) -> None:
         self.lines: list[str] = []
@@ -19,7 +22,7 @@ class Printer:
         self._busy = threading.Lock()
 
     def print(self, text: str) -> None:
-        """Print a line, which takes 10 ms. Raises PrinterFailed if it cannot print the line."""
+        """Print a line; this takes 10 ms. Raises PrinterFailed if it cannot print the line."""
         if not self._busy.acquire(blocking=False):
             raise PrinterFailed("paper jam: two lines at once")
         try:

@@ -1,6 +1,9 @@
-"""The customers that a camera sees at a counter, and waits for a customer. This module needs no ROS.
+"""The customers that a camera sees at a counter, and functions that wait for a customer.
 
-A Watch receives the numbers of the customers from its camera. An Eye receives frames.
+This module does not need ROS.
+
+A Watch receives messages with the customers' numbers. An Eye receives frames, which are pictures of the
+counter.
 """
 
 from __future__ import annotations
@@ -15,8 +18,8 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-POLL = 0.25  # s between checks whether the camera still sends messages
-FRAME_TIMEOUT = 1.0  # s without a valid frame, after which the state of the counter is unknown to an Eye
+POLL = 0.25  # time in s between two checks whether the camera still sends messages
+FRAME_TIMEOUT = 1.0  # s; if an Eye receives no valid frame for this time, the state of the counter is unknown
 
 Time: TypeAlias = "float | genpy.Time"  # a time of a Watch's clock
 Frame = TypeVar("Frame")
@@ -29,14 +32,17 @@ class CameraMessage(Protocol):
 
 
 class Customer(NamedTuple):
-    """A customer at the counter: the customer's number, and the time at which the Watch saw them first."""
+    """A customer at the counter: the customer's number, and the time at which the Watch first received it."""
 
     number: int
     arrived: Time
 
 
 class Watch:
-    """The customers at the counter. Hold the condition `changed` to read them or to wait for a change."""
+    """The customers at the counter.
+
+    Hold the condition `changed` while you read the customers or wait for a change.
+    """
 
     def __init__(self, now: Callable[[], Time] = time.time) -> None:
         self.changed = threading.Condition()
@@ -71,7 +77,7 @@ class Watch:
             return came
 
     def next(self, after: int = 0) -> Customer | None:
-        """Return the customer with the lowest number above `after`, or None. It does not wait."""
+        """Return the customer with the lowest number above `after`, or None. This method does not wait."""
         return min((customer for customer in self._there if customer.number > after), default=None)
 
     def wait(self, after: int, patience: float, silence: float) -> Customer | None:
@@ -94,7 +100,7 @@ class Eye(Generic[Frame]):
     """Reads frames, and stores whether the newest valid frame shows a customer.
 
     `sees` returns whether a frame shows a customer, and raises ValueError for a malformed frame. Each valid
-    frame notifies the condition `changed`.
+    frame notifies the threads that wait for the condition `changed`.
     """
 
     def __init__(self, sees: Callable[[Frame], bool]) -> None:
@@ -114,7 +120,10 @@ class Eye(Generic[Frame]):
             self.changed.notify_all()
 
     def look(self) -> bool | None:
-        """Return whether a customer is at the counter; None if no valid frame arrived in the last second."""
+        """Return whether a customer is at the counter.
+
+        Return None if no valid frame arrived in the last second.
+        """
         return self._seen if time.monotonic() - self._last <= FRAME_TIMEOUT else None
 
 

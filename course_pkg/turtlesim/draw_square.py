@@ -15,15 +15,18 @@ from course_pkg.turtlesim.world import normalized
 
 SIDE = 2.0  # m
 CORNER = math.pi / 2  # rad
-SPEED = 1.0  # m/s; the highest velocity
-TURN = 0.8  # rad/s; the highest angular velocity
+SPEED = 1.0  # m/s; the maximum velocity
+TURN = 0.8  # rad/s; the maximum angular velocity
 TOLERANCE = 0.01  # m or rad
-SLOW = 4.0  # 1/s; the velocity per metre (or per rad) that is left, so that the turtle slows down at the end
+SLOW = 4.0  # 1/s; velocity per remaining m (or rad): the turtle slows down at the end of a side or corner
 
 
 @dataclass(frozen=True)
 class Walker:
-    """The pose at the beginning of the current side or corner. `turning` is true in a corner."""
+    """The pose at the beginning of the current side or corner.
+
+    `turning` is true while the turtle turns at a corner.
+    """
 
     x: float
     y: float
@@ -41,9 +44,10 @@ class Walker:
         return _limited(SIDE - math.hypot(x - self.x, y - self.y), SPEED), 0.0
 
     def after(self, x: float, y: float) -> Walker:
-        """Return the walker for the next side or corner, which begins at this point."""
+        """Return the walker for the next side or corner, which begins at (x, y)."""
         if self.turning:
-            return Walker(x, y, self.theta + CORNER)  # the planned angle, so that small errors do not add up
+            # the planned angle, because small errors would otherwise add up
+            return Walker(x, y, self.theta + CORNER)
         return replace(self, turning=True)
 
 

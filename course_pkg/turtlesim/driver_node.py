@@ -23,7 +23,7 @@ MAX_RATE = 100.0  # messages per second
 
 
 class AdjustableDriver(Toggling):
-    """A driver whose speed can be changed, and which can stop."""
+    """A driver that can stop, and whose speed can be changed."""
 
     def __init__(self, rate: float) -> None:
         super().__init__(rate)
@@ -43,7 +43,7 @@ class DriverServices:
         self.driver = driver
 
     def change_rate(self, request: ChangeRateRequest) -> ChangeRateResponse:
-        """Change the number of velocities per second, and return the old number."""
+        """Change the number of velocity messages per second, and return the old number."""
         if not 0 < request.rate <= MAX_RATE:
             raise rospy.ServiceException(f"rate is {request.rate:g}, but must be above 0 and at most 100")
         before, self.driver.rate = self.driver.rate, request.rate
@@ -57,7 +57,7 @@ class DriverServices:
         return ChangeSpeedResponse(before)
 
     def start_stop(self, request: SetBoolRequest) -> SetBoolResponse:
-        """Start the turtle if the request is true, and stop it otherwise."""
+        """Start the turtle if `data` of the request is true, and stop it otherwise."""
         word = "moving" if request.data else "standing"
         already = self.driver.moving == request.data
         self.driver.moving = request.data
@@ -65,7 +65,7 @@ class DriverServices:
 
 
 def serve(services: DriverServices, *names: str) -> None:
-    """Provide the services `names`, which change a driver."""
+    """Provide the services `names`; they change the driver."""
     available = {
         "toggle_forward": (Empty, services.driver.handle_toggle),
         "change_rate": (ChangeRate, services.change_rate),

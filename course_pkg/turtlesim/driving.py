@@ -11,13 +11,13 @@ from std_srvs.srv import EmptyRequest, EmptyResponse
 
 SPEED = 1.0  # m/s
 TURN = 1.0  # rad/s
-SLICE = 0.02  # s between checks of the time, so that a new rate takes effect at once
+SLICE = 0.02  # time in s between two checks of the clock; a new rate takes effect within this time
 
 Publish = Callable[[Twist], None]
 
 
 class Driver(Protocol):
-    """An object that decides how a turtle moves. `rate` is the number of velocities per second."""
+    """An object that decides how a turtle moves. `rate` is the number of velocity messages per second."""
 
     rate: float
 
@@ -59,5 +59,6 @@ def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> 
         now, period = time.monotonic(), 1.0 / driver.rate
         if now - last >= period:
             publish(to_twist(driver.velocity()))
-            last = max(last + period, now - SLICE)  # After a delay, missed velocities are not published.
+            # After a delay, the velocities that were not published in time are skipped.
+            last = max(last + period, now - SLICE)
         time.sleep(min(max(last + period - time.monotonic(), 0.0), SLICE))

@@ -1,8 +1,9 @@
 """Services and names that behave like those of a roscpp node.
 
 rospy adds "service cannot process request: …" to an error message, and its connection header does not name
-the types of request and response. A roscpp server sends only the error message of its callback, which may be
-empty. Its header names the types of request and response. The protocol: http://wiki.ros.org/ROS/TCPROS.
+the types of request and response. A roscpp server sends only the error message of its callback; this message
+may be empty. The connection header of a roscpp server names these types. The protocol:
+http://wiki.ros.org/ROS/TCPROS.
 """
 
 from __future__ import annotations
@@ -91,7 +92,7 @@ def _accept(sock: socket.socket, address: tuple[str, int], header: dict[str, str
 
 
 def name_error(name: str) -> str:
-    """Return roscpp's error message for `name` as the name of a graph resource, or "" if it is valid."""
+    """Return roscpp's error message if `name` is not a valid graph resource name, else ""."""
     message_end = f"Graph Resource Name [{name}].  "
     if not FIRST.match(name):
         return (

@@ -20,8 +20,9 @@ from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
 FIRST = "turtle1"  # the turtle that exists after a reset
-BUDGET = 0.008  # s of a tick for requests; so many requests delay a pose by at most this time
-MAX_DELAY = 0.25  # s; older missed ticks are skipped, for example after the machine has slept
+# maximum time in s for requests in a tick; even many requests do not delay a pose by more than this time
+BUDGET = 0.008
+MAX_DELAY = 0.25  # s; ticks that are later than this are skipped, for example after the machine has slept
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
 
 Result = TypeVar("Result")
@@ -32,7 +33,7 @@ class Simulator:
 
     def __init__(self) -> None:
         self._jobs: SimpleQueue[Callable[[], None]] = SimpleQueue()
-        self._changes = threading.RLock()  # a thread holds it while it adds or removes turtles
+        self._changes = threading.RLock()  # a thread holds this lock while it adds or removes turtles
         for name, value in DEFAULTS.items():
             if not rospy.has_param(f"~{name}"):
                 rospy.set_param(f"~{name}", value)
@@ -100,7 +101,7 @@ class Simulator:
                 rospy.logerr(str(error))
                 raise Refused("") from error
             added = self._in_next_tick(lambda: self._world.add(turtle))
-            # The interface registers with the master while this thread waits for the next tick.
+            # While the job waits for the next tick, this thread registers the interface at the master.
             interface = TurtleInterface(turtle, self._world.canvas, self.in_tick)
             added.result()
             self._announce(turtle)
@@ -129,7 +130,8 @@ class Simulator:
         with self._changes:
             removed = self._remove_others()
             done = self._in_next_tick(lambda: self._reset_world(background))
-            # Closing an interface takes six calls to the master, so this thread does it while it waits.
+            # Closing an interface takes six calls to the master. This thread makes these calls while the job
+            # waits for the next tick.
             for interface in removed:
                 interface.close()
             done.result()
@@ -145,7 +147,7 @@ class Simulator:
         return removed
 
     def _remove_others(self) -> list[TurtleInterface]:
-        """Remove and return all interfaces except that of turtle1, which keeps its subscribers."""
+        """Remove and return all interfaces except the interface of turtle1, which keeps its subscribers."""
         removed = [each for name, each in self._interfaces.items() if name != FIRST]
         self._interfaces = {name: each for name, each in self._interfaces.items() if name == FIRST}
         return removed
@@ -164,9 +166,9 @@ class Simulator:
         rospy.loginfo(f"Spawning turtle [{turtle.name}] at {place}")
 
     def _background(self) -> Colour:
-        """Return the background colour of the node's parameters.
+        """Return the background colour from the node's parameters.
 
-        The default is used for a parameter that is not an integer.
+        If a parameter is not an integer, its default is used.
         """
         own = rospy.get_param(rospy.get_name(), {})  # reads all parameters with one call to the master
         given = {**DEFAULTS, **own} if isinstance(own, dict) else DEFAULTS

@@ -3,7 +3,8 @@
 With a queue, rospy starts a thread for each subscriber of a topic, and each message wakes this thread. At
 1,500 messages per second, this would take most of the processor time. Without a queue, rospy writes each
 message directly, and a subscriber that does not read blocks the publisher. Therefore a turtle writes a
-message directly if the connection has room. Otherwise it drops the message, as a queue of one message does.
+message directly if the connection's buffer has space. Otherwise, the message is dropped, as in a queue for
+one message.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ InTick = Callable[[Callable[[], None]], None]
 
 
 class TurtleInterface:
-    """The topics and services of one turtle. They exist until close().
+    """The topics and services of one turtle. The topics and services exist until close() is called.
 
     `in_tick` runs a function between two ticks, and returns when this function has ended.
     """
@@ -133,7 +134,10 @@ class _Writer:
         self._room.register(connection.socket, select.POLLOUT)
 
     def __call__(self, data: bytes) -> bool:
-        """Write `data`, or drop `data` if there is no room. Raises the error of a broken connection."""
+        """Write `data`, or drop `data` if the connection has no room.
+
+        Raises the error of a broken connection.
+        """
         if self._room.poll(0):
             return self._write(data)
         return True

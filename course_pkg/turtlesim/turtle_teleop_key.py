@@ -22,7 +22,7 @@ Drive turtle1 with the arrow keys of this terminal.
   q            quit
 """
 STEP = 2.0  # m/s and rad/s; the default of ~scale_linear and ~scale_angular
-POLL = 0.2  # s between checks whether the node has been shut down
+POLL = 0.2  # time in s between two checks whether the node has been shut down
 KEYS = {"A": (1, 0), "B": (-1, 0), "D": (0, 1), "C": (0, -1)}  # the last letter of an arrow's escape code
 
 

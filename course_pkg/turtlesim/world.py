@@ -1,4 +1,6 @@
-"""The world of the turtles: their positions, their motion, and the lines of their pens. It needs no ROS.
+"""The world of the turtles: their positions, their motion, and the lines of their pens.
+
+This module does not need ROS.
 
 Lengths are in metres. The world is 11.088889 m wide and high, and its origin is at the bottom left. Angles
 are in radians, counter-clockwise from the x-axis. One tick is 16 ms.
@@ -75,7 +77,7 @@ class Turtle:
     def teleport(self, canvas: Canvas, x: float, y: float, theta: float) -> None:
         """Move to (x, y) at once, and draw a line if the pen is down.
 
-        A y above the world becomes the upper edge of the world.
+        If y is above the world, the upper edge of the world is used instead.
         """
         before = self.point
         self.x, self.y, self.theta = x, min(y, WIDTH), theta
@@ -128,7 +130,7 @@ class World:
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
         """Add a turtle, and return it. Raises NameTaken if a turtle with this name exists.
 
-        Without `name`, the turtle gets the next free name of turtle1, turtle2, and so on.
+        Without `name`, the turtle gets the first free name of the series turtle1, turtle2, ….
         """
         return self.add(self.make(x, y, theta, name))
 
@@ -145,7 +147,10 @@ class World:
         return turtle
 
     def kill(self, name: str) -> Turtle:
-        """Remove a turtle from the world, and return it; its lines stay. Raises UnknownTurtle."""
+        """Remove a turtle from the world, and return it; the lines that it has drawn remain.
+
+        Raises UnknownTurtle.
+        """
         if name not in self.turtles:
             raise UnknownTurtle(f"Tried to kill turtle [{name}], which does not exist")
         return self.turtles.pop(name)
@@ -155,14 +160,14 @@ class World:
         self.canvas.fill(background)
 
     def reset(self, background: Colour) -> None:
-        """Begin again with turtle1 in the middle and an empty canvas."""
+        """Reset the world: it then contains only turtle1 in the middle, and an empty canvas."""
         self.turtles.clear()
         self._numbers = count(1)
         self.spawn(HOME, HOME, 0.0)
         self.clear(background)
 
     def tick(self, now: float) -> list[str]:
-        """Move every turtle for 16 ms, and return the warnings. `now` is the present time in s."""
+        """Move every turtle for 16 ms, and return the warnings. `now` is the current time in s."""
         warnings = [self.turtles[name].tick(self.canvas, now) for name in sorted(self.turtles)]
         return [warning for warning in warnings if warning]
 
@@ -178,11 +183,11 @@ def all_finite(*numbers: float) -> bool:
 
 
 def normalized(angle: float) -> float:
-    """Return the same direction as an angle from -π to π, where -π is included and π is not."""
+    """Return an angle for the same direction, from -π (included) to π (not included)."""
     return angle - 2 * math.pi * math.floor((angle + math.pi) / (2 * math.pi))
 
 
 def _near_canvas(point: Point) -> Point:
-    """Return a point near the canvas in place of a distant point, so that drawing takes a limited time."""
+    """If a point is far from the canvas, return a nearer point instead. This limits the drawing time."""
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

@@ -1,4 +1,6 @@
-"""The fields, values, strings and commands of any service or message type; without a master and rospy.
+"""The fields, values, strings and commands of any service or message type.
+
+This package needs neither a master nor rospy.
 
 Each name is imported when it is first used.
 """

@@ -22,7 +22,7 @@ def rosservice_line(service: str, kind: ServiceType, values: Mapping[str, Plain]
     duration, the whole request is one YAML dict. Raises FieldError.
     """
     plain = kind.request.check(values)
-    # The tool rosservice also reads an empty argument as an empty string, but people usually type quotes.
+    # rosservice also reads an empty argument as an empty string, so one pair of quotes is enough.
     given = ["" if each == '""' else each for each in _arguments(kind.request.fields, plain)]
     return _shell_line("rosservice", "call", service, *_end_of_options(given), *given)
 
@@ -30,7 +30,7 @@ def rosservice_line(service: str, kind: ServiceType, values: Mapping[str, Plain]
 def rospy_line(service: str, kind: ServiceType, values: Mapping[str, Plain]) -> str:
     """Return the lines of Python that call `service` with these values, in a node or a notebook.
 
-    A type that is not built is generated from its text. Raises FieldError.
+    If the type is not built, the lines generate it from its text. Raises FieldError.
     """
     plain = kind.request.check(values)
     short = kind.name.partition("/")[2]
@@ -72,7 +72,7 @@ def publisher_lines(
 ) -> str:
     """Return the lines of Python that publish these values in a node, once or `rate` times per second.
 
-    A type that is not built is generated from its text. Raises FieldError.
+    If the type is not built, the lines generate it from its text. Raises FieldError.
     """
     plain = kind.check(values)
     short = kind.name.partition("/")[2]
@@ -100,7 +100,7 @@ def _call_lines(called: str, keywords: list[str]) -> str:
 
 
 def _definitions(kind: ServiceType | MessageType, folder: str, writer: _PythonWriter) -> list[str]:
-    """Return the lines that define the names for the following lines."""
+    """Return the lines that import or generate the names that the following lines use."""
     package, _, short = kind.name.partition("/")
     lines = ["import rospy", *writer.imports()]
     if kind.built:
@@ -112,9 +112,9 @@ def _definitions(kind: ServiceType | MessageType, folder: str, writer: _PythonWr
 
 
 class _PythonWriter:
-    """Writes plain values as Python expressions, and stores the message classes that they need.
+    """Writes plain values as Python expressions, and stores the message classes that these expressions need.
 
-    `taken` are names that the lines already use for something else.
+    `taken` contains the names that the lines already use for other objects.
     """
 
     def __init__(self, fields: tuple[Field, ...], taken: Iterable[str]) -> None:
@@ -232,7 +232,7 @@ def _yaml_float(number: float) -> str:
 
 
 def _yaml_string(text: str) -> str:
-    """Return a string in a form that YAML reads as the same string."""
+    """Return a string as YAML text; YAML reads this text as the same string."""
     if text.isprintable() and ":=" not in text and _is_plain(text):
         return text
     quoted: str = yaml.safe_dump(text, default_style='"', allow_unicode=True, width=math.inf)

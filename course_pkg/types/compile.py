@@ -1,6 +1,6 @@
-"""Makes classes for rospy from the text of a definition, without a build, files or changes of sys.modules.
+"""Makes classes for rospy from the text of a definition, without a build, files or changes to sys.modules.
 
-The module genpy.dynamic can only compile messages, and it does not remove the module and the folder that it
+The module genpy.dynamic can compile only messages, and it does not remove the module and the folder that it
 creates for each message. Here, genpy's generator writes the code, and the code runs in a separate namespace.
 """
 
@@ -31,7 +31,7 @@ from course_pkg.types.search_path import (
     split_type_name,
 )
 
-# genpy's generator stores its state in global variables of a module
+# genpy's generator stores its state in global variables of its module
 _GENERATOR = Lock()
 _IMPORT = re.compile(r"import \w+\.msg")
 
@@ -61,7 +61,7 @@ def compiled_message(name: str, text: str, source: str, strict: bool = False) ->
 
 
 def dependency(cls: MessageClass, name: str) -> MessageClass:
-    """Return the class of a message that is a field in a message of class `cls`."""
+    """Return the class of the message type `name`, which is the type of a field of `cls`."""
     full = "std_msgs/Header" if name in ("Header", "roslib/Header") else name
     found: MessageClass | None = getattr(cls, "_dependencies", {}).get(full) or built_message(full)
     assert found is not None
@@ -69,7 +69,7 @@ def dependency(cls: MessageClass, name: str) -> MessageClass:
 
 
 class _Generation:
-    """The generation of one type, with the message types that it depends on.
+    """Generates one type, and the message types that it depends on.
 
     `classes` contains the classes of the dependencies. Each class is the built class, or a new class if the
     type is not built or its definition has changed since the build.
@@ -95,7 +95,10 @@ class _Generation:
     def load_message(
         self, name: str, text: str, source: str, strict: bool = False, within: tuple[str, ...] = ()
     ) -> MsgSpec:
-        """Return the specification of a message; `within` are the types around it, outermost first."""
+        """Return the specification of a message.
+
+        `within` lists the types that contain it, outermost first.
+        """
         text = self._validated(name, text, source, "msg", strict)
         try:
             spec: MsgSpec = load_msg_from_string(self.context, text, name)
@@ -128,14 +131,20 @@ class _Generation:
         return generated
 
     def _code(self, spec: MsgSpec) -> str:
-        """Return genpy's code for a message without imports and the text that genpy does not escape."""
+        """Return genpy's code for a message.
+
+        The imports, and the texts that genpy does not escape, are removed.
+        """
         with _GENERATOR:
             pieces = list(msg_generator(self.context, spec, {}))
         copied = ("  _full_text = ", *(f"  {each.name} = " for each in make_python_safe(spec).constants))
         return "\n".join(each for each in pieces if not (_IMPORT.fullmatch(each) or each.startswith(copied)))
 
     def _packages(self) -> dict[str, SimpleNamespace]:
-        """Return a namespace for each package in the code, such as `geometry_msgs` with `msg.Point`."""
+        """Return a namespace for each package in the code.
+
+        For example, the namespace `geometry_msgs` contains `msg.Point`.
+        """
         packages: dict[str, SimpleNamespace] = {}
         for name, cls in self.classes.items():
             package, short = split_type_name(name)
@@ -182,7 +191,7 @@ def _circle(source: str, text: str, type_name: str, chain: tuple[str, ...]) -> B
 
 
 def _refused(source: str, text: str, error: Exception) -> BrokenDefinition:
-    """Return the error for a definition that the diagnosis accepts, but that genmsg or genpy refuses."""
+    """Return the error for a definition that `diagnosis` accepts, but that genmsg or genpy refuses."""
     first = text.split("\n", maxsplit=1)[0]
     return BrokenDefinition(
         source, 1, 1, first, f"ROS refuses it: {error}", "compare it with wiki.ros.org/msg"

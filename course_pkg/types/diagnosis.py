@@ -1,7 +1,7 @@
 """Finds the first mistake in the text of a definition, its place, and a correction.
 
-genmsg stops at the first line that it cannot read, and its message often does not show this line. So this
-module first checks each line for common mistakes.
+genmsg stops at the first line that it cannot read, and its message often does not show this line. This module
+therefore first checks each line for common mistakes.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ def validate(
 ) -> None:
     """Raise BrokenDefinition for the first mistake in a .srv or .msg text.
 
-    The function `exists` returns whether there is a message type with the given full name. With `strict`,
-    mistakes that genmsg accepts are refused, too.
+    The function `exists` returns whether there is a message type with the given full name. If `strict` is
+    true, mistakes that genmsg accepts are also refused.
     """
     _Diagnosis(source, package, kind, exists, strict).read(text)
 
@@ -271,7 +271,10 @@ class _Diagnosis:
 
 
 def _unreadable(type_name: str, text: str) -> tuple[str, str] | None:
-    """Return the kind of value that a constant needs, and a correction; None if genmsg can read the value."""
+    """Return the kind of value that a constant needs, and a correction.
+
+    If genmsg can read the value, return None.
+    """
     reader: Callable[[str], object]
     if type_name == "bool":
         reader, wanted, advice = ast.literal_eval, "a bool", "True or False"

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 if TYPE_CHECKING:
     import genpy
 
-# The values that JSON can contain. An array is a sequence of plain values, a message a mapping by field name.
+# The values that JSON can contain. An array is a sequence of plain values, and a message is a mapping from
+# field names to plain values.
 Plain: TypeAlias = "bool | int | float | str | Sequence[Plain] | Mapping[str, Plain] | None"
-# A tree of the same shape, but with a string in place of each number and bool.
+# A tree of the same structure, but with a string in place of each number and bool.
 StringTree: TypeAlias = "str | Sequence[StringTree] | Mapping[str, StringTree]"
 
 FLOAT32_MAX: float = struct.unpack("<f", b"\xff\xff\x7f\x7f")[0]
@@ -52,7 +53,7 @@ class ServiceClass(Protocol):
 
 
 class Kind(str, Enum):
-    """The kind of input that a field needs; the value is its name in a schema."""
+    """The kind of input that a field needs; the value of the enum is the name of the kind in a schema."""
 
     INTEGER = "integer"
     FLOAT = "float"
@@ -65,7 +66,7 @@ class Kind(str, Enum):
 
     @property
     def is_scalar(self) -> bool:
-        """Whether the whole value is one string."""
+        """Whether a value of this kind is one string in a string tree."""
         return self in (Kind.INTEGER, Kind.FLOAT, Kind.BOOL, Kind.STRING)
 
 
@@ -145,7 +146,7 @@ def builtin_field(name: str, type_name: str, help_text: str = "") -> Field | Non
 def _clock_fields(type_name: str) -> tuple[Field, ...]:
     """Return the fields secs and nsecs.
 
-    A time is unsigned, and a duration is signed, but nsecs is never negative.
+    In a time, secs is unsigned; in a duration, secs is signed. In both, nsecs is never negative.
     """
     integer = "uint32" if type_name == "time" else "int32"
     limits = integer_range(integer)

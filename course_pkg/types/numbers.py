@@ -15,7 +15,7 @@ _INFINITE = re.compile(r"([+-]?)\.?inf(inity)?", re.IGNORECASE)
 
 
 def float32(number: float) -> float:
-    """Return the shortest number that is the same float32: 6.24 for 6.240000247955322.
+    """Return the shortest number with the same float32 value, such as 6.24 for 6.240000247955322.
 
     Raises OverflowError if the number is too large for a float32.
     """
@@ -23,12 +23,12 @@ def float32(number: float) -> float:
         return math.nan
     packed = _FLOAT32.pack(number)
     exact: float = _FLOAT32.unpack(packed)[0]
-    # Any number with up to 6 digits survives the conversion to float32, so the search begins at 6 digits.
-    # Below the normal range, one digit can be enough.
+    # A number with up to 6 digits can be recovered from its float32 value, so the search begins at 6 digits.
+    # For subnormal numbers, one digit can be enough.
     fewest = 6 if abs(exact) >= _SMALLEST_NORMAL_FLOAT32 else 1
     for digits in range(fewest, 9):
         short = float(f"{exact:.{digits}g}")
-        # near the end of the range, the shorter number can be out of range
+        # near the largest float32, the shorter number can be out of range
         if math.isfinite(short) and _fits(short) and _FLOAT32.pack(short) == packed:
             return short
     return float(f"{exact:.9g}")
@@ -43,9 +43,9 @@ def _fits(number: float) -> bool:
 
 
 def parse_float(text: str) -> float:
-    """Return the number in a string; `inf` and `nan` are numbers, too. Raises ValueError."""
+    """Return the number in a string; `inf` and `nan` are also numbers. Raises ValueError."""
     if _NAN.fullmatch(text):
-        # Always the same object for nan, so that two lists or dicts that contain it are equal.
+        # Always return the same nan object: lists or dicts that contain the same nan object are equal.
         return math.nan
     if infinite := _INFINITE.fullmatch(text):
         return float(f"{infinite[1]}inf")
@@ -57,14 +57,14 @@ def parse_float(text: str) -> float:
 
 
 def parse_integer(text: str) -> int:
-    """Return the integer in a string, decimal or `0x…`. Raises ValueError."""
+    """Return the integer in a decimal string or a hexadecimal string (`0x…`). Raises ValueError."""
     if not text.isascii() or not _INTEGER.fullmatch(text):
         raise ValueError(text)
     return int(text, 16) if "x" in text.lower() else int(text)
 
 
 def nearest_number(text: str, integer: bool) -> str | None:
-    """Return the number that a mistyped string probably means, or None if it is not clear."""
+    """Return the number that a mistyped string probably means, or None if the meaning is not clear."""
     guess = text.replace("\N{MINUS SIGN}", "-").replace("\N{EN DASH}", "-").replace("_", "").strip()
     if guess.count(",") == 1 and "." not in guess and not integer:
         guess = guess.replace(",", ".")

@@ -19,7 +19,10 @@ DefinitionKind = Literal["srv", "msg"]
 
 
 def split_type_name(name: str) -> tuple[str, str]:
-    """Return the package and the short name of a full type name. Raises UnknownType for any other name."""
+    """Return the package and the short name of a full type name.
+
+    Raises UnknownType if `name` is not a full type name.
+    """
     package, slash, short = name.partition("/")
     if not (package and slash and short) or "/" in short:
         raise UnknownType(name, f"{name!r} is not the full name of a type; write it as package/Type")
@@ -40,8 +43,8 @@ def _built_module(name: str, kind: DefinitionKind) -> ModuleType | None:
     package, short = split_type_name(name)
     if not short.isidentifier() or not package.isidentifier():
         return None
-    # This imports the module of the type, and not the module of its package. So Python finds a type that was
-    # built after its package was imported. genpy.message would not find this type.
+    # This line imports the module of the type, not the package of the type. Python therefore also finds a
+    # type that was built after its package was imported; genpy.message would not find such a type.
     module = f"{package}.{kind}._{short}"
     return sys.modules.get(module) or _import(module)
 
@@ -60,7 +63,8 @@ def definition_file(name: str, kind: DefinitionKind, finder: rospkg.RosPack | No
     """Return the .srv or .msg file of a type, or None if it is not on ROS_PACKAGE_PATH."""
     package, short = split_type_name(name)
     for _, folder in _each_folder(kind, [package], finder):
-        # The folder is listed, because some file systems do not distinguish upper and lower case.
+        # The names in the folder are compared, because some file systems do not distinguish upper and lower
+        # case.
         for file in folder.iterdir():
             if file.name == f"{short}.{kind}":
                 return file
@@ -68,7 +72,7 @@ def definition_file(name: str, kind: DefinitionKind, finder: rospkg.RosPack | No
 
 
 def read_definition(file: Path) -> str:
-    """Return the text of a definition; bytes that are not UTF-8, as in old comments, are replaced."""
+    """Return the text of a definition; bytes that are not valid UTF-8 (as in old comments) are replaced."""
     return file.read_text(encoding="utf-8", errors="replace")
 
 
@@ -117,7 +121,7 @@ def unknown_type(name: str, kind: DefinitionKind) -> UnknownType:
 
 
 def closest(name: str, known: Iterable[str], count: int = 2) -> list[str]:
-    """Return the names most similar to `name`: in another package, or with a similar spelling."""
+    """Return the names most similar to `name`: the same name in another package, or a similar spelling."""
     names = list(known)
     short = name.rpartition("/")[2].lower()
     for similar in (
@@ -127,8 +131,8 @@ def closest(name: str, known: Iterable[str], count: int = 2) -> list[str]:
         if similar:
             return sorted(similar)[:count]
     lower = {each.lower(): each for each in names}
-    # If two types have the same long package name, their full names are always similar. So only the short
-    # names are compared.
+    # If two types have the same long package name, their full names are always similar. Therefore only the
+    # short names are compared.
     similar = [each for each in lower if _similarity(short, each.rpartition("/")[2]) >= 0.65]
     if "/" not in name:
         shorts = {each.rpartition("/")[2]: lower[each] for each in similar}
@@ -143,8 +147,8 @@ def _similarity(one: str, other: str) -> float:
 def _each_folder(
     kind: DefinitionKind, packages: Iterable[str], finder: rospkg.RosPack | None = None
 ) -> Iterator[tuple[str, Path]]:
-    # A RosPack object caches the paths of packages, so each search creates a new object. This takes a few
-    # milliseconds.
+    # A RosPack object caches the paths of packages, so each search creates a new object. Creating the object
+    # takes a few milliseconds.
     finder = finder or rospkg.RosPack()
     for package in packages:
         try:

@@ -1,7 +1,7 @@
 """Converts values to strings that people can read and type, and converts such strings to values.
 
-A string tree has the shape of a message, but a string in place of each number, string or bool. An array may
-also be one string (`[1, 2, 3]` or `1, 2, 3`), and a message may be one string (`{x: 1, y: 2}`), both in
+A string tree has the structure of a message, but a string in place of each number, string or bool. An array
+may also be one string (`[1, 2, 3]` or `1, 2, 3`), and a message may be one string (`{x: 1, y: 2}`), both in
 YAML's flow style. A time or duration may be a number of seconds (`1.5`).
 """
 
@@ -49,7 +49,7 @@ def parse_value(field: Field, text: StringTree, path: str) -> Plain:
     if field.kind is Kind.MESSAGE or field.fields:
         return parse_fields(field.fields, text, path, allowed(field))
     if not isinstance(text, str):
-        # A plain value is also allowed.
+        # A plain value is also allowed here.
         return check(field, text, path)
     if field.kind is Kind.STRING:
         return check(field, text, path)
@@ -57,7 +57,7 @@ def parse_value(field: Field, text: StringTree, path: str) -> Plain:
 
 
 def parse_fields(fields: tuple[Field, ...], tree: StringTree, path: str, expected: str) -> dict[str, Plain]:
-    """Return the plain values of a message's fields, in their order. Raises FieldError."""
+    """Return the plain values of a message's fields, in the order of the fields. Raises FieldError."""
     if isinstance(tree, str):
         tree = _parse_flow(tree, "{", "}", path, expected)
     require_names(fields, tree, path, expected)

@@ -40,8 +40,8 @@ _END_OF_OWN_TEXT = "\n" + "=" * 80 + "\n"
 class MessageType:
     """A message type, or the request or response of a service type.
 
-    Its values are dicts with the field names as keys. `cls` is the class that genpy generated, `help` the
-    comment at the top of its definition.
+    A value of the type is a dict with the field names as keys. `cls` is the class that genpy generated, and
+    `help` is the comment at the top of the definition.
     """
 
     name: str
@@ -57,7 +57,10 @@ class MessageType:
         return {each.name: default(each) for each in self.fields}
 
     def check(self, plain: Mapping[str, Plain] | genpy.Message) -> dict[str, Plain]:
-        """Return the plain values for the fields, from a message or from given values. Raises FieldError."""
+        """Check a message or a dict of values, and return the plain values of its fields.
+
+        Raises FieldError.
+        """
         return check_fields(self.fields, plain, "", self._shape)
 
     def parse(self, tree: StringTree) -> dict[str, Plain]:
@@ -69,7 +72,7 @@ class MessageType:
         return {each.name: format_value(each, plain[each.name]) for each in self.fields}
 
     def to_message(self, plain: Mapping[str, Plain]) -> genpy.Message:
-        """Return a message with the plain values in it. Raises FieldError."""
+        """Return a message with these plain values. Raises FieldError."""
         return build(self.cls, self.fields, self.check(plain))
 
     def to_values(self, message: genpy.Message) -> dict[str, Plain]:
@@ -81,7 +84,10 @@ class MessageType:
 
     @property
     def built(self) -> bool:
-        """Whether Python can import the class from its package; otherwise, it was generated from the text."""
+        """Whether Python can import the class from its package.
+
+        If not, the class was generated from the text.
+        """
         return not hasattr(self.cls, "_dependencies")
 
     @property
@@ -175,7 +181,7 @@ def compile_message(name: str, text: str) -> MessageType:
 
 
 def _require_class(cls: MessageClass | ServiceClass, attribute: str, what: str) -> None:
-    """Raise UnknownType for a class that genpy did not generate, or that is a class of another kind."""
+    """Raise UnknownType unless genpy generated the class, and the class is of the expected kind."""
     if hasattr(cls, attribute):
         return
     shown = getattr(cls, "__name__", repr(cls))

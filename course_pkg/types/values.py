@@ -31,7 +31,10 @@ def default(field: Field) -> Plain:
 
 
 def check(field: Field, value: object, path: str) -> Plain:
-    """Return any value as the plain value of the field. Raises FieldError if the value does not fit."""
+    """Convert any value to a plain value of the field, and return it.
+
+    Raises FieldError if the value does not fit.
+    """
     if field.kind is Kind.ARRAY:
         return _check_array(field, value, path)
     if field.kind is Kind.MESSAGE or field.fields:
@@ -46,7 +49,7 @@ def check(field: Field, value: object, path: str) -> Plain:
 
 
 def check_fields(fields: tuple[Field, ...], values: object, path: str, expected: str) -> dict[str, Plain]:
-    """Return the checked values of a message's fields, in their order. Raises FieldError."""
+    """Return the checked values of a message's fields, in the order of the fields. Raises FieldError."""
     if isinstance(values, (genpy.Message, TVal)):
         values = {name: getattr(values, name) for name in values.__slots__}
     require_names(fields, values, path, expected)
@@ -121,7 +124,7 @@ def member_path(path: str, name: str) -> str:
 
 
 def brief(value: object) -> str:
-    """Return a value for an error message, shortened."""
+    """Return a value as a short text for an error message."""
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}…"
 
@@ -143,13 +146,16 @@ def _check_array(field: Field, value: object, path: str) -> list[Plain]:
 
 
 def require_length(field: Field, items: Sequence[object], path: str) -> None:
-    """Raise FieldError unless a list has the length of its array."""
+    """Raise FieldError unless a list has the length that its array field requires."""
     if field.length is not None and len(items) != field.length:
         raise FieldError(path, items, allowed(field), f"{len(items)} elements were given")
 
 
 def _all_valid(item: Field, items: list[float]) -> bool:
-    """Return whether all elements are valid numbers; a fast check for large arrays, such as an image."""
+    """Return whether all elements are valid numbers.
+
+    This check is fast even for large arrays, such as an image.
+    """
     if item.kind is Kind.INTEGER and items and set(map(type, items)) == {int}:
         assert item.low is not None
         assert item.high is not None

@@ -1,4 +1,7 @@
-"""The student's catkin workspace, and explanations of the messages of its build; without rospy."""
+"""The student's catkin workspace, and explanations of the messages of its build.
+
+This package does not need rospy.
+"""
 
 from typing import TYPE_CHECKING
 

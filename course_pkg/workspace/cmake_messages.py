@@ -2,7 +2,7 @@
 
 CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error.
 The student's line that caused the error is in the call stack below the message. A row of a table is (pattern,
-file, problem, remedy). Its file is empty if the fault is in the file that the message names.
+file, problem, remedy). In a row, the file is empty if the fault is in the file that the message names.
 """
 
 from __future__ import annotations
@@ -85,7 +85,10 @@ def cmake_commands(text: str) -> Iterator[Command]:
 
 
 def unknown_command(name: str, message: Message) -> Fault:
-    """Return the fault for an unknown command: its package was not found before, or its name is misspelt."""
+    """Return the fault for an unknown command.
+
+    The package of the command was not found earlier, or the name is misspelt.
+    """
     if name.lower() in GENERATION:
         problem = (
             f"CMake does not know {name} here. The package message_generation defines it, but was not "

@@ -8,11 +8,15 @@ from pathlib import Path
 
 HEADER = "include/ros/ros.h"
 LIBRARIES = ("roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "boost_thread")
-WARNINGS = ("-Werror=return-type",)  # otherwise, a handler without a return statement builds, but may crash
+# without this option, a handler without a return statement builds, but may crash
+WARNINGS = ("-Werror=return-type",)
 
 
 def missing_for_cpp() -> str:
-    """Return a sentence about a missing tool for C++ programs and its installation, or an empty string."""
+    """Return a sentence about a missing tool for C++ programs, and how to install it.
+
+    If no tool is missing, return an empty string.
+    """
     if not _compiler_here():
         return _advice(f"No C++ compiler is installed ({compiler()}).", "g++", "compilers")
     if not any((prefix / HEADER).exists() for prefix in prefixes()):
@@ -26,7 +30,10 @@ def compiler() -> str:
 
 
 def prefixes() -> list[Path]:
-    """Return the prefixes of headers and libraries: catkin workspaces, conda's environment, the system."""
+    """Return the installation prefixes of headers and libraries.
+
+    These are catkin workspaces, conda's environment, and the system.
+    """
     named = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
     return [
         Path(each) for each in dict.fromkeys([*named, os.environ.get("CONDA_PREFIX", ""), "/usr"]) if each

@@ -1,8 +1,8 @@
 """Explains the errors of catkin_make, rosrun and other tools: what is wrong with a package, and what to do.
 
-A row matches a part of a message that is probably the same in every release. The messages come from catkin
-0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The first row that matches is used. Names in
-braces are replaced by the groups of the pattern.
+The pattern of a row matches the part of a message that is probably the same in every release. The messages
+come from catkin 0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The first row that matches is
+used. In the texts of a row, names in braces are replaced by the groups of the pattern.
 """
 
 from __future__ import annotations
@@ -37,7 +37,10 @@ def explain(output: str) -> Fault | None:
 
 
 def _faults(text: str) -> Iterator[Fault]:
-    """Yield faults, first the causes: CMake's errors are often only consequences of another tool's error."""
+    """Yield faults, in the order from cause to consequence.
+
+    An error of CMake is often only a consequence of another tool's error.
+    """
     yield from _matching(FROM_BUILD, text)
     found = list(cmake_messages(text))
     errors = [message for message in found if message.is_error]

@@ -1,4 +1,4 @@
-"""A fault in a package, and its line in a package.xml, even if the file is not well-formed XML."""
+"""A fault in a package. Its line in a package.xml is found even if the file is not well-formed XML."""
 
 from __future__ import annotations
 
@@ -8,10 +8,6 @@ from dataclasses import dataclass, replace
 
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 _TAG = re.compile(r"<(?P<name>[A-Za-z_]\w*)(?:\s[^<>]*)?>(?P<text>[^<]*)")
-_DEPENDENCY_TAGS = {
-    "build": ("build_depend", "depend"),
-    "run": ("exec_depend", "run_depend", "depend"),
-}
 
 
 @dataclass(frozen=True)
@@ -29,7 +25,7 @@ class Fault:
 
     @property
     def place(self) -> str:
-        """Return the place, such as "my_services/CMakeLists.txt, line 6"; empty if it is not known."""
+        """Return the place, such as "my_services/CMakeLists.txt, line 6", or "" if it is not known."""
         return f"{self.file}, line {self.line}" if self.line else self.file
 
     def __str__(self) -> str:
@@ -46,20 +42,33 @@ class Tag:
     text: str
 
 
+def without_comments(text: str) -> str:
+    """Return a package.xml without its comments; all other text stays in its line."""
+    return _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
+
+
 def manifest_tags(text: str) -> Iterator[Tag]:
     """Yield the opening tags in their order, without the tags in comments."""
-    bare = _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
+    bare = without_comments(text)
     for found in _TAG.finditer(bare):
         yield Tag(found["name"], bare.count("\n", 0, found.start()) + 1, found["text"].strip())
 
 
 def dependencies(text: str, purpose: str) -> set[str]:
-    """Return the packages that a package.xml names for `purpose`: "build" or "run"."""
-    return {tag.text for tag in manifest_tags(text) if tag.name in _DEPENDENCY_TAGS[purpose]}
+    """Return the packages that a package.xml names for `purpose`: "build" or "run".
+
+    A dependency with a condition does not count, because it does not hold always. `text` has to be valid for
+    catkin.
+    """
+    from catkin_pkg.package import parse_package_string  # imported here because it takes 50 ms
+
+    package = parse_package_string(text)
+    named = package.build_depends if purpose == "build" else package.exec_depends
+    return {each.name for each in named if each.condition is None}
 
 
 def locate(fault: Fault, text: str) -> Fault:
-    """Return a fault of a package.xml with the line of its tag, if the tag can be found."""
+    """Return a fault of a package.xml, with the line of the wrong tag if this tag can be found."""
     if "not closed" in fault.problem and (tag := _unclosed(text)):
         return replace(fault, problem=f"The tag {tag.name} is not closed.", line=tag.line)
     if fault.line or not fault.file.endswith("package.xml"):

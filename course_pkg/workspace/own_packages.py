@@ -1,4 +1,7 @@
-"""Makes the student's own packages, in `workspace` next to `notebooks`, available to a kernel."""
+"""Makes the student's own packages available to a kernel.
+
+They are in the folder `workspace` next to `notebooks`.
+"""
 
 from __future__ import annotations
 
@@ -22,17 +25,19 @@ if TYPE_CHECKING:
 NAME = "workspace"
 REMEDY = "Move the course to a folder in which you can write, and whose path contains no space."
 MANIFEST = "package.xml"
-MODULES = ("lib/python3/dist-packages",)  # in devel; used if the course's devel folder has no such folder
+# default folders for generated modules; used if the course's devel folder contains no such folder
+MODULES = ("lib/python3/dist-packages",)
 # The MD5 sum in a module that genpy has written.
 MD5 = re.compile(r"""^  _md5sum *= *["']([0-9a-f]{32})["']""", re.MULTILINE)
-KINDS = (".srv", ".msg")  # packages whose names have these endings contain only generated modules
+KINDS = (".srv", ".msg")  # Python packages with these name endings contain only generated modules
 
 
 def own_workspace() -> Path:
     """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` in the checkout.
 
     When notebooks are validated or graded, COURSE_WORKSPACE or COURSE_STATE is set. If only COURSE_STATE is
-    set, the workspace is the folder `workspace` in it. So a run does not find packages of another run.
+    set, the workspace is the folder `workspace` in that folder. A run therefore does not find the packages of
+    another run.
     """
     if given := os.environ.get("COURSE_WORKSPACE"):
         return Path(given).expanduser().resolve()
@@ -40,7 +45,7 @@ def own_workspace() -> Path:
 
 
 def make_own_workspace() -> Path:
-    """Return the student's workspace; if its folder `src` is missing, make it first.
+    """Return the student's workspace; if its folder `src` is missing, create this folder first.
 
     Raises SetupError before it changes a file if the tools of ROS do not work in this folder.
     """
@@ -76,12 +81,12 @@ class OwnPackages:
             "LD_LIBRARY_PATH": [self._devel / "lib"],
             "PYTHONPATH": [self._devel / folder for folder in _module_folders()],
         }
-        # the time at which each generated file was written, by its path, in ns
+        # for each generated file (by path): the time in ns at which the file was written
         self._seen: dict[str, int] = {}
         self._unreadable: set[str] = set()  # the messages of the last refresh() about package.xml files
 
     def follow_cells(self, shell: InteractiveShell | None) -> None:
-        """Refresh now and, in the kernel of a notebook, before each cell; print the message, if any."""
+        """Call refresh() now and, in a notebook's kernel, before each cell; print its message, if any."""
         self._refresh_and_print()
         if shell is not None:
             shell.events.register("pre_run_cell", lambda _info: self._refresh_and_print())
@@ -89,9 +94,9 @@ class OwnPackages:
     def refresh(self) -> str:
         """Make all built packages available to this process and to the programs that it starts.
 
-        The folders come last on each search path, so that no package of the student replaces one of the
-        course. Return a message if an imported type has another definition now, or if a package.xml cannot be
-        read; else "".
+        The folders come last on each search path, so a package of the student cannot replace a package of the
+        course. Return a message if the definition of an imported type has changed, or if a package.xml cannot
+        be read; else "".
         """
         for name, folders in self._paths.items():
             _append(name, folders)
@@ -134,7 +139,8 @@ def _module_folders() -> list[str]:
 def _find_packages(source: Path) -> tuple[list[Path], list[str]]:
     """Return the folders of the packages in `source`, and a message for each package.xml that is unreadable.
 
-    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and end if one of these files is not XML.
+    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and stop with an error if one of these files
+    is not XML.
     """
     found, messages, visited = [], [], set()
     for folder, inside, files in os.walk(source, followlinks=True):
@@ -171,7 +177,7 @@ def _append(name: str, folders: list[Path]) -> None:
 def _follow(module: ModuleType) -> list[str]:
     """Import the types that were added to a package; return the type in `module` if it was changed."""
     if module.__name__.endswith(KINDS):
-        # A build is running or has failed; the student's own import will show the error.
+        # If a build is running or has failed, ignore the error here: the student's own import will show it.
         with suppress(Exception):
             importlib.reload(module)
         return []

@@ -1,4 +1,7 @@
-"""The errors of catkin, genmsg and the tools of ROS about a package; rows as in cmake_messages."""
+"""The errors of catkin, genmsg and the tools of ROS about a package.
+
+The rows have the same form as in cmake_messages.
+"""
 
 from __future__ import annotations
 
@@ -133,6 +136,12 @@ FROM_TOOLS: tuple[Row, ...] = (
         "",
         "Python finds the package {name}, but no types in it, because they were not generated.",
         "Look for generate_messages and add_service_files in CMakeLists.txt, and build again.",
+    ),
+    (
+        r"No module named '(?P<name>numpy|matplotlib)'",
+        "",
+        "The Python that runs the program does not have the library {name}.",
+        "Write #!/usr/bin/env python3 as the first line, because it chooses the Python that has the library.",
     ),
     (
         r"No module named '(?P<name>\w+)'",

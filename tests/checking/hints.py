@@ -1,6 +1,6 @@
-"""Finds the hints in the source code of checks without running a check.
+"""Finds the hints in the source code of checks; no check is run.
 
-A hint is a sentence. The only other sentences in a check are docstrings, goals and error messages.
+A hint is a sentence. Other sentences in a check are only in docstrings, goals and error messages.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from pathlib import Path
 from course_pkg.checking.parts import folder_of
 from tests.checking.example_answers import Answer
 
-# a text of several lines is a program or a file, not a hint
+# A string with several lines is a program or a file, and not a hint.
 SENTENCE = re.compile(r"[^\n]* [^\n]*\S[.?]( [^\n]*)?")
 
 
 @dataclass(frozen=True)
 class Hint:
-    """A hint as a list of pieces: the fixed texts between the values that an f-string inserts."""
+    """A hint as a list of fixed texts; between them, an f-string inserts values."""
 
     place: str  # file and line, for error messages
     pieces: tuple[str, ...]
@@ -29,7 +29,7 @@ class Hint:
         return f"{self.place}: {'…'.join(self.pieces)}"
 
     def contains(self, text: str) -> bool:
-        """Return whether `text` is a part of one fixed piece of this hint."""
+        """Return whether one of the fixed texts of this hint contains `text`."""
         return any(text in piece for piece in self.pieces)
 
 
@@ -45,13 +45,15 @@ def hints_of(chapter: str) -> list[Hint]:
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
-    """Return the hints that no header in `answers` quotes."""
+    """Return the hints from which no header in `answers` quotes a text."""
     shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
     return [hint for hint in hints if hint.pieces not in shown]
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the pieces of the hint that contains `text`, or an empty set if several hints contain it.
+    """Return the fixed texts of the hint that contains `text`.
+
+    If several hints contain it, return an empty set.
 
     If `text` is a whole hint, this hint is returned, even if other hints contain the text.
     """
@@ -60,7 +62,7 @@ def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
 
 
 def _strings(node: ast.AST) -> Iterator[tuple[int, tuple[str, ...]]]:
-    """Yield the line and the pieces of each string below `node` that may be a hint."""
+    """Yield the line and the fixed texts of each string below `node` that may be a hint."""
     match node:
         case ast.Expr(ast.Constant()) | ast.Raise() | ast.keyword("goal"):
             return

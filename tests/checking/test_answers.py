@@ -105,6 +105,8 @@ def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report:
     assert report.verdict is (Verdict.PASSED if answer.right else Verdict.FAILED), str(report)
     text = " ".join(str(report).split())
     assert [part for part in answer.quotes if part not in text] == []
+    full = PARTS[answer.check].points
+    assert report.points == full if answer.right else report.points < full
     if answer.right:
         stored = STORED[answer.check]
         assert str(report) == stored["text/plain"]
@@ -115,6 +117,7 @@ def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report:
 def test_blank_exercise_is_not_attempted(part: Part, report: Report) -> None:
     """A blank exercise is neither a failure nor an error: its result is "not attempted"."""
     assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
+    assert report.points == 0
 
 
 @pytest.mark.parametrize("part", PARTS.values(), ids=lambda part: part.check)

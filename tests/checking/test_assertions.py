@@ -1,4 +1,4 @@
-"""An assertion is reported once, the first failure ends the check, and hints match the actual value."""
+"""An assertion is reported once, the first failure ends the check, and hints depend on the actual value."""
 
 from __future__ import annotations
 
@@ -39,12 +39,15 @@ def test_same(expected: Json, seen: Json, near: float) -> None:
     ],
 )
 def test_not_same(expected: Json, seen: Json) -> None:
-    """True is not 1, an empty list is not an empty dict, and no value equals NaN."""
+    """True is not equal to 1, an empty list is not equal to an empty dict, and no value is equal to NaN."""
     assert not same(expected, seen, 1e-3)
 
 
 def test_hint_of_the_first_matching_condition() -> None:
-    """The first matching condition is used; a function that raises an exception does not match."""
+    """The hint of the first condition that holds is used.
+
+    A function that raises an exception does not hold.
+    """
     hints = [
         (3.5, "value"),
         (matches("boom.*bang"), "words"),
@@ -60,7 +63,10 @@ def test_hint_of_the_first_matching_condition() -> None:
 
 
 def test_assertion_is_reported_once_and_may_fail_later() -> None:
-    """An assertion about three inputs is reported in one line; it fails if one of the three inputs fails."""
+    """An assertion about three inputs is one line of the report.
+
+    It fails if it fails for one of the inputs.
+    """
     results = Results()
     results.passes("a")
     results.passes("b")

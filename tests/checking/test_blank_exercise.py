@@ -1,4 +1,4 @@
-"""An exercise is recognised as blank only if it is unchanged."""
+"""An exercise counts as blank only if the student has not changed it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from course_pkg.checking.plain_values import Value
 
 
 def made(source: str, name: str = "it", *, keep_source: bool = True) -> Value:
-    """Return the object that a cell with `source` defines; the source is stored as IPython stores it."""
+    """Return the object that a cell with `source` defines.
+
+    The source is stored in the same way as by IPython.
+    """
     file = f"<cell {hash(source)} {keep_source}>"
     if keep_source:
         linecache.cache[file] = (len(source), None, source.splitlines(keepends=True), file)
@@ -33,7 +36,7 @@ def made(source: str, name: str = "it", *, keep_source: bool = True) -> Value:
     ],
 )
 def test_stubs(source: str) -> None:
-    """An unchanged function, class or variable contains only a docstring and `...`."""
+    """If a function, class or variable was not changed, it contains only a docstring and `...`."""
     assert is_blank(made(source))
 
 
@@ -52,11 +55,11 @@ def test_stubs(source: str) -> None:
     ],
 )
 def test_attempts(source: str) -> None:
-    """Any code is an attempt, even code that does nothing."""
+    """Any other code is an attempt, even if the code does nothing."""
     assert not is_blank(made(source))
 
 
 def test_without_source_the_code_decides() -> None:
-    """If the source is not available, a function is blank if its code does nothing."""
+    """If the source is not available, a function counts as blank if its code does nothing."""
     assert is_blank(made("def it(x):\n    ...", keep_source=False))
     assert not is_blank(made("def it(x):\n    return x + 1", keep_source=False))

@@ -1,4 +1,4 @@
-"""The channel transports plain data within limits; any other data close it."""
+"""The channel transports plain data within limits; for any other data, it is closed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from course_pkg.errors import ChannelBroken, ChannelClosed, ChannelTimeout
 
 @pytest.fixture
 def ends() -> Iterator[tuple[Channel, socket.socket]]:
-    """Return the runner's channel, and the plain socket of a client that may send anything."""
+    """Return the runner's channel, and a socket through which a client may send anything."""
     ours, theirs = socket.socketpair()
     channel = Channel(ours)
     yield channel, theirs
@@ -25,7 +25,7 @@ def ends() -> Iterator[tuple[Channel, socket.socket]]:
 
 
 def test_an_answer_comes_back(ends: tuple[Channel, socket.socket]) -> None:
-    """A request is one line of JSON with a number, and the reply has the same number."""
+    """A request is one line of JSON with a number; the reply has the same number."""
     channel, client = ends
     client.sendall(b'{"answer": 1, "value": [1, 2.5, null]}\n')
     assert channel.ask("read", timeout=1.0, name="x")["value"] == [1, 2.5, None]
@@ -33,7 +33,7 @@ def test_an_answer_comes_back(ends: tuple[Channel, socket.socket]) -> None:
 
 
 def test_lines_arrive_in_pieces(ends: tuple[Channel, socket.socket]) -> None:
-    """A line may arrive in several pieces, and two lines may arrive together."""
+    """A line may arrive in several parts, and two lines may arrive together."""
     channel, client = ends
     client.sendall(b'{"a": 1}\n{"b"')
     assert channel.receive(1.0) == {"a": 1}
@@ -55,7 +55,7 @@ def test_lines_arrive_in_pieces(ends: tuple[Channel, socket.socket]) -> None:
     ],
 )
 def test_invalid_line_closes_the_channel(ends: tuple[Channel, socket.socket], line: bytes) -> None:
-    """A line is not a reply if it is not JSON, not an object, a reply to another request, or an error."""
+    """A line is not a valid reply if it is no JSON object, belongs to another request, or is an error."""
     channel, client = ends
     client.sendall(line)
     with pytest.raises(ChannelBroken):
@@ -63,7 +63,7 @@ def test_invalid_line_closes_the_channel(ends: tuple[Channel, socket.socket], li
 
 
 def _flood(client: socket.socket) -> None:
-    with suppress(OSError):  # the runner closes the channel
+    with suppress(OSError):  # the check runner closes the channel
         client.sendall(b"x" * 4 * LIMIT)
 
 

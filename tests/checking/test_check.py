@@ -38,7 +38,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @contextmanager
 def program(cells: str, state: Path, **env: str) -> Iterator[subprocess.Popen[str]]:
-    """Run cells as a program, after the set-up that every notebook has."""
+    """Run cells as a program, after the same set-up as in a notebook."""
     setup = """
     import sys
     import threading
@@ -75,7 +75,7 @@ def check_runners(master: PrivateMaster) -> list[str]:
 
 
 def record(state: Path) -> dict[str, Json]:
-    """Return the record of part 05.1."""
+    """Return the student's record of part 05.1."""
     kept: dict[str, Json] = json.loads((state / "results-2" / "05.1.json").read_text("utf-8"))
     return kept
 
@@ -92,7 +92,7 @@ def test_pass_has_the_same_text_each_time_and_is_recorded(master: PrivateMaster,
 
 
 def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
-    """COURSE_SEED with the seed of a record repeats a failure."""
+    """If COURSE_SEED is the seed in a record, the same failure occurs again."""
     cells = '    node.serve("/getGeometry", geometry, lambda r: (r.length, 0))\n    handle_geometry = 1\n'
     cells += '    print(check("05.1"))'
     first = output(cells, tmp_path)
@@ -119,12 +119,15 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
     ],
 )
 def test_report_says_what_to_do_first(tmp_path: Path, cells: str, words: str) -> None:
-    """The report contains what to do, without a traceback."""
+    """The report says what the student should do, and contains no traceback."""
     assert words in output(cells, tmp_path)
 
 
 def test_the_topics_of_a_check_end_with_it(master: PrivateMaster, tmp_path: Path) -> None:
-    """The check removes a subscription that the student's function made, but not an earlier subscription."""
+    """The check removes a subscription that the student's function made during the check.
+
+    An earlier subscription stays.
+    """
     cells = """
     import time
     from std_msgs.msg import UInt32
@@ -147,7 +150,7 @@ def test_the_topics_of_a_check_end_with_it(master: PrivateMaster, tmp_path: Path
 
 
 def test_the_check_runner_ends_with_a_killed_kernel(master: PrivateMaster, tmp_path: Path) -> None:
-    """If the kernel is killed during a check, no check runner stays on the graph."""
+    """If the kernel is killed during a check, the check runner also leaves the graph."""
     with program(HANG + '    check("05.1")', tmp_path) as process:
         eventually(lambda: check_runners(master))
         process.send_signal(signal.SIGKILL)
@@ -156,7 +159,7 @@ def test_the_check_runner_ends_with_a_killed_kernel(master: PrivateMaster, tmp_p
 
 
 def test_an_interrupt_ends_the_check_and_the_check_runner(master: PrivateMaster, tmp_path: Path) -> None:
-    """The cell ends immediately, the program continues, and no check runner stays on the graph."""
+    """The cell ends at once, the program continues, and the check runner leaves the graph."""
     cells = HANG + (
         "    try:\n"
         '        check("05.1")\n'

@@ -1,4 +1,7 @@
-"""check() in a notebook's kernel: plain rospy, older versions, and functions that do not end."""
+"""check() in a notebook's kernel.
+
+The cells use plain rospy, older versions of code, and functions that do not end.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +42,7 @@ class Switch:
 
 @pytest.fixture
 def notebook(master: PrivateMaster, tmp_path: Path) -> Iterator[NotebookKernel]:
-    """A kernel that has joined the graph, with a separate folder for the student's record."""
+    """Return a kernel that is a node, with a separate folder for the student's record."""
     with NotebookKernel({"COURSE_STATE": str(tmp_path)}) as kernel:
         assert not kernel.run(SETUP, "setup").ename
         yield kernel
@@ -53,7 +56,7 @@ def report(notebook: NotebookKernel, part: str = "05.1") -> str:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """A check that creates a second object passes, and the student's object continues to serve."""
+    """If a check creates a second object of the class, it passes, and the student's object still serves."""
     notebook.run(SWITCH, "class")
     notebook.run("switch = Switch()", "object")
     for _ in range(2):
@@ -63,7 +66,7 @@ def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
 
 
 def test_syntax_error_in_the_new_version(notebook: NotebookKernel) -> None:
-    """The old handler still answers: the report contains this, and the corrected cell passes."""
+    """The old handler still runs: the report says so, and the corrected cell passes."""
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
     assert report(notebook).startswith("05.1 passed")
@@ -78,7 +81,7 @@ def test_syntax_error_in_the_new_version(notebook: NotebookKernel) -> None:
 
 
 def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
-    """The cell of the handler ran again, but the cell that creates the service did not."""
+    """The cell with the handler ran again, but not the cell that creates the service."""
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
     notebook.run(HANDLER.replace("area *", "2 * area *"), "handler")
@@ -92,7 +95,7 @@ def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
 
 
 def test_handler_that_did_not_change(notebook: NotebookKernel) -> None:
-    """Another part of the handler's cell changed, so the running handler is not an older version."""
+    """Only another part of the handler's cell has changed, so the running handler is not an older version."""
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
     notebook.run(HANDLER + "print('ready')", "handler")
@@ -100,7 +103,7 @@ def test_handler_that_did_not_change(notebook: NotebookKernel) -> None:
 
 
 def test_function_that_its_cell_no_longer_defines(notebook: NotebookKernel) -> None:
-    """The student renamed the function, so the old name still belongs to the former version."""
+    """The student has renamed the function; the old name still refers to the earlier version."""
     notebook.run(HANDLER, "handler")
     notebook.run(HANDLER.replace("handle_geometry", "handle_box"), "handler")
     assert "which does not define it" in " ".join(report(notebook).split())
@@ -120,7 +123,7 @@ def count_missed(topic, pause):
 
 
 def test_function_that_never_ends(notebook: NotebookKernel) -> None:
-    """In a loop with a bare except, the deadline ends the check."""
+    """If a function has a loop with a bare `except`, the deadline still ends the check."""
     notebook.run(ENDLESS, "count_missed")
     started = time.monotonic()
     text = report(notebook, "00.3")
@@ -130,7 +133,7 @@ def test_function_that_never_ends(notebook: NotebookKernel) -> None:
 
 
 def test_stop_button_during_such_a_function(notebook: NotebookKernel, tmp_path: Path) -> None:
-    """The Stop button ends the check, and the kernel still works."""
+    """The Stop button ends the check, and the kernel continues to work."""
     begun = tmp_path / "begun"
     notebook.run(
         ENDLESS.replace("    measure(", f"    open({str(begun)!r}, 'w').close()\n    measure("),
@@ -145,7 +148,7 @@ def test_stop_button_during_such_a_function(notebook: NotebookKernel, tmp_path: 
 
 
 def test_errors_of_a_handler_are_in_the_report(notebook: NotebookKernel) -> None:
-    """An error of the handler during a check is shown with the report, not below another cell."""
+    """If a handler raises an error during a check, it is shown in the report, and not below another cell."""
     notebook.run(HANDLER.replace("request.width *", "request.wide *"), "handler")
     notebook.run(SERVICE, "service")
     shown = notebook.run("result = check('05.1')\nresult.printed")
@@ -155,7 +158,7 @@ def test_errors_of_a_handler_are_in_the_report(notebook: NotebookKernel) -> None
 
 
 def test_check_leaves_nothing(notebook: NotebookKernel) -> None:
-    """Everything that the student's code creates during a check ends with the check, without printed text."""
+    """Everything that the student's code creates during a check is removed at the end; nothing is printed."""
     notebook.run(SWITCH, "class")
     notebook.run("switch = Switch()", "object")
     shown = notebook.run("passed = check('05.4')", "check")

@@ -9,15 +9,17 @@ from pathlib import Path
 import pytest
 
 from course_pkg import chapters
+from course_pkg.checking.client import TIMEOUT
 from course_pkg.checking.parts import Part, every_part, find, folder_of, folders_for, parts_of
 from course_pkg.checking.parts import chapters as numbers
 from course_pkg.errors import UnknownCheck
+from course_pkg.waiting import MOST
 from tests.selection import chapter_paths
 
-COMPILED = ("13.", "14.")  # a compiler runs before the check, possibly on a busy machine
-# Deadlines in s. A check that builds a package and runs it six times needs 9 s of processor time; a check
-# that compiles six programs needs 25 s. Grading runs two submissions for each core. At a load of 15 on two
-# cores, 60 s were not enough.
+COMPILED = ("13.", "14.")  # a compiler runs before the check, and the machine may be busy
+# Deadlines in s. A check that builds a package and runs it six times needs 9 s of CPU time; a check that
+# compiles six programs needs 25 s. During grading, two submissions run for each core. With 15 running
+# processes on two cores, 60 s were not enough.
 USUAL, BUILT = 60, 180
 
 
@@ -28,14 +30,14 @@ def test_an_unknown_id_gets_the_closest_ones() -> None:
 
 
 def test_ids_are_unique_and_belong_to_their_chapter() -> None:
-    """Each id belongs to one part, and the part's chapter declares it."""
+    """Each id belongs to exactly one part, and the chapter of this part declares it."""
     ids = [part.check for part in every_part()]
     assert len(ids) == len(set(ids))
     assert all(part.check.startswith("05.") for part in parts_of("05"))
 
 
 def test_every_part_has_points_and_a_goal() -> None:
-    """A part has points, a goal of one sentence, the names that it needs, and an acceptable deadline."""
+    """Each part has points, a goal of one sentence, the names that it needs, and a sensible deadline."""
     for part in every_part():
         assert part.points > 0
         assert part.goal.endswith(".")
@@ -45,7 +47,7 @@ def test_every_part_has_points_and_a_goal() -> None:
 
 
 def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:
-    """The package of a chapter exports every part in its modules."""
+    """The package of a chapter exports all parts in its modules."""
     checks = [f"{chapters.__name__}.{folder_of(number).name}.checks" for number in numbers()]
     modules = [
         importlib.import_module(found.name)
@@ -60,9 +62,9 @@ def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:
 
 
 def test_a_chapter_depends_on_those_that_it_imports_from() -> None:
-    """Chapter 14 runs checks of chapter 09, which run checks of chapter 07.
+    """Chapter 14 uses checks of chapter 09, and these use checks of chapter 07.
 
-    An unknown chapter is not an error.
+    For an unknown chapter, there is no error.
     """
     needed = {number: [folder.name[2:4] for folder in folders_for(number)] for number in numbers()}
     assert needed["14"] == ["07", "09", "14"]
@@ -72,7 +74,7 @@ def test_a_chapter_depends_on_those_that_it_imports_from() -> None:
 
 
 def test_imports_are_followed_in_each_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An import from another chapter is found in a module in a subfolder and in a function, too."""
+    """An import from another chapter is also found in a subfolder's module and inside a function."""
     texts = {
         "ch01_one": "def f():\n    from course_pkg.chapters.ch02_two.checks import g\n",
         "ch02_two": "import course_pkg.chapters.ch03_three\n# from course_pkg.chapters.ch05_five import h\n",
@@ -95,3 +97,8 @@ def test_tests_of_a_chapter_depend_on_what_it_imports() -> None:
     assert names == {"ch07", "ch09", "ch14", "14_d"}
     assert {Path(path).name[:4] for path in chapter_paths("05")} == {"ch05", "05_w"}
     assert set(chapter_paths("")) > set(chapter_paths("14")) | set(chapter_paths("05"))
+
+
+def test_check_client_waits_longer_than_every_deadline() -> None:
+    """The kernel does not end before the check, even if it receives no message until the deadline."""
+    assert max(part.deadline for part in every_part()) * MOST < TIMEOUT

@@ -1,4 +1,4 @@
-"""Objects of the check runner that the kernel uses through proxies."""
+"""The kernel uses objects of the check runner through proxies."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from course_pkg.checking.placed.host import CALLS, CONNECTIONS, LIMIT, PlacedObj
 from course_pkg.checking.plain_values import Value
 from course_pkg.waiting import wait_until
 
-SOON = 10.0  # s on a busy machine
+SOON = 10.0  # maximum time in s for a reaction on a busy machine
 
 
 class Stuck(Exception):
-    """An error that the kernel does not know."""
+    """An error class that the kernel does not know."""
 
 
 class Drawer:
-    """An object of a check."""
+    """An object that a check places into the kernel."""
 
     def __init__(self) -> None:
         self.things = 0
@@ -45,7 +45,7 @@ class Drawer:
 
     @remote
     def meet(self) -> int:
-        """Wait until three threads are here."""
+        """Wait until three threads have called this method."""
         return self.together.wait(SOON)
 
     @remote
@@ -82,31 +82,31 @@ class Drawer:
         return 7
 
     def close(self) -> None:
-        """End the calls that wait."""
+        """End the waiting calls."""
         self.closed.set()
 
 
 @pytest.fixture
 def placed() -> Iterator[PlacedObjects]:
-    """Return the check runner's end of the proxies."""
+    """Return the check runner's side of the proxies."""
     with PlacedObjects() as placed:
         yield placed
 
 
 @pytest.fixture
 def drawer() -> Drawer:
-    """Return an object of a check."""
+    """Return an object that a check places into the kernel."""
     return Drawer()
 
 
 def proxy(placed: PlacedObjects, item: object) -> Value:
-    """Return a proxy for `item`."""
+    """Return a proxy for the object `item`."""
     where = placed.place(item)
     return ObjectProxies(int(str(where["port"])), str(where["key"])).proxy(dict(where["item"]))  # type: ignore[arg-type]
 
 
 def connect(placed: PlacedObjects, *, key: str = "") -> socket.socket:
-    """Return a socket that has sent the right key, or the given key."""
+    """Return a socket that has sent the right key, or the key `key`."""
     where = placed.place(Drawer())
     sock = socket.create_connection(("127.0.0.1", int(str(where["port"]))), timeout=SOON)
     sock.sendall(json.dumps({"key": key or where["key"]}).encode() + b"\n")
@@ -114,7 +114,7 @@ def connect(placed: PlacedObjects, *, key: str = "") -> socket.socket:
 
 
 def ended(sock: socket.socket) -> bool:
-    """Return whether the other end closes the connection without a reply."""
+    """Return whether the check runner closes the connection without a reply."""
     try:
         return sock.recv(1000) == b""
     except ConnectionError:
@@ -122,7 +122,7 @@ def ended(sock: socket.socket) -> bool:
 
 
 def test_methods_and_attributes_are_those_of_the_real_object(placed: PlacedObjects, drawer: Drawer) -> None:
-    """A call, a read and a write reach the object, with positional and named arguments."""
+    """A call, a read and a write reach the real object; arguments may be positional or named."""
     other = proxy(placed, drawer)
     assert other.add(2) == 2
     assert other.add(count=1, twice=True) == 4
@@ -132,7 +132,7 @@ def test_methods_and_attributes_are_those_of_the_real_object(placed: PlacedObjec
 
 
 def test_only_remote_attributes_exist(placed: PlacedObjects, drawer: Drawer) -> None:
-    """An attribute without @remote cannot be used through the proxy, nor through the connection."""
+    """An attribute without @remote cannot be used, either through the proxy or through the connection."""
     other = proxy(placed, drawer)
     with pytest.raises(AttributeError, match="'Drawer' object has no attribute 'hidden'"):
         _ = other.hidden
@@ -160,7 +160,7 @@ def test_a_changed_class_changes_nothing_in_the_real_object(placed: PlacedObject
 
 
 def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: Drawer) -> None:
-    """A built-in error has its built-in class; any other error gets a new class with the same name."""
+    """A built-in error keeps its class; for any other error, there is a new class with the same name."""
     other = proxy(placed, drawer)
     with pytest.raises(KeyError, match="the drawer is stuck"):
         other.stick("known")
@@ -174,13 +174,13 @@ def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: D
 
 
 def test_an_object_that_is_returned_is_a_proxy(placed: PlacedObjects, drawer: Drawer) -> None:
-    """An object that a remote method returns stays in the check runner, and the kernel gets a proxy."""
+    """If a remote method returns an object, it stays in the check runner, and the kernel gets a proxy."""
     other = proxy(placed, drawer)
     assert other.itself() is other
 
 
 def test_each_thread_has_its_own_thread_in_the_check_runner(placed: PlacedObjects, drawer: Drawer) -> None:
-    """Each thread of the kernel has its own thread in the check runner, and both end together."""
+    """For each thread of the kernel, there is a thread in the check runner, and both end together."""
     other = proxy(placed, drawer)
     with ThreadPoolExecutor(3) as pool:
         assert sorted(pool.map(lambda _: other.meet(), range(3))) == [0, 1, 2]
@@ -209,7 +209,7 @@ def test_each_thread_has_its_own_thread_in_the_check_runner(placed: PlacedObject
 def test_a_malformed_line_ends_its_connection_only(
     placed: PlacedObjects, drawer: Drawer, line: bytes
 ) -> None:
-    """A line that no proxy sends, or that is too long, ends its connection; other connections still work."""
+    """If a line is invalid or too long, its connection ends; other connections still work."""
     other = proxy(placed, drawer)
     with connect(placed) as sock:
         sock.sendall(line)
@@ -225,7 +225,7 @@ def test_another_key_is_refused(placed: PlacedObjects) -> None:
 
 
 def test_connections_and_calls_are_limited(placed: PlacedObjects, drawer: Drawer) -> None:
-    """More connections or calls than a check needs are refused."""
+    """Connections and calls are refused if there are more than a check needs."""
     other = proxy(placed, drawer)
     socks = [connect(placed) for _ in range(CONNECTIONS)]
     assert wait_until(lambda: len(placed._open) == CONNECTIONS, SOON)
@@ -241,7 +241,10 @@ def test_connections_and_calls_are_limited(placed: PlacedObjects, drawer: Drawer
 
 
 def test_a_call_that_waits_ends_with_the_check(drawer: Drawer) -> None:
-    """A waiting call and each later call raise an error, and no thread is left in the check runner."""
+    """At the end, a waiting call and all later calls raise an error.
+
+    No thread is left in the check runner.
+    """
     before = threading.active_count()
     with ThreadPoolExecutor(1) as pool:
         with PlacedObjects() as placed:
@@ -255,7 +258,7 @@ def test_a_call_that_waits_ends_with_the_check(drawer: Drawer) -> None:
 
 
 def test_a_killed_kernel_leaves_no_thread(placed: PlacedObjects, drawer: Drawer) -> None:
-    """After the kernel is killed, its connections are closed, and no thread is left."""
+    """When the kernel is killed, its connections are closed, and no thread is left."""
     where = placed.place(drawer)
     program = (
         "from course_pkg.checking.kernel.object_proxy import ObjectProxies\n"
@@ -270,7 +273,7 @@ def test_a_killed_kernel_leaves_no_thread(placed: PlacedObjects, drawer: Drawer)
 
 
 def test_an_interrupted_call_does_not_spoil_the_next_one(placed: PlacedObjects, drawer: Drawer) -> None:
-    """After an interrupted call, the next call gets its own reply."""
+    """After a call was interrupted, the next call gets its own reply."""
     other = proxy(placed, drawer)
 
     def interrupt(*_: object) -> None:

@@ -1,4 +1,4 @@
-"""Each value of a student's code is converted to plain data."""
+"""Each value of the student's code can be converted to plain data."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Everything(float):
 
 
 class Colour(enum.IntEnum):
-    """A number that is an enumeration member."""
+    """A number that is also a member of an enumeration."""
 
     RED = 3
 
@@ -49,22 +49,22 @@ class Colour(enum.IntEnum):
     ],
 )
 def test_values_become_plain(value: Value, expected: Json) -> None:
-    """Messages become dicts, sequences become lists, NumPy numbers become numbers.
+    """A message becomes a dict, a sequence becomes a list, and a NumPy number becomes a number.
 
-    Other values become the name of their type.
+    Any other value becomes the name of its type.
     """
     assert plain(value) == expected
     json.dumps(plain(value))
 
 
 def test_number_with_a_wrong_eq_becomes_a_plain_number() -> None:
-    """A number with a wrong __eq__ becomes a plain number, which compares correctly."""
+    """A number whose __eq__ is wrong becomes a plain number, so that it is compared correctly."""
     assert type(plain(Everything(3.0))) is float
     assert plain(Everything(3.0)) != 4.0
 
 
 def test_endless_values_are_cut() -> None:
-    """A list that contains itself is cut, and a long string is cut."""
+    """A list that contains itself is cut off, and a long string is cut off."""
     endless: list[Value] = []
     endless.append(endless)
     assert "nested too deeply" in json.dumps(plain(endless))

@@ -1,4 +1,4 @@
-"""The student's own record: no result is lost, and a check works without a record."""
+"""The student's own record: no result is lost, and a check also works without a record."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def record(tmp_path: Path) -> StudentRecord:
 
 
 def test_a_pass_stays_a_pass(record: StudentRecord) -> None:
-    """If a later check fails or cannot run, only the last result changes, and the part stays passed."""
+    """If a later check fails or cannot run, only the last result changes; the part is still passed."""
     assert record.store("05.1", FAILED) == ""
     first, _ = record.read(["05.1"])
     assert (first["05.1"].verdict, first["05.1"].passed, first["05.1"].checks) == ("not yet", "", 1)
@@ -67,7 +67,7 @@ def test_a_pass_stays_a_pass(record: StudentRecord) -> None:
     "content", ["", "{", "[]", '{"check": "05.1"}', '{"check": "05.2"}', "\udcff", "9" * 5000, "[" * 100_000]
 )
 def test_a_damaged_file_is_kept_and_named(record: StudentRecord, content: str) -> None:
-    """A reader gets one message; the next check stores its result next to the damaged file."""
+    """A reader gets one message; the next check stores its result, and the damaged file is kept."""
     record.folder.mkdir(parents=True)
     path = record.folder / "05.1.json"
     damaged = content.encode("utf-8", "surrogateescape")
@@ -86,7 +86,7 @@ def test_a_damaged_file_is_kept_and_named(record: StudentRecord, content: str) -
 def test_second_damaged_file_replaces_no_file(record: StudentRecord) -> None:
     """Each damaged file gets a new name.
 
-    A folder in the place of a file is treated in the same way.
+    A folder with the name of a file is treated in the same way.
     """
     record.folder.mkdir(parents=True)
     path = record.folder / "05.1.json"
@@ -100,7 +100,7 @@ def test_second_damaged_file_replaces_no_file(record: StudentRecord) -> None:
 
 
 def test_many_damaged_files_are_one_message(record: StudentRecord) -> None:
-    """A folder that cannot be read, or a hundred damaged files, lead to one short message."""
+    """If the folder cannot be read, or if a hundred files are damaged, there is one short message."""
     record.folder.parent.mkdir()
     record.folder.write_text("a file in the place of the folder")
     checks = [f"05.{number}" for number in range(1, 100)]
@@ -111,7 +111,7 @@ def test_many_damaged_files_are_one_message(record: StudentRecord) -> None:
 
 
 def test_kernels_that_check_at_the_same_time_lose_nothing(record: StudentRecord) -> None:
-    """Three programs store 30 results each: all of them are counted, and no temporary file is left."""
+    """Three programs store 30 results each: all results are counted, and no temporary file is left."""
     programs = [subprocess.Popen([sys.executable, "-c", MANY, record.folder]) for _ in range(3)]
     assert [program.wait(60) for program in programs] == [0, 0, 0]
     assert record.read(["05.1"])[0]["05.1"].checks == 90
@@ -119,7 +119,7 @@ def test_kernels_that_check_at_the_same_time_lose_nothing(record: StudentRecord)
 
 
 def test_lock_that_is_not_released_leads_to_a_message(record: StudentRecord) -> None:
-    """If a program does not release the lock, the check continues with a message."""
+    """If another program does not release the lock, the check continues and adds a message."""
     with locked(record.folder), pytest.raises(TimeoutError), locked(record.folder, timeout=0.0):
         pass
     with locked(record.folder):
@@ -129,7 +129,7 @@ def test_lock_that_is_not_released_leads_to_a_message(record: StudentRecord) -> 
 
 
 def test_full_disk_leads_to_a_message(tmp_path: Path) -> None:
-    """On a full disk, the earlier result stays, and the message explains why the new one is missing."""
+    """If the disk is full, the earlier result stays, and the message says why the new one is missing."""
     if not shutil.which("bwrap"):
         pytest.skip("bubblewrap makes the small disk")
     small = ["bwrap", "--dev-bind", "/", "/", "--size", "8192", "--tmpfs", str(tmp_path)]
@@ -153,7 +153,10 @@ def test_a_check_reports_a_problem_with_its_record_and_still_counts(tmp_path: Pa
 
 @pytest.mark.usefixtures("master")
 def test_check_without_a_record_still_passes(tmp_path: Path) -> None:
-    """If the state folder cannot be made, the check still passes, and its report contains the folder."""
+    """If the state folder cannot be created, the check still passes.
+
+    Its report contains the path of the folder.
+    """
     (tmp_path / "file").write_text("")
     out = output(SERVE + '    print(check("05.1"))', tmp_path / "file")
     assert out.startswith("05.1 passed: 2 of 2 points")

@@ -1,4 +1,4 @@
-"""Several sandbox workers at the same time, because an answer often waits for nodes and messages."""
+"""Several sandbox workers that work at the same time. An answer often waits for nodes and messages."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class WorkerPool:
             worker.close()
 
     def submit(self, jobs: Iterable[PartJob]) -> None:
-        """Queue the jobs that are not in the queue yet; the jobs with the longest deadlines come first."""
+        """Add the jobs to the queue that are not in it yet; jobs with long deadlines come first."""
         for job in sorted(jobs, key=lambda each: -each.deadline):
             if job not in self._futures:
                 self._futures[job] = self._threads.submit(self._run, job)
 
     def result(self, job: PartJob) -> PartResult:
-        """Wait until `job` ends, and return its result."""
+        """Wait for the end of `job`, and return its result."""
         self.submit([job])
         return self._futures[job].result()
 

@@ -1,4 +1,4 @@
-"""Made-up grades of a class, some of them with harmful texts."""
+"""Invented grades of a class; some contain harmful texts."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ NASTY = "\x1b[31m<script>alert(1)</script>\x00\u202e=HYPERLINK(1)]]>&\ud800\ufff
 
 
 def report(check: str, verdict: Verdict = Verdict.PASSED, **more: object) -> Report:
-    """Return a report on one part."""
+    """Return a report about one part."""
     possible = POINTS.get(check, 2)
     rules = [
         Assertion("the service is there", True),

@@ -1,4 +1,4 @@
-"""Makes submissions in all layouts from the real notebooks."""
+"""Makes submissions in all layouts; they are made from the real notebooks."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def handed_out(chapter: str = "05") -> Notebook:
 
 
 def raw(notebook: Notebook) -> bytes:
-    """Return the bytes of a notebook's file."""
+    """Return the content of a notebook's file as bytes."""
     return json.dumps(notebook).encode()
 
 

@@ -1,4 +1,4 @@
-"""Catkin packages as students hand them in."""
+"""Catkin packages in the form in which students hand them in."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NO_SERVER = "#!/usr/bin/env python3\nimport rospy\n\nrospy.init_node('SERVER_NOD
 
 
 def my_geometry(changes: Mapping[str, str] | None = None) -> dict[str, bytes]:
-    """Return the package my_geometry of chapter 07's solution, with `changes` by path."""
+    """Return the package my_geometry of chapter 07's solution; `changes` maps paths to new contents."""
     files = dict(MY_GEOMETRY.files)
     for cell in code_cells(reference("07")):
         first, _, text = cell["source"].partition("\n")
@@ -34,7 +34,7 @@ def write_package(root: Path, place: str, files: Mapping[str, bytes]) -> Path:
 
 
 def work_files(files: Mapping[str, bytes], name: str = "my_geometry") -> tuple[WorkFile, ...]:
-    """Return the files of a package in the form that a job needs."""
+    """Return the files of a package as a job needs them."""
     return tuple(
         work_file(f"src/{name}/{path}", content, executable=is_script(path))
         for path, content in files.items()

@@ -1,4 +1,4 @@
-"""Submissions to grade: the solution of a chapter with a student's answers."""
+"""Submissions for grading: a chapter's solution with a student's answers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
 def hand_in(
     folder: Path, student: str, chapter: str = "05", answers: Mapping[str, str] | None = None
 ) -> Path:
-    """Write `student`'s copy of a chapter's solution, with `answers` by part; "" leaves a cell blank."""
+    """Write a student's copy of a chapter's solution; `answers` are by part, and "" leaves a cell blank."""
     notebook = reference(chapter)
     for cell in code_cells(notebook):
         part = exercise_of(cell)

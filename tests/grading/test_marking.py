@@ -13,7 +13,6 @@ from course_pkg.authoring.cells import code_cells
 from course_pkg.checking.parts import chapters
 from course_pkg.checking.report import Verdict
 from course_pkg.errors import WorkerFailed
-from course_pkg.grading.extras import Extras
 from course_pkg.grading.grade import Grade, Submission
 from course_pkg.grading.marking import mark
 from course_pkg.grading.plan import plan
@@ -59,7 +58,7 @@ def worker() -> Iterator[SandboxWorker]:
 def graded(worker: SandboxWorker, path: Path, chapter: str = "05") -> Grade:
     """Return the grade of the notebook at `path`."""
     submission = Submission("s01", chapter, path.read_bytes(), path.name)
-    return mark(submission, plan(chapter), Extras(), worker.run, "secret", "key", sandboxed=True)
+    return mark(submission, plan(chapter), worker.run, "secret", "key", sandboxed=True)
 
 
 @pytest.mark.parametrize(
@@ -106,7 +105,7 @@ def test_a_worker_that_fails_costs_no_points(worker: SandboxWorker, tmp_path: Pa
         return worker.run(job)
 
     submission = Submission("s01", "05", hand_in(tmp_path, "s01").read_bytes(), "05.ipynb")
-    grade = mark(submission, plan("05"), Extras(), run, "secret", "key", sandboxed=True)
+    grade = mark(submission, plan("05"), run, "secret", "key", sandboxed=True)
     verdicts = [report.verdict for report in grade.reports]
     assert verdicts == [Verdict.PASSED, Verdict.UNDECIDED, *[Verdict.PASSED] * 3]
     store = Store(tmp_path)
@@ -122,7 +121,7 @@ def test_a_student_cannot_choose_not_examined(worker: SandboxWorker, tmp_path: P
     path = hand_in(tmp_path, "s01", answers={"05.1": BREAKERS[breaker]})
     submission = Submission("s01", "05", path.read_bytes(), path.name)
     first = replace(plan("05"), parts=plan("05").parts[:1])
-    grade = mark(submission, first, Extras(), worker.run, "secret", "key", sandboxed=True)
+    grade = mark(submission, first, worker.run, "secret", "key", sandboxed=True)
     (broken,) = grade.reports
     assert (broken.verdict, broken.points, broken.possible) == (Verdict.FAILED, 0, 2)
     assert broken.goal

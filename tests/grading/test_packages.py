@@ -53,7 +53,7 @@ def graded(root: Path, planned: Plan, run: Jobs | SandboxWorker) -> Grade:
     """Return the grade of the only submission below `root`."""
     [submission] = submissions(root)
     work = run.run if isinstance(run, SandboxWorker) else run
-    return mark(submission, planned, Extras(), work, "secret", "key", sandboxed=True)
+    return mark(submission, planned, work, "secret", "key", sandboxed=True)
 
 
 def verdicts(grade: Grade) -> dict[str, Verdict]:

@@ -18,6 +18,7 @@ from course_pkg.checking.report import Verdict
 from course_pkg.errors import GradingError
 from course_pkg.grading.grade import CellOutcome, Grade
 from course_pkg.grading.reports import read_grades, record_path, write_record, write_reports
+from course_pkg.grading.reports.asked import Asked, Column
 from course_pkg.grading.reports.gradebook import WITHOUT_SANDBOX, Book, attention
 from tests.grading.grades import HINTS, NASTY, class_of, nasty, refused, report
 
@@ -229,6 +230,27 @@ def test_the_class_page(tmp_path: Path) -> None:
     assert counts == sorted(counts, reverse=True)
     assert "05_write_a_server.ipynb was not graded" in page
     assert "feedback/s31.html" in [link["href"] for link in outline.all("a")]
+
+
+def test_what_was_asked_for_counts_as_possible(tmp_path: Path) -> None:
+    """A chapter counts even if a student, or everybody, did not hand it in; see README for exceptions."""
+    five, six = (Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06"))
+    gone = replace(five, student="s03", absent=True)
+    asked = Asked(
+        frozenset({"05", "06", "07"}),
+        (Column("07.1", "07", "", 3), Column("08.1", "08", "", 5)),
+        lambda student, chapter: chapter != "08" or student == "s04",
+    )
+    grades = [five, six, replace(five, student="s02"), gone, replace(five, student="s04")]
+    write_reports(grades, tmp_path, asked=asked)
+    head, *rows = _rows(tmp_path / "grades.csv")
+    possible = {row[0]: row[head.index("possible")] for row in rows}
+    assert possible == {"s01": "7", "s02": "7", "s03": "2", "s04": "12"}
+    page = (tmp_path / "feedback" / "s02.html").read_text()
+    assert "2 of 7 points" in page
+    assert "Nothing was handed in for chapters 06, 07." in page
+    assert "06" not in (tmp_path / "feedback" / "s03.html").read_text()
+    assert "Chapter 07" not in (tmp_path / "canvas.csv").read_text()
 
 
 def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:

@@ -17,7 +17,7 @@ CHECKOUT = Places.of().checkout
 
 @pytest.fixture
 def checkout(tmp_path: Path) -> Path:
-    """Copy the solutions and the fixtures of the course."""
+    """Copy the solutions and the fixtures of the course into a new checkout."""
     for path in [*CHECKOUT.glob("solutions/*.ipynb"), *CHECKOUT.glob("course_pkg/chapters/*/fixtures.py")]:
         copy = tmp_path / path.relative_to(CHECKOUT)
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -26,7 +26,7 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def test_everything_is_there(checkout: Path) -> None:
-    """With a complete checkout, grading can start."""
+    """If nothing is missing, grading can start."""
     require_references(root=checkout)
 
 
@@ -34,7 +34,7 @@ def test_everything_is_there(checkout: Path) -> None:
     "missing", ["solutions/05_write_a_server.ipynb", "course_pkg/chapters/ch05_write_a_server/fixtures.py"]
 )
 def test_a_missing_file_is_named(checkout: Path, missing: str) -> None:
-    """The message names the file; other chapters can be graded."""
+    """The message contains the file; other chapters can be graded."""
     (checkout / missing).unlink()
     with pytest.raises(GradingError, match=f"Nothing was graded.*missing: {missing}\\. .*--chapters"):
         require_references(root=checkout)

@@ -60,6 +60,15 @@ def test_at_the_beginning_the_first_chapter_is_next() -> None:
 
 
 @pytest.mark.usefixtures("state")
+def test_fulfilled_goals_are_counted() -> None:
+    """A part that has not passed has the points of its last check."""
+    StudentRecord().store("05.3", {"check": "05.3", "verdict": "not yet", "points": 1.5})
+    shown = progress("05")
+    assert str(shown).startswith("Chapter 05, Write a server: 0 of 5 parts passed, 1.5 of 11 points")
+    assert "1.5 of 2" in shown._repr_mimebundle_()["text/html"]
+
+
+@pytest.mark.usefixtures("state")
 def test_parts_points_and_predictions_are_counted() -> None:
     """The overview counts parts that have passed once.
 

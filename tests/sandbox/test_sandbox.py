@@ -211,6 +211,23 @@ def test_it_has_no_privileges_and_sees_only_its_own_processes(worker: SandboxWor
     assert words == "RuntimeError: [0, 0, 0, 0, 1, 2, True, 1000, 'classroom']"
 
 
+def test_an_answer_can_start_many_threads(worker: SandboxWorker) -> None:
+    """The limit of the address space leaves room for 50 threads that wait, such as 50 calls of a handler."""
+    words = told(
+        worker,
+        """
+        import threading
+        over = threading.Event()
+        threads = [threading.Thread(target=over.wait, args=[9.0], daemon=True) for _ in range(50)]
+        for thread in threads:
+            thread.start()
+        over.set()
+        raise RuntimeError(f"{len(threads)} threads")
+        """,
+    )
+    assert words == "RuntimeError: 50 threads"
+
+
 def test_the_previous_answer_is_not_in_memory(worker: SandboxWorker) -> None:
     """The next student's process does not have the previous answer in its memory."""
     text = "\n".join(f"x{number} = 'QUAG' 'GA_{number:06}_OF_ONE'" for number in range(400))

@@ -10,7 +10,20 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 SUBCOMMANDS = (
-    *("lab", "run", "test", "sync", "grade", "grade-one", "release", "collect", "progress", "site", "doctor"),
+    *(
+        "lab",
+        "run",
+        "test",
+        "sync",
+        "grade",
+        "grade-one",
+        "points",
+        "release",
+        "collect",
+        "progress",
+        "site",
+        "doctor",
+    ),
     "lock",
 )
 

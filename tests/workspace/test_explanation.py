@@ -249,6 +249,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
 # Command lines that are run after the build, and a part of the advice.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
+    "another Python": ("/usr/bin/python3 -S -c 'import numpy'", True, "#!/usr/bin/env python3"),
     "not sourced: rospack": ("rospack find my_services", False, "Source devel/setup.bash"),
     "not sourced: rossrv": ("rossrv show my_services/Box", False, "Source devel/setup.bash"),
     "wrong case": (
@@ -329,17 +330,20 @@ def test_tags_have_lines() -> None:
     ]
 
 
+BOTH = {"message_generation", "message_runtime"}
+CONDITION = MANIFEST.replace("<exec_depend", '<exec_depend condition="$A == b"').replace('"2"', '"3"')
+
+
 @pytest.mark.parametrize(
     ("text", "build", "run"),
     [
         (MANIFEST, {"message_generation"}, {"message_runtime"}),
-        ("<package><depend>a</depend><run_depend>b</run_depend></package>", {"a"}, {"a", "b"}),
-        ('<build_depend version_gte="1.0.0">a</build_depend>', {"a"}, set()),
-        ("", set(), set()),
+        (MANIFEST.replace("build_depend", "depend"), {"message_generation"}, BOTH),
+        (CONDITION, {"message_generation"}, set()),
     ],
 )
 def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None:
-    """`depend` means both build and run; `run_depend` is its name in format 1."""
+    """`depend` means both build and run; a dependency with a condition does not count."""
     assert (dependencies(text, "build"), dependencies(text, "run")) == (build, run)
 
 

@@ -135,3 +135,9 @@ replace("after - before - 1", "(after - before - 1) / 1")
 replace("return before, after, after - before - 1", "missed = after - before - 1")
 # %% 00.3 wrong: another type | hint: Receive messages of the type UInt32
 replace("UInt32", "String", times=2)
+# %% 00.3 wrong: receives during the pause, too | hint: The function received numbers during the pause.
+def count_missed(topic, pause):
+    numbers = []
+    rospy.Subscriber(topic, UInt32, lambda message: numbers.append(message.data))
+    time.sleep(pause + 0.3)
+    return numbers[0], numbers[-1], len(numbers) - 2

@@ -47,6 +47,12 @@ replace("rosrun", "%rosrun")
 # %% 01.1 wrong: the program itself | hint: Return the command as a string
 replace("return ", "import subprocess\n    return subprocess.Popen(")
 replace('getGeometry:=measure"', 'getGeometry:=measure".split())')
+# %% 01.1 wrong: new names in a comment of the shell | hint: The service still has its old name
+def measurer_command(room):
+    return f"rosrun course_pkg server # __ns:=/{room} __name:=measurer getGeometry:=measure"
+# %% 01.1 wrong: a second command | hint: The command begins with rosrun, the
+def measurer_command(room):
+    return f"rosrun course_pkg server; rosrun course_pkg server __ns:=/{room} __name:=measurer"
 
 # %% 01.2 right: four words
 def viewer_command(arm):
@@ -203,3 +209,18 @@ def living_publishers(topic):
 
 # %% 01.4 wrong: one string | hint: Return a list of node names
 replace("return sorted(", 'return ", ".join(')
+# %% 01.4 wrong: an open port counts as an answer | hint: One of these nodes was killed, but
+def living_publishers(topic):
+    import socket
+    from urllib.parse import urlparse
+
+    master = rosgraph.Master("/chapter_01")
+    living = []
+    for name in dict(master.getSystemState()[0]).get(topic, []):
+        address = urlparse(master.lookupNode(name))
+        try:
+            socket.create_connection((address.hostname, address.port)).close()
+            living.append(name)
+        except OSError:
+            pass
+    return sorted(living)

@@ -494,6 +494,8 @@ replace('return "waiting"', "return 0")
 replace('if self.last is None:\n            return "waiting"', "while self.last is None:\n            time.sleep(0.01)")
 # %% 02.5 wrong: the time in a local variable | hint: Messages arrived before the first call of state()
 replace("self.last = time", "last = time")
+# %% 02.5 wrong: ends 1.2 s late | hint: No message has arrived for more than a second
+replace("<= 1.0", "<= 2.2")
 
 # %% 02.1 wrong: publishes nothing without a subscriber | hint: publish all numbers at the given rate
 replace("\n    wait_until(publisher.get_num_connections, 2.0)\n    pace = rospy.Rate(rate)", """
@@ -504,6 +506,11 @@ replace("\n    wait_until(publisher.get_num_connections, 2.0)\n    pace = rospy.
         time.sleep(0.005)
     pause = rospy.Rate(rate)""")
 replace("pace.", "pause.")
+# %% 02.1 wrong: pauses that are too short | hint: The pauses are shorter than 1 / rate.
+based_on("time.sleep in place of a rate")
+replace("sleep(1 / rate)", "sleep(0.8 / rate)")
+# %% 02.1 wrong: publishes nothing without a subscriber, but waits as long | hint: Without a subscriber, wait 2 s, and then
+replace("2.0)", "2.0)\n    if not publisher.get_num_connections():\n        time.sleep(count / rate)\n        return")
 
 # %% 02.3 wrong: compares by truth | hint: The same value was published again
 replace("self.value = None", "self.last = None")
@@ -528,3 +535,5 @@ replace("\n    ]", "\n    ][::-1]")
 # %% 02.2 wrong: returns the publisher | hint: Return the rospy.Subscriber
 replace("return rospy", "rospy")
 replace("show)", "show)\n    return publisher")
+# %% 02.2 wrong: another subscriber is returned | hint: Return the rospy.Subscriber, so that the caller
+replace("return rospy.Subscriber(source, JointState, show)", "rospy.Subscriber(source, JointState, show)\n    return rospy.Subscriber(source, JointState, str)")

@@ -182,6 +182,8 @@ replace("def start_greeting", "greeted = set()\n\n\ndef start_greeting")
 replace("    greeted = set()\n\n    def", "\n    def")
 # %% 03.2 wrong: greets the message | hint: say_good_day() needs the number, not the
 replace("say_good_day(message.data)", "say_good_day(message)")
+# %% 03.2 wrong: sleeps, but does not greet | hint: The number was published, but the customer
+replace("say_good_day(message.data)", "time.sleep(0.2)")
 
 # %% 03.3 right: one after the other
 solution()

@@ -29,7 +29,7 @@ replace("---\nbool success", "bool success")
 replace("float32[] seconds", "float[] seconds")
 # %% 04.1 wrong: the message without its package | hint: Write std_msgs/ColorRGBA
 replace("std_msgs/ColorRGBA", "ColorRGBA")
-# %% 04.1 wrong: brackets after the name | hint: Write the brackets behind the type
+# %% 04.1 wrong: brackets after the name | hint: Write the brackets after the type
 replace("float32[] seconds", "float32 seconds[]")
 # %% 04.1 wrong: wider numbers | hint: Line 6: seconds … has twice as many bits as
 replace("\n# What the lamp is to do.", "")
@@ -55,7 +55,7 @@ replace("\n# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2\n",
 replace("---", "---\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2")
 # %% 04.1 wrong: constants without values | hint: a constant needs a value. Write
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF\nuint8 ON\nuint8 BLINK")
-# %% 04.1 wrong: constants without a type | hint: Write it as in int32 LIMIT=10
+# %% 04.1 wrong: constants without a type | hint: Write it as in this example: int32 LIMIT=10
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "OFF=0\nON=1\nBLINK=2")
 # %% 04.1 wrong: counts from one | hint: differs from the description: … uint8 OFF=0
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF=1\nuint8 ON=2\nuint8 BLINK=3")
@@ -64,7 +64,7 @@ replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
 replace("uint8 ON=1\nuint8 BLINK=2\n", "uint8 ON=1")
 # %% 04.1 wrong: a field is missing | hint: There is no field … total
 replace("float32[3] rgb\nfloat32 total", "float32[3] rgb")
-# %% 04.1 wrong: semicolons | hint: Write mode, with nothing behind it
+# %% 04.1 wrong: semicolons | hint: Write mode, with nothing after it
 based_on("constants between the fields, blanks and comments everywhere")
 replace("uint8 mode … each blink", "uint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2\nuint8 mode;\nstd_msgs/ColorRGBA colour;\nfloat32[] seconds;")
 replace("# all went well\nbool success\nfloat32[3] rgb\n\nfloat32 total", "bool success;\nfloat32[3] rgb;\nfloat32 total;")
@@ -292,6 +292,11 @@ replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)\n]]")
 # %% 04.4 wrong: a loop that is not closed | hint: The end of the output may
 replace("\ncatkin_package", "while(TRUE)\nendwhile()\ncatkin_package")
 
+# %% 04.4 right: rospy is named everywhere, and the program is installed
+replace("message_generation std_msgs", "message_generation rospy std_msgs")
+replace("message_runtime std_msgs)", """message_runtime rospy std_msgs)
+
+catkin_install_python(PROGRAMS scripts/lamp_server.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})""")
 # %% 04.4 wrong: message_generation in catkin_package | hint: Only the build needs message_generation, but
 replace("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")
 
@@ -415,3 +420,5 @@ replace(", total=sum(request.seconds)", "")
 replace("request.mode != LampRequest.OFF", "request.mode == LampRequest.ON")
 # %% 04.5 wrong: a total only for a lamp that is lit | hint: The total is 0 for this
 replace("total=sum(request.seconds)", "total=sum(request.seconds) if lit else 0")
+# %% 04.5 wrong: adds only the first five values | hint: Add up all values
+replace("sum(request.seconds)", "sum(request.seconds[:5])")

@@ -86,6 +86,12 @@ geometry_service = rospy.Service("/getGeometry", geometry, Geometer().handle)
 
 # %% 05.1 wrong: a client in place of a server | hint: The cell has to create a … rospy.Service
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'rospy.ServiceProxy("/getGeometry", geometry)')
+# %% 05.1 wrong: the program of the course serves | hint: Another program serves this name.
+import subprocess
+
+subprocess.Popen(["rosrun", "course_pkg", "server"])
+rospy.wait_for_service("/getGeometry", timeout=15)
+handle_geometry = geometry_service = print
 
 # %% 05.2 right: a class that counts
 class Counter:
@@ -174,6 +180,13 @@ replace("def __init__(self):\n        self.count = 0", "def __init__(self):\n   
 replace("self.count = 0\n        return", "self.count = 1\n        return")
 # %% 05.2 wrong: the handlers of the two services exchanged | hint: The handler of /count returned an
 replace("Trigger, counter.handle_count", "Trigger, counter.handle_reset")
+# %% 05.2 wrong: one count for all objects | hint: and store it in self.
+replace("self.count", "Counter.count", times=4)
+replace("def __init__(self):\n        Counter.count = 0", "count = 0")
+# %% 05.2 wrong: a count for each client | hint: The calls of all clients have to change
+replace("self.count = 0", "self.count = {}", times=2)
+replace("self.count += 1", 'client = request._connection_header["callerid"]\n        self.count[client] = self.count.get(client, 0) + 1')
+replace("str(self.count)", "str(self.count[client])")
 
 # %% 05.3 right: a loop over the sides
 def handle_checked_geometry(request):
@@ -252,6 +265,8 @@ checked_service = rospy.Service("/getGeometryChecked", geometry, Checked())
 replace('f"{side} is {value}, and a side cannot be negative"', 'f"length is {request.length}, width is {request.width}, height is {request.height}"')
 # %% 05.3 wrong: forgets the f | hint: The message contains braces
 replace('f"{side}', '"{side}')
+# %% 05.3 wrong: many values | hint: The message contains many numbers.
+replace("{value}", "{[-number / 2 for number in range(100)]}")
 
 # %% 05.4 right: compares first
 class Switch:
@@ -395,3 +410,15 @@ replace('self.move_service.shutdown("maintenance")', 'rospy.signal_shutdown("mai
 replace("changed = request", "self.moves += 1\n        changed = request")
 # %% 05.5 wrong: a type that is not imported | hint: An exception has ended the program
 replace("SetBoolResponse, Trigger, TriggerResponse", "SetBoolResponse, TriggerResponse")
+# %% 05.5 wrong: the notebook serves, and the program only waits | hint: Another process serves this name.
+from pathlib import Path
+
+Path("arm.py").write_text("""#!/usr/bin/env python3
+import rospy
+
+if __name__ == "__main__":
+    rospy.init_node("arm")
+    rospy.spin()
+""")
+handle = lambda request: (True, "1")
+services = [rospy.Service("/move_arm", Trigger, handle), rospy.Service("/maintenance", SetBool, handle)]

@@ -179,6 +179,8 @@ replace("(length, width, height).volume", "(float(length), width, height).volume
 replace("rospy.ServiceProxy(service, geometry)(length, width, height).volume", "length * width * height")
 # %% 06.3 wrong: passes a refusal on | hint: This failure raises rospy.ServiceException, too
 replace("rospy.ServiceException:", 'rospy.ServiceException as error:\n        if "unavailable" not in str(error):\n            raise')
+# %% 06.3 wrong: calls twice | hint: The function called the service more than once.
+replace("        return rospy", "        rospy.ServiceProxy(service, geometry)(length, width, height)\n        return rospy")
 
 # %% 06.4 right: a function for the thread
 def first_answer(services, length, width, height):
@@ -297,6 +299,10 @@ def first_answer(services, *sides):
 
 # %% 06.4 right: waits a second for each service
 replace("asker.join(timeout=1)", "rospy.sleep(1)")
+# %% 06.4 wrong: sends other sides | hint: and send the three sides unchanged.
+replace("proxy(length, width, height)", "proxy(0, 0, 0)")
+# %% 06.4 wrong: only the first three services | hint: it was not called. Catch the error inside
+replace("in services:", "in services[:2]:")
 
 # %% 06.5 right: myargv and float
 def read_sides(argv):
@@ -440,3 +446,5 @@ replace("usage:", "Usage:")
 replace("        print(error)\n        return 3", "        return str(error)")
 # %% 06.6 wrong: computes the volume | hint: The volume in the response is
 replace("print(\"fits\" if volume", "volume = sides[0] * sides[1] * sides[2] * 1e-6\n    print(\"fits\" if volume")
+# %% 06.6 wrong: prints all answers | hint: The exit status is right, but
+replace('if __name__ == "__main__":\n', 'if __name__ == "__main__":\n    print("usage: x\\nfits\\ntoo large")\n')

@@ -20,6 +20,9 @@ solution()
 </package>
 """
 
+# %% 07.1 right: markup in the description, and the old maintainer in a comment
+replace("<description>", "<description><b>Boxes:</b> ")
+replace("  <maintainer", '  <!-- <maintainer email="you@todo.todo">you</maintainer> -->\n  <maintainer')
 # %% 07.1 wrong: message_runtime is missing | hint: A package is missing. The warning
 replace("\n  <exec_depend>message_runtime</exec_depend>", "")
 # %% 07.1 wrong: rospy is missing | hint: , but package.xml has no tag
@@ -43,6 +46,8 @@ solution()
 # %% 07.2 right: with comments and blank lines
 replace("float32 length\nfloat32 width", "# The sides of a box, in metres.\nfloat32 length\nfloat32 width   # along y\n")
 replace("float32 area", "float32   area    # of the floor, in square metres\n")
+# %% 07.2 wrong: a tab | hint: There is a tab between type
+replace("float32 width", "float32\twidth")
 # %% 07.2 wrong: no dashes | hint: three dashes
 replace("---\n", "")
 # %% 07.2 wrong: float as in C++ | hint: float32
@@ -193,6 +198,8 @@ replace(", volume=area * request.height", "")
 replace("area * request.height", "area ** 1.5")
 # %% 07.4 wrong: the handler returns nothing | hint: without a return
 replace("    return geometryResponse", "    geometryResponse")
+# %% 07.4 wrong: an import ends the process | hint: An import of the script starts the node
+replace("import rospy\n", "import os\n\nimport rospy\n\nif __name__ != '__main__':\n    os._exit(0)\n")
 
 # %% 07.5 right: as in the chapter
 solution()
@@ -302,9 +309,15 @@ replace("${CATKIN_PACKAGE_BIN_DESTINATION}", "bin")
 # %% 07.6 wrong: files, not programs | hint: install(FILES …) installs files that are
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", "install(FILES scripts/client.py")
+# %% 07.6 right: the whole folder, with its permissions
+based_on("two rules, one of them plain CMake")
+replace("catkin_install_python … DESTINATION lib", "install(DIRECTORY scripts/ USE_SOURCE_PERMISSIONS DESTINATION lib")
 # %% 07.6 wrong: a path that does not exist | hint: Compare each path in the rule
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", "install(PROGRAMS client.py")
+# %% 07.6 wrong: an empty client | hint: The installed file is not the script
+based_on("two rules, one of them plain CMake")
+replace("install(PROGRAMS scripts/client.py", 'file(WRITE ${CMAKE_BINARY_DIR}/client.py "#!/bin/true")\ninstall(PROGRAMS ${CMAKE_BINARY_DIR}/client.py')
 
 # %% 07.7 right: short
 """%%writefile src/my_geometry/README.md
@@ -380,6 +393,10 @@ replace("rosrun my_geometry server.py", "rosrun server.py")
 # %% 07.7 wrong: two sides | hint: The call needs the name /getGeometry,
 replace("/getGeometry 1.2 5.2 8.9", "/getGeometry 1.2 5.2")
 # %% 07.7 wrong: no call | hint: Show a call with rosservice
+replace("rosservice call /getGeometry 1.2 5.2 8.9\nrosrun my_geometry client.py 1.2 5.2 8.9\n", "")
+# %% 07.7 right: from the folder install, and with the client
+replace("catkin_make", "catkin_make install")
+replace("source devel/setup.bash", "source install/setup.bash", times=2)
 replace("rosservice call /getGeometry 1.2 5.2 8.9\n", "")
 # %% 07.7 wrong: sources before it builds | hint: Imagine a new terminal: first build,
 replace("catkin_make\nsource devel/setup.bash\n", "source devel/setup.bash\ncatkin_make\n")
@@ -390,7 +407,7 @@ solution()
 replace("int32 number\n---\nstring state", "# 0 or 1; anything else is refused.\nint32  number\n---\nstring state  # OFF or ON")
 # %% 07.8 wrong: a bool | hint: has the type bool. Use the type
 replace("int32", "bool")
-# %% 07.8 wrong: in one half | hint: state is in the wrong half
+# %% 07.8 wrong: in one half | hint: state is on the wrong side
 replace("---\nstring state", "string state\n---")
 # %% 07.8 wrong: another name | hint: has no field … number
 replace("number", "value")

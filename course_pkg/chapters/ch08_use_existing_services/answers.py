@@ -191,6 +191,13 @@ class Bridge:
 
 
 lamp_service = rospy.Service("/lamp", SetBool, Bridge().handle)
+# %% 08.2 wrong: calls until the state is right | hint: The handler called /on_off again
+replace("state = on_off(1 if request.data else 0).state", """for _ in range(3):
+            state = on_off(1 if request.data else 0).state
+            if state == ("ON" if request.data else "OFF"):
+                break""")
+# %% 08.2 wrong: finds the wanted state in another one | hint: A response does not prove that
+replace('success=state == ("ON" if request.data else "OFF")', 'success=("ON" if request.data else "OFF") in state')
 
 # %% 08.3 right: calls set, reads the report, compares
 def move(switch, to_open):
@@ -360,6 +367,10 @@ def call_line(service, fields):
 
 # %% 08.4 wrong: leaves inner dicts out | hint: A field in an inner dictionary has no value
 replace("json.dumps(fields)", "json.dumps({name: value for name, value in fields.items() if not isinstance(value, dict)})")
+# %% 08.4 wrong: a program in Python makes the call | hint: Another program in the line makes the call.
+def call_line(service, fields):
+    code = f"import rosservice; rosservice.call_service({service!r}, [{fields!r}])"
+    return f"python3 -c {shlex.quote(code)} # rosservice call"
 
 # %% 08.5 right: fills the request as the tool does
 def call_any(service, fields):

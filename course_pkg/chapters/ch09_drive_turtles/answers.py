@@ -60,6 +60,16 @@ replace('(3, 3, 0, "MyTurtle")', '(0, 3, 3, "MyTurtle")')
 replace('if __name__ == "__main__":\n    rospy.init_node("spawn_turtle")\n    sys.exit(main())', 'rospy.init_node("spawn_turtle")\nsys.exit(main())')
 # %% 09.1 wrong: an undefined variable | hint: Read the last line of the output above
 replace('3, 3, 0, "MyTurtle")\n', 'x, 3, 0, "MyTurtle")\n')
+# %% 09.1 wrong: starts the course's program | hint: Your program starts or imports a program of the course
+"""
+%%writefile src/my_turtles/scripts/spawn_turtle.py
+#!/usr/bin/env python3
+import os
+import sys
+
+if __name__ == "__main__":
+    os.execvp("rosrun", ["rosrun", "course_pkg", "spawn_turtle", *sys.argv[1:]])
+"""
 
 # %% 09.2 right: as in the chapter
 solution()
@@ -120,6 +130,12 @@ replace('        rate.sleep()\n', '        rate.sleep()\n    rospy.Service("togg
 replace('"toggle_forward"', '"toggle"')
 # %% 09.2 wrong: another topic | hint: and compare this name with yours
 replace('"turtle1/cmd_vel"', '"turtle1/cmd_velocity"')
+# %% 09.2 wrong: also to the side | hint: All other fields have to be 0
+replace('        if forward:\n', '        message.linear.y = 0.5\n        if forward:\n')
+# %% 09.2 wrong: the loop toggles, once per message | hint: The second call changed nothing
+replace('    global forward\n    forward = not forward', '    global called\n    called = True')
+replace('\nforward = True', '\nforward = True\ncalled = False')
+replace('        message = Twist()\n', '        forward, called = forward != called, False\n        message = Twist()\n')
 
 # %% 09.3 right: as in the chapter
 solution()
@@ -261,7 +277,11 @@ replace('not math.isfinite(request.speed)', 'request.speed != request.speed or r
 replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
 replace('if request.data == self.moving:', 'if request.data != getattr(self, "stopped", False):')
 # %% 09.4 wrong: a new direction | hint: After data=True, the turtle has to move with its old direction and
-replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n        self.speed = 1.0\n')
+replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
+# %% 09.4 wrong: a speed that is set while it is stopped is lost | hint: came while the turtle was stopped
+replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')
+# %% 09.4 wrong: at most 10 m/s | hint: Publish the number that /change_speed has set
+replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, min(max(request.speed, -10), 10)')
 # %% 09.4 wrong: success is the value of data | hint: Set success to True
 replace('success=True, message=word', 'success=request.data, message=word')
 # %% 09.4 wrong: no message | hint: The message is empty. Write
@@ -314,7 +334,7 @@ replace('3, 3, 0, "MyTurtle"', '3, 3, 3, "MyTurtle"')
 replace('ChangeSpeed, 2.0', 'ChangeSpeed, 10.0')
 # %% 09.5 wrong: no spin | hint: The node ended after the calls
 replace('    rospy.spin()\n', '')
-# %% 09.5 wrong: the name is fixed | hint: Publish on /NAME/cmd_vel, where NAME is the name in the response of
+# %% 09.5 wrong: the name is fixed | hint: Publish only on /NAME/cmd_vel, where NAME is the name in the response of
 replace('f"{name}/cmd_vel"', '"MyTurtle/cmd_vel"')
 # %% 09.5 wrong: follows another turtle | hint: Subscribe to the velocities of the first turtle
 replace('Subscriber("turtle1/cmd_vel"', 'Subscriber("turtle2/cmd_vel"')
@@ -355,6 +375,10 @@ solution()
 
 # %% 09.6 wrong: the course's driver | hint: the package and the file name of the program
 replace('pkg="my_turtles" type="improved_pubvel_toggle.py"', 'pkg="course_pkg" type="improved_pubvel_toggle"')
+# %% 09.6 wrong: the programs are exchanged | hint: the package and the file name of the program
+replace('type="improved_pubvel_toggle.py"', 'type="OTHER"')
+replace('type="spawn_turtle_plus.py"', 'type="improved_pubvel_toggle.py"')
+replace('type="OTHER"', 'type="spawn_turtle_plus.py"')
 # %% 09.6 wrong: a tag that is not closed | hint: The file is not valid XML
 replace('</launch>', '<launch>')
 # %% 09.6 wrong: no default | hint: The argument has no default value

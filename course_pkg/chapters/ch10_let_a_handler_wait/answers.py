@@ -486,6 +486,14 @@ replace('self.shelf.write(count - … : {error}")', """try:
             except rospy.ServiceException as error:
                 return TriggerResponse(success=False, message=f"not paid: {error}")
             self.shelf.write(count - 1)""")
+# %% 10.5 wrong: holds the lock across the call, and /left waits for it only briefly | hint: The till never had two calls at the same time
+replace("        with self.lock:\n            return Trigger", "        self.lock.acquire(timeout=0.2)\n        return Trigger")
+replace('self.shelf.write(count - … : {error}")', """self.shelf.write(count - 1)
+            try:
+                receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt
+            except rospy.ServiceException as error:
+                self.shelf.write(count)
+                return TriggerResponse(success=False, message=f"not paid: {error}")""")
 # %% 10.5 wrong: takes the thing after the payment | hint: the thing is still on the shelf
 replace("count = self.shelf.read()\n            if count == 0:", "if self.shelf.read() == 0:")
 replace("\n            self.shelf.write(count - 1)", "")

@@ -107,6 +107,20 @@ replace("count - len(data)", "4096")
 # %% 11.2 wrong: discards the bytes that it read ahead | hint: An earlier call read too many bytes and lost them, and now
 replace("count - len(data)", "4096")
 replace("return data", "return data[:count]")
+# %% 11.2 wrong: keeps what it read ahead | hint: leave them in the socket
+REST = {}
+
+
+def receive(sock, count):
+    data = REST.pop(sock, b"")
+    while len(data) < count:
+        piece = sock.recv(4096)
+        if not piece:
+            raise ConnectionError("the other end has closed")
+        data += piece
+    REST[sock] = data[count:]
+    return data[:count]
+
 # %% 11.2 wrong: passes the whole number each time | hint: The function returned more than `count` bytes, so the next call does
 replace("sock.recv(count - len(data))", "sock.recv(count)")
 # %% 11.2 wrong: passes the whole number each time, and cuts | hint: An earlier call read too many bytes and lost them, and now
@@ -411,6 +425,20 @@ replace("self.sessions = {}", "self.sessions, self.owner = {}, {}")
 replace('("no field session in the connection header")', """("no session")
         if self.owner.setdefault(session, request._connection_header["callerid"]) != request._connection_header["callerid"]:
             raise rospy.ServiceException("this session is not yours")""")
+# %% 11.4 wrong: forgets old sessions | hint: This is only the amount of this call
+replace("        total, calls", "        for old in list(self.sessions)[:-3]:\n            del self.sessions[old]\n        total, calls")
+# %% 11.4 wrong: starts the course's server | hint: Another program does the work
+import subprocess
+
+
+class Sessions:
+    def handle(self, request):
+        return AddUpResponse()
+
+
+sessions = Sessions()
+my_add_up = subprocess.Popen(["rosrun", "course_pkg", "session_server", "/add_up:=/my_add_up"])
+rospy.wait_for_service("/my_add_up", timeout=15)
 # %% 11.4 wrong: another name for the field | hint: The header had the field "session", but your handler refused the call
 replace('get("session")', 'get("sessions")')
 # %% 11.4 wrong: begins with 1 | hint: Add the amount to the total of this session, which starts at

@@ -23,7 +23,36 @@ def call_within(seconds, proxy, *values):
 replace("*values):", "*values, calls=[]):\n    calls.append(values)")
 replace("thread.join(seconds)", "thread.join(seconds if len(calls) <= 5 else None)")
 
-# %% 12.1 right: a pool that is not joined
+# %% 12.1 right: a class, and a condition
+class Call(threading.Thread):
+    def __init__(self, proxy, values):
+        super().__init__(daemon=True)
+        self.proxy, self.values = proxy, values
+        self.response = self.error = None
+        self.ended = threading.Event()
+
+    def run(self):
+        try:
+            self.response = self.proxy(*self.values)
+        except rospy.ServiceException as error:
+            self.error = error
+        self.ended.set()
+
+
+def call_within(seconds, proxy, *values):
+    call = Call(proxy, values)
+    call.start()
+    if not call.ended.wait(seconds):
+        raise TimeoutError
+    if call.error is not None:
+        raise call.error
+    return call.response
+
+# %% 12.1 wrong: no daemon thread | hint: Create the thread with daemon=True
+replace(", daemon=True", "")
+# %% 12.1 wrong: looks at the thread all the time | hint: The function needs processor time while it waits
+replace("thread.join(seconds)", "end = time.monotonic() + seconds\n    while thread.is_alive() and time.monotonic() < end:\n        pass")
+# %% 12.1 wrong: a pool that is not joined | hint: At the end of a program, Python waits for this thread
 from concurrent.futures import ThreadPoolExecutor
 
 
@@ -170,6 +199,21 @@ replace("return ChargeResponse()", 'raise rospy.ServiceException("this was charg
 # %% 12.2 wrong: remembers the id before the purse is charged | hint: A request failed and was repeated
 replace("self.receipts:", "self.receipts:\n                self.receipts[request.request_id] = len(self.receipts) + 1")
 replace("(request.cents)\n                self.receipts[request.request_id] = len(self.receipts) + 1", "(request.cents)")
+# %% 12.2 wrong: responds to a repetition before the money is taken | hint: Store the request_id after take has
+replace("        with self.lock:\n            if … take(request.cents)\n                self", """        with self.lock:
+            if request.request_id in self.receipts:
+                return ChargeResponse(receipt=self.receipts[request.request_id])
+            self.receipts[request.request_id] = len(self.receipts) + 1
+        try:
+            self.purse.take(request.cents)
+        except RuntimeError:
+            del self.receipts[request.request_id]
+            raise
+        with self.lock:
+            if request.request_id not in self.receipts:
+                self""")
+# %% 12.2 wrong: forgets old receipts | hint: The repetition got another receipt
+replace("len(self.receipts) + 1", "self.count = getattr(self, 'count', 0) + 1\n                for old in list(self.receipts)[:-20]:\n                    del self.receipts[old]")
 # %% 12.2 wrong: takes requests without an id | hint: A request with an empty id got a receipt
 replace('\n        if not request … its repeat")', "")
 # %% 12.2 wrong: no lock | hint: The same request came five times
@@ -432,6 +476,9 @@ replace("""
                 self.master.""", "\n            self.master.")
 # %% 12.4 wrong: stops in the middle of a look | hint: stop() returned while the thread was still calling the master, and the
 replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
+# %% 12.4 wrong: sleeps in stop | hint: stop() returned while the thread was still calling the master, and the
+based_on("stops in the middle of a look")
+replace("self.over.set()", "self.over.set()\n        time.sleep(0.8)")
 # %% 12.4 wrong: holds the lock all the time | hint: stop() does not return
 replace("threading.Event()", "False")
 replace("while not self … get_node_uri())", """with self.lock:

@@ -280,7 +280,7 @@ replace("spin();", "spin();\n  return 0;")
 replace('  ros::spin();\n', '')
 # %% 14.5 wrong: no wait | hint: wait for each service
 replace('ros::service::waitForService(name, ros::Duration(5)) && ', '')
-# %% 14.5 wrong: the name is fixed | hint: Publish on /NAME/cmd_vel, where NAME is the name in the response of
+# %% 14.5 wrong: the name is fixed | hint: Publish only on /NAME/cmd_vel, where NAME is the name in the response of
 replace('spawn.response.name + "/cmd_vel"', '"MyTurtle/cmd_vel"')
 # %% 14.5 wrong: the speed is missing | hint: Send 2.0 in the field `speed`
 replace('  change.request.speed = 2.0;\n', '')

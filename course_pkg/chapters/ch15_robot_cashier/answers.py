@@ -88,6 +88,16 @@ replace('"frames"', '"/frames"')
 replace('init_node("vision")', 'init_node("camera")')
 # %% 15.1 wrong: a misspelt topic | hint: The program runs, but no part of it
 replace('"customer_seen"', '"costumer_seen"')
+# %% 15.1 wrong: starts the course's program | hint: Your program starts or imports a program of the course
+"""
+%%writefile src/my_cashier/scripts/vision.py
+#!/usr/bin/env python3
+import os
+import sys
+
+if __name__ == "__main__":
+    os.execvp("rosrun", ["rosrun", "course_pkg", "vision", *sys.argv[1:]])
+"""
 # %% 15.1 wrong: no spin | hint: The program reached its last line, so the node ended
 replace("\n    rospy.spin()", "")
 
@@ -734,6 +744,8 @@ replace('  <node pkg="my_cashier" type="till.py" name="till" />\n', "")
 replace('</launch>', '  <node pkg="my_cashier" type="ask_customer.py" name="ask_customer" />\n</launch>')
 # %% 15.10 wrong: the nodes of the course | hint: A node starts the wrong program
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
+# %% 15.10 wrong: a prefix starts another program | hint: A node starts the wrong program
+replace('type="till.py"', 'type="till.py" launch-prefix="rosrun course_pkg till"')
 # %% 15.10 wrong: no parameter | hint: The node robot_cashier needs a <param> tag with name="wait" and value="$(arg wait)"
 replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
@@ -764,6 +776,9 @@ solution()
 </launch>
 '''
 
+# %% 15.11 wrong: the till of the course | hint: A node starts the wrong program
+based_on("with a delay, and output on the screen")
+replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
 # %% 15.11 wrong: no respawn | hint: only if its <node> tag has respawn
 replace(' respawn="true"', "", times=4)
 # %% 15.11 wrong: one node without respawn | hint: roslaunch starts a node again

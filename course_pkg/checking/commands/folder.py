@@ -12,6 +12,7 @@ from course_pkg.checking.channel import Channel
 from course_pkg.checking.result import Finished
 from course_pkg.errors import ChannelError, CheckError, GraphError
 from course_pkg.ros.protocol.snapshot import Snapshot, look
+from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import at_this_load, wait_until
 
 SLACK = 3.0  # additional s for the kernel to reply after the time limit of the command
@@ -44,14 +45,13 @@ class Folder:
         """
         self._doing(worded or " ".join(argv))
         limit = at_this_load(within)
-        timeout = limit + at_this_load(SLACK)
-        reply = self._channel.ask("run", timeout=timeout, argv=argv, folder=self._number, within=limit)
+        reply = self._channel.ask("run", timeout=within + SLACK, argv=argv, folder=self._number, within=limit)
         return Finished(reply)
 
     def start(self, *argv: str, worded: str = "") -> Running:
         """Start a command here that runs until it is stopped; a context manager."""
         self._doing(worded or " ".join(argv))
-        reply = self._channel.ask("start", timeout=at_this_load(SLACK), argv=argv, folder=self._number)
+        reply = self._channel.ask("start", timeout=SLACK, argv=argv, folder=self._number)
         number = reply.get("process")
         if not isinstance(number, int):
             raise CheckError("The kernel did not start a command of the check. Restart the kernel.")
@@ -71,6 +71,11 @@ class Running:
         """The exit status, or None while it runs."""
         status = self._channel.ask("poll", timeout=SLACK, process=self._number).get("status")
         return status if isinstance(status, int) else None
+
+    def listens_at(self, uri: str) -> bool:
+        """Return whether the command, or a process that it started, listens at the port of the address."""
+        ports = self._channel.ask("ports", timeout=at_this_load(SLACK), process=self._number).get("ports")
+        return isinstance(ports, list) and port_of(uri) in ports
 
     def stop(self) -> Finished:
         """End the command. The status is None if it was still running; `out` contains both output streams."""

@@ -21,6 +21,7 @@ from typing import IO
 
 from course_pkg.checking.plain_values import Reply
 from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.setup import Places, environment
 
 PRINTED = 65536  # maximum characters of output that are kept
@@ -66,6 +67,10 @@ class CommandFolders:
         """End a command as Ctrl-C does; return its result, with a null status if it was still running."""
         return self._running[process].stop()
 
+    def ports(self, process: int) -> Reply:
+        """Return the TCP ports on which a command that was started listens."""
+        return {"ports": self._running[process].ports}
+
     def close(self) -> None:
         """End the running commands, and remove the folders."""
         self._open.close()
@@ -85,6 +90,11 @@ class _Running:
     def status(self) -> int | None:
         """The exit status, or None while the command runs."""
         return self._process.returncode
+
+    @property
+    def ports(self) -> list[Json]:
+        """The TCP ports on which the command and its descendants listen."""
+        return [*sorted(self._process.listening_ports())]
 
     def stop(self) -> Reply:
         """End the command as Ctrl-C does, and by force if necessary.

@@ -76,6 +76,7 @@ class KernelAgent:
             "start": self._commands.start,
             "poll": self._commands.poll,
             "stop": self._commands.stop,
+            "ports": self._commands.ports,
         }
 
     def reply(self, request: Mapping[str, Json]) -> Reply:

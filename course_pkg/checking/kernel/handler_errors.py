@@ -1,4 +1,4 @@
-"""The exceptions that rospy catches in handlers; a check shows the student's lines of the last one."""
+"""The exceptions that rospy catches in handlers; a check shows the student's lines in the last one."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ HEADER = "Traceback of the handler (most recent call last):"
 
 
 class HandlerErrors(logging.Handler):
-    """Stores the last exception of a handler in this process, between open() and close()."""
+    """Stores the last exception that a handler raised in this process, between open() and close()."""
 
     def __init__(self) -> None:
         super().__init__(logging.ERROR)
@@ -30,16 +30,16 @@ class HandlerErrors(logging.Handler):
         super().close()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Store the exception that this thread is handling, if the log record reports it."""
+        """Store the exception that this thread is handling, if the log record is about it."""
         error = sys.exc_info()[1]
         if error is None or not record.getMessage().startswith(ABOUT):
             return
-        # This is False if the handler was called with a wrong number of arguments.
+        # this is False if the handler was called with a wrong number of arguments
         began = any(students_frames(error.__traceback__))
         self._last = "\n".join(readable_traceback(error, _place, HEADER)) if began else ""
 
     def take(self) -> str:
-        """Return the traceback of the last exception, or "" if there was none; then delete it."""
+        """Return the traceback of the last exception, or "" if there is none, and delete it."""
         last, self._last = self._last, ""
         return last
 

@@ -1,7 +1,7 @@
 """Proxies in the kernel for objects of the check runner (see checking/placed).
 
-A proxy stores nothing. It sends each call of a method and each use of an attribute to the check runner, and
-waits for the reply.
+A proxy stores no data. It sends each call of a method, and each read or write of an attribute, to the check
+runner, and waits for the reply.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ Ask = Callable[..., Value]
 
 
 class ObjectProxies:
-    """Makes proxies; each thread that uses them has its own connection to the check runner."""
+    """Creates proxies; each thread that uses a proxy has its own connection to the check runner."""
 
     def __init__(self, port: int, key: str) -> None:
         self.port = port
@@ -40,7 +40,7 @@ class ObjectProxies:
         self._closed = False
 
     def proxy(self, item: dict[str, Any]) -> Value:
-        """Return the proxy for the object that `item` describes; each object has only one proxy."""
+        """Return the proxy for the object that `item` describes; each object has exactly one proxy."""
         number = item["number"]
         with self._lock:
             if number not in self._made:
@@ -71,7 +71,7 @@ class ObjectProxies:
             self._drop()
             raise ConnectionError(OVER) from error
         except BaseException:
-            # After an interrupt, the reply to this call must not be read as the reply to a later call.
+            # after an interrupt, the reply to this call must not be read as the reply to a later call
             self._drop()
             raise
         if "placed" in reply:
@@ -81,9 +81,9 @@ class ObjectProxies:
         return reply.get("value")
 
     def _connection(self) -> _Connection:
-        """Return the connection of this thread; the connection is closed after the thread has ended."""
+        """Return the connection of this thread; it is closed when the thread has ended."""
         connection: _Connection | None = getattr(self._own, "connection", None)
-        # A forked process must not use its parent's connection.
+        # a forked process must not use the connection of its parent
         if connection is None or connection.process != os.getpid():
             connection = _Connection(self.port, self._key)
             with self._lock:
@@ -99,7 +99,7 @@ class ObjectProxies:
             connection.close()
 
     def _error(self, name: str) -> type[Exception]:
-        """Return the built-in error of this name, or a new class."""
+        """Return the built-in exception class with this name, or a new class."""
         known = getattr(builtins, name, None)
         if isinstance(known, type) and issubclass(known, Exception):
             return known
@@ -126,7 +126,7 @@ class _Connection(JsonChannel):
 
 
 def _class_of(item: dict[str, Json]) -> type:
-    """Return a class with the methods and attributes of the object's class, and with its name."""
+    """Return a class with the name, the methods and the attributes of the object's class."""
     members: dict[str, Value] = {name: _method(name) for name in _names(item, "methods")}
     writable = set(_names(item, "writable"))
     for name in {*_names(item, "readable"), *writable}:

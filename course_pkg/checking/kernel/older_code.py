@@ -1,8 +1,8 @@
 """Finds a student's function or class that is older than the last run of its cell.
 
-In this case, the code in the cell differs from the code that the check would examine. This happens, for
-example, after a syntax error in the cell. It also happens if the cell ran again, but the cell that creates
-the service did not.
+Then, the code in the cell differs from the code that the check would examine. For example, this is the case
+after a syntax error in the cell. It is also the case if the cell ran again, but not the cell that creates the
+service.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class OlderCode:
         self._later_run = later_run
 
     def of_value(self, name: str, value: Value) -> str:
-        """Return what to do first if the function or class `value` is older than the last run of its cell."""
+        """Return what the student should do first if `value` is older than the last run of its cell."""
         run = self._run_after(value)
         if run is None:
             return ""
@@ -40,7 +40,7 @@ class OlderCode:
         )
 
     def of_service(self, service: str) -> str:
-        """Return what to do first if the handler of `service` in this process is older than its cell."""
+        """Return what the student should do first if the handler of `service` is older than its cell."""
         handler = _handler_of(service)
         run = self._run_after(handler)
         if run is None:
@@ -52,7 +52,10 @@ class OlderCode:
         return f"{answers}. Run the cell that creates the service, and then run this cell again."
 
     def _run_after(self, value: Value) -> CellRun | None:
-        """Return the last run of the cell that defined `value`, if the cell's code has changed since then."""
+        """Return the last run of the cell that defined `value`.
+
+        Return None if the cell's code has not changed since the definition.
+        """
         for function in _functions_of(value):
             run = self._later_run(function.__code__.co_filename)
             if run is not None and not self._defined_again(function):
@@ -60,7 +63,10 @@ class OlderCode:
         return None
 
     def _defined_again(self, function: FunctionType) -> bool:
-        """Return whether the same code was defined again, because another part of the cell changed."""
+        """Return whether the last run defined the same code again.
+
+        In this case, another part of the cell has changed.
+        """
         first, *rest = function.__qualname__.split(".")
         current = self._namespace.get(first)
         for attribute in rest:
@@ -94,13 +100,13 @@ def _handler_of(service: str) -> Value:
 
 
 def _functions_of(value: Value) -> list[FunctionType]:
-    """Return the functions in `value`: `value` itself, or the methods of a class."""
+    """Return the functions in `value`: `value` itself, or the methods if it is a class."""
     found = vars(value).values() if isinstance(value, type) else [_function_of(value)]
     return [each for each in found if isinstance(each, FunctionType)]
 
 
 def _function_of(value: Value) -> Value:
-    """Return the function inside a bound method, a partial, a wrapper or a callable object."""
+    """Return the function inside a bound method, a partial object, a wrapper or a callable object."""
     while isinstance(value, partial):
         value = value.func
     if isinstance(value, MethodType):

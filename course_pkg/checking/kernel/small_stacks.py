@@ -1,7 +1,7 @@
-"""Code for the kernel: threads with small stacks, for checks that run many handlers at the same time.
+"""Code that runs in the kernel: threads with small stacks, for checks that run many handlers at a time.
 
-Fifty handlers at the same time need fifty threads. A sandbox does not have enough memory for so many stacks
-of 8 MB, but a handler needs only a small stack.
+Fifty handlers at the same time need fifty threads. With stacks of 8 MB, they would need more memory than a
+sandbox has; but a handler needs only a small stack.
 """
 
 from __future__ import annotations

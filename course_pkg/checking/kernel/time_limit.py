@@ -1,9 +1,9 @@
-"""Runs a student's function within a time limit, even if the function catches all exceptions.
+"""Runs a student's function with a time limit, even if the function catches all exceptions.
 
-A loop with a bare `except` catches every exception that is raised within its `try`. So each exception is
-immediately raised again, at the next point where Python handles signals. This point is in the `except` block
-or after it, so it is outside of the `try`. While a library cleans up, for example while it releases a lock,
-it is not interrupted.
+A loop with a bare `except` catches every exception that is raised in its `try` block. Therefore, the
+exception is raised again at once, at the next point where Python handles signals. This point is in the
+`except` block or after it, so the loop cannot catch the exception. While a library cleans up, for example
+releases a lock, no exception is raised in it.
 """
 
 from __future__ import annotations
@@ -18,26 +18,32 @@ from typing import Any, TypeVar
 
 from course_pkg.ros.notebook.tracebacks import is_students
 
-REPEAT = 0.2  # s between two attempts to end a call that waits in a library
+REPEAT = 0.2  # s between two attempts to end a call that is waiting in a library
 
 Value = TypeVar("Value")
 
 
 class TimesUp(BaseException):
-    """The time for a student's function is over. `except Exception` does not catch this exception."""
+    """The time limit of a student's function is reached; `except Exception` does not catch this exception.
+
+    `except Exception` does not catch this exception.
+    """
 
 
 class TimeLimit:
-    """Calls functions in the main thread, and ends each call that takes longer than `seconds`."""
+    """Calls functions in the main thread, and ends a call that takes longer than `seconds`."""
 
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._error = _coming_again(TimesUp)
-        self._raised = 0.0  # the time at which an exception was last raised in a library
-        self._stopped = False  # whether the Stop button ended the call
+        self._raised = 0.0  # the time at which an exception was last raised in a library's code
+        self._stopped = False  # whether the user pressed the Stop button
 
     def call(self, function: Callable[[], Value]) -> Value:
-        """Return the result of `function`. Raises TimesUp, or KeyboardInterrupt after the Stop button."""
+        """Return the result of `function`.
+
+        Raises TimesUp after the time limit, and KeyboardInterrupt after the Stop button.
+        """
         alarm = signal.signal(signal.SIGALRM, self._end)
         interrupt = signal.signal(signal.SIGINT, self._stop)
         signal.setitimer(signal.ITIMER_REAL, self._seconds, REPEAT)
@@ -47,11 +53,11 @@ class TimeLimit:
             signal.signal(signal.SIGINT, interrupt)
             signal.setitimer(signal.ITIMER_REAL, 0)
             signal.signal(signal.SIGALRM, alarm)
-            if self._stopped:  # needed because the function may have caught the exception
+            if self._stopped:  # checked here, because the function may have caught the exception
                 raise KeyboardInterrupt
 
     def _stop(self, _number: int, frame: FrameType | None) -> None:
-        """Raise KeyboardInterrupt as Python does, and raise it again until the function ends."""
+        """Raise KeyboardInterrupt as Python does, again and again until the function ends."""
         self._stopped = True
         self._error = _coming_again(KeyboardInterrupt)
         signal.setitimer(signal.ITIMER_REAL, REPEAT, REPEAT)
@@ -59,7 +65,7 @@ class TimeLimit:
             raise KeyboardInterrupt
 
     def _end(self, _number: int, frame: FrameType | None) -> None:
-        """Raise the error in the student's code, or in the library in which the student's code waits."""
+        """Raise the error in the student's code, or in the library that the student's code is waiting in."""
         if frame is None or not _is_called(frame):
             return
         now = time.monotonic()
@@ -67,18 +73,18 @@ class TimeLimit:
             self._raised = now
             raise self._error
         try:
-            raise self._error  # the signal becomes pending again, and the library can clean up
+            raise self._error  # the signal becomes pending again after this, and the library can clean up
         except BaseException:  # noqa: BLE001
             return
 
 
 def _call(function: Callable[[], Value]) -> Value:
-    """Call `function`; it runs as long as this frame is on the stack."""
+    """Run `function`; while it runs, this frame is on the stack."""
     return function()
 
 
 def _is_called(frame: FrameType | None) -> bool:
-    """Return whether `frame` belongs to a function that _call() has called."""
+    """Return whether `frame` belongs to a function that was called by _call()."""
     if frame is not None and frame.f_code is _call.__code__:
         return False
     while frame is not None and frame.f_code is not _call.__code__:
@@ -87,10 +93,11 @@ def _is_called(frame: FrameType | None) -> bool:
 
 
 def _coming_again(error: type[BaseException]) -> type[BaseException]:
-    """Return a subclass of `error`; each new instance makes SIGALRM pending.
+    """Return a subclass of `error` whose new instances make SIGALRM pending again.
 
-    `raise` creates the instance. Python handles no signals until the exception has left the function that
-    raises it. If a function call created the instance, Python could handle signals at that point.
+    The `raise` statement creates the instance. After this, Python handles no signals until the exception has
+    left the function that raises it. If a function call created the instance, Python could handle the signal
+    too early.
     """
     again: Any = staticmethod(partial(_thread.interrupt_main, signal.SIGALRM))
     return type(error.__name__, (error,), {"__init__": again})

@@ -1,6 +1,6 @@
-"""A server of the check that fails as planned, one fault after another, and recovers.
+"""A server of the check that fails as planned, with one fault after another, and recovers.
 
-A client cannot distinguish a planned fault from a real fault. A stopped process accepts connections but does
+The client cannot distinguish a planned fault from a real one. A stopped process accepts connections but does
 not answer. A killed process leaves a registration with a closed port. A restarted process has a new address.
 """
 
@@ -20,27 +20,28 @@ from course_pkg.checking.peers.scripted_server import Act, Late, ScriptedServer,
 from course_pkg.checking.plain_values import Message, ServiceClass, Value
 from course_pkg.errors import GraphError
 
-Work = Callable[[Message], Mapping[str, Value]]  # maps a request to the fields of its response
+# a function that returns the fields of the response to a request
+Work = Callable[[Message], Mapping[str, Value]]
 
 
 @dataclass(frozen=True)
 class Stumble:
-    """Answer with the error message that rospy sends when a handler raises an unexpected exception."""
+    """Respond with the error message that rospy sends when a handler raises an unexpected exception."""
 
     reason: str
 
 
 @dataclass(frozen=True)
 class Frozen:
-    """Accept the connection, but do not answer, like a process that is stopped by SIGSTOP."""
+    """Accept the connection, but do not respond, like a process that was stopped by SIGSTOP."""
 
 
 @dataclass(frozen=True)
 class Crash:
-    """End without a response, and serve again at another address after `back` s.
+    """End without a response; after `back` s, serve again at another address.
 
-    The registration stays on the master, as after a kill. With `unregisters`, the server unregisters first,
-    as a process does that ends normally.
+    The registration stays at the master, as after a SIGKILL. With `unregisters`, the server first
+    unregisters, like a process that ends normally.
     """
 
     back: float

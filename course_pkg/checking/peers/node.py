@@ -5,6 +5,7 @@ from __future__ import annotations
 import secrets
 import signal
 import socket
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -120,20 +121,37 @@ class FakeNode:
 
     With `alive`, the node replies to a ping, because it is registered with the address of the check's own
     node. Without `alive`, it is like a killed node, because it is registered with the address of a closed
-    port.
+    port. If the port was `reused`, another program listens there, which closes each connection.
     """
 
-    def __init__(self, node: Node, name: str, topic: str, kind: str, *, alive: bool) -> None:
+    def __init__(
+        self, node: Node, name: str, topic: str, kind: str, *, alive: bool, reused: bool = False
+    ) -> None:
         self.name = name
         self._node, self._topic, self._kind = node, topic, kind
-        self._uri = node.uri if alive else f"http://localhost:{closed_port()}/"
+        self._listener = socket.create_server(("127.0.0.1", 0)) if reused else None
+        port = self._listener.getsockname()[1] if self._listener else closed_port()
+        self._uri = node.uri if alive else f"http://localhost:{port}/"
 
     def __enter__(self) -> FakeNode:
+        if self._listener:
+            threading.Thread(target=_hang_up, args=(self._listener,), daemon=True).start()
         self._node.master.register_publisher(self.name, self._topic, self._kind, self._uri)
         return self
 
     def __exit__(self, *_: object) -> None:
         self._node.master.unregister_publisher(self.name, self._topic, self._uri)
+        if self._listener:
+            with suppress(OSError):
+                self._listener.shutdown(socket.SHUT_RDWR)  # this ends accept()
+            self._listener.close()
+
+
+def _hang_up(listener: socket.socket) -> None:
+    """Close each connection to the listener, until the listener is closed."""
+    with suppress(OSError):
+        while True:
+            listener.accept()[0].close()
 
 
 def closed_port() -> int:

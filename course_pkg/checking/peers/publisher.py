@@ -19,7 +19,8 @@ class Publisher:
     """Publishes its messages on `topic` in a cycle, one message every `every` s.
 
     With `once`, it begins as soon as there is a subscriber, and ends after the last message. `sent` contains
-    the times at which messages were published, in s of time.monotonic().
+    the times at which messages were published, in s of time.monotonic(), and `subscribers` the number of
+    connected subscribers at these times. After a subscriber has left, two more messages may count it.
     """
 
     def __init__(
@@ -34,6 +35,7 @@ class Publisher:
         label: str,
     ) -> None:
         self.sent: list[float] = []
+        self.subscribers: list[int] = []
         self._results, self._type = results, str(kind._type)
         self._label = label  # the topic as assertions show it
         self._messages = [_made(kind, fields) for fields in messages]
@@ -84,6 +86,7 @@ class Publisher:
         for message in self._messages if self._once else itertools.cycle(self._messages):
             if self._over.wait(self._every):
                 return
+            self.subscribers.append(self._publisher.get_num_connections())
             self.sent.append(time.monotonic())
             self._publisher.publish(message)
         self._done.set()

@@ -61,7 +61,7 @@ class Received:
 
 
 class ScriptedServer:
-    """Serves `name` during the block; after the block, the former server is registered again."""
+    """Serves `name` during the block; after the block, the previous server is registered again."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, script: Script) -> None:
         self.received = Received()
@@ -80,7 +80,7 @@ class ScriptedServer:
 
     @property
     def uri(self) -> str:
-        """The address of the service, as the master returns it."""
+        """The address of the service, as it is registered at the master."""
         return self._uri
 
     def __enter__(self) -> ScriptedServer:
@@ -95,11 +95,11 @@ class ScriptedServer:
             raise self.problem
 
     def leave(self) -> None:
-        """Stop serving and close all connections, as a server does during its shutdown."""
+        """Stop serving and close all connections, in the same way as a server that shuts down."""
         self._over.set()
         self._close_port()
         for connection in self._connections.copy():
-            with suppress(OSError):  # it is already closed
+            with suppress(OSError):  # the socket is already closed
                 connection.shutdown(socket.SHUT_RDWR)
         self._node.master.unregister_service(self._node.name, self._name, self._uri)
         self._node.restore(self._name, self._former)
@@ -153,7 +153,7 @@ class ScriptedServer:
         return not probe
 
     def _serve_one(self, sock: socket.socket) -> bool:
-        """Read one request and perform the script's act; return whether the connection stays open."""
+        """Read one request and do what the script says next; return whether the connection stays open."""
         request = self._kind._request_class()
         request.deserialize(_exactly(sock, struct.unpack("<I", _exactly(sock, 4))[0]))
         self.received.requests.append(fields_of(request))
@@ -182,7 +182,10 @@ class ScriptedServer:
 
 
 class Absent:
-    """Unregisters the server of `name` during the block; with `stale`, registers a closed port instead."""
+    """Unregisters the server of `name` during the block.
+
+    With `stale`, an address with a closed port is registered.
+    """
 
     def __init__(self, node: Node, name: str, *, stale: bool = False) -> None:
         self._node, self._name, self._stale = node, name, stale
@@ -205,7 +208,7 @@ class Absent:
 
 
 def send_error(sock: socket.socket, text: str) -> None:
-    """Answer a request with an error: a byte 0, the length as uint32, and the text (TCPROS, "Service")."""
+    """Respond with an error: a byte 0, the length as uint32, and the text (TCPROS, "Service")."""
     sock.sendall(b"\x00" + struct.pack("<I", len(text.encode())) + text.encode())
 
 

@@ -68,10 +68,14 @@ class Service:
 
         Asserts that the service responds to each request.
         """
-        replies = self._call([self._request(**fields) for fields in requests])
+        replies = self.replies(requests)
         for reply in replies:
             self._answered(reply)
         return replies
+
+    def replies(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
+        """Call with all `requests` at the same time; return the replies in order. Asserts nothing."""
+        return self._call([self._request(**fields) for fields in requests])
 
     def refused(self, assertion: str, *, saying: str = "", hints: Hints = (), **fields: Value) -> str:
         """Assert that the service refuses a request with an error message that matches `saying`.

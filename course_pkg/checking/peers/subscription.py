@@ -1,8 +1,8 @@
-"""A check's subscription to a student's topic: each message with the time of its arrival.
+"""A check's subscription to a student's topic; it stores each message with its time of arrival.
 
-The subscription accepts any type (`rospy.AnyMsg`). A subscriber of one type receives nothing from a publisher
-of another type, but a check has to report such a publisher. http://wiki.ros.org/ROS/TCPROS, fields of the
-connection header.
+The subscription accepts any type (`rospy.AnyMsg`). With a single type, the check would receive nothing from a
+publisher of another type, but it has to report such a publisher. http://wiki.ros.org/ROS/TCPROS, fields of
+the connection header.
 """
 
 from __future__ import annotations
@@ -22,59 +22,59 @@ from course_pkg.checking.peers.node import Node
 from course_pkg.checking.plain_values import Fields, Message, ServiceClass, Value, fields_of
 from course_pkg.waiting import wait_until
 
-KEPT = 20_000  # maximum number of stored messages; a student's loop without a sleep may publish too many
+KEPT = 20_000  # maximum number of stored messages; a loop without a sleep may publish too many
 
 
 @dataclass(frozen=True)
 class Arrival:
-    """One message: its `fields` as plain data, and the time `at` which it arrived, by time.monotonic()."""
+    """One message: its `fields` as plain data, and its time of arrival `at` (time.monotonic())."""
 
     fields: Fields
     at: float  # s
-    by: str  # the node that published it
-    latched: bool  # whether its publisher keeps the last message for later subscribers
+    by: str  # name of the node that published the message
+    latched: bool  # whether the publisher keeps its last message for later subscribers
 
 
 class Subscription:
-    """A subscription of the check, until the check is over or `leave()` is called."""
+    """A subscription of the check; it ends with the check or with `leave()`."""
 
     def __init__(self, results: Results, node: Node, topic: str, kind: ServiceClass, label: str) -> None:
         self.name = topic
         self.kind = str(kind._type)
-        self.count = 0  # the number of all messages of the type, including messages that are not stored
+        self.count = 0  # number of all messages of the type, including those that are not stored
         self._results, self._node = results, node
-        self._label = label  # the topic as assertions show it
+        self._label = label  # the topic, as the titles of assertions show it
         self._cls = kind
         self._arrivals: list[Arrival] = []
-        self._others: deque[str] = deque(maxlen=1)  # the wrong type of the last message
+        self._others: deque[str] = deque(maxlen=1)  # the type of the last message that had a wrong type
         self._arrived = threading.Condition()
 
     @property
     def arrivals(self) -> tuple[Arrival, ...]:
-        """The messages that have arrived, oldest first."""
+        """The messages that have arrived; the oldest comes first."""
         return tuple(self._arrivals)
 
     def wait(self, count: int = 1, within: float = 5.0) -> list[Arrival]:
-        """Return the first `count` messages as soon as they have arrived, or fewer after `within` s."""
+        """Return the first `count` messages. If fewer messages arrive within `within` s, return these."""
         self.until(lambda arrivals: len(arrivals) >= count, within)
         return self._arrivals[:count]
 
     def until(self, condition: Callable[[Sequence[Arrival]], bool], within: float = 5.0) -> bool:
-        """Wait until `condition` holds for the messages, at most `within` s; return whether it holds."""
+        """Wait for at most `within` s until the messages meet `condition`; return whether they meet it."""
         with self._arrived:
             return self._arrived.wait_for(lambda: condition(self._arrivals), within)
 
     def during(self, seconds: float) -> list[Arrival]:
-        """Wait for `seconds`, and return the messages that arrived in that time."""
+        """Wait for `seconds` s, and return the messages that arrived in this time."""
         with self._arrived:
             before = len(self._arrivals)
             self._arrived.wait_for(lambda: False, seconds)
             return self._arrivals[before:]
 
     def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
-        """Assert that the topic is published with its type; return when the publisher is connected.
+        """Assert that a node publishes on the topic with the right type; return when it is connected.
 
-        `hints` are for a wrong value: "no publisher", or another type.
+        `hints` are for wrong values: "no publisher", or the name of another type.
         """
         assertion = f"{self._label} is published as {self.kind}"
         found = wait_until(self._found, within)
@@ -85,11 +85,11 @@ class Subscription:
         self._results.passes(assertion)
 
     def publishers(self) -> tuple[str, ...]:
-        """Return the nodes that the master lists as publishers of the topic."""
+        """Return the nodes that are registered at the master as publishers of the topic."""
         return self._node.master.system_state().publishers.get(self.name, ())
 
     def leave(self) -> None:
-        """Unsubscribe; the messages that have arrived are kept."""
+        """Unsubscribe; the stored messages stay."""
         self._subscriber.unregister()
 
     def __enter__(self) -> Subscription:
@@ -116,7 +116,7 @@ class Subscription:
             self._arrived.notify_all()
 
     def _found(self) -> str:
-        """Return the type with which the topic is published, or "" while no publisher is connected."""
+        """Return the type of the topic's publisher, or "" as long as no publisher is connected."""
         if self._arrivals:
             return self.kind
         headers = map(_header_of, self._subscriber.impl.connections)
@@ -133,20 +133,20 @@ class Subscription:
 
 
 def rate(arrivals: Sequence[Arrival]) -> float:
-    """Return how many messages arrived per second; 0.0 for fewer than two messages."""
+    """Return the number of messages per second; 0.0 if there are fewer than two messages."""
     if len(arrivals) < 2 or arrivals[-1].at <= arrivals[0].at:
         return 0.0
     return (len(arrivals) - 1) / (arrivals[-1].at - arrivals[0].at)
 
 
 def _header_of(connection: Value) -> dict[str, str]:
-    """Return the header of a publisher's connection; empty while the handshake is not finished."""
+    """Return the header of a publisher's connection; it is empty until both headers were exchanged."""
     md5sum = getattr(connection, "md5sum", None)  # rospy sets this attribute last
     return {"type": connection.type, "md5sum": md5sum} if md5sum else {}
 
 
 def _type_in(header: Mapping[str, str], kind: ServiceClass) -> str:
-    """Return the type in a connection header; "" for an empty header."""
+    """Return the type in a connection header, or "" if the header is empty."""
     name = str(header.get("type") or "")
     another = name == kind._type and header.get("md5sum") != kind._md5sum
     return f"{name} with another definition" if another else name

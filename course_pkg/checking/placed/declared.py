@@ -1,4 +1,4 @@
-"""The decorator `@remote`, which marks the methods and attributes that the student's kernel may use."""
+"""The decorator `@remote` marks the methods and attributes that the student's kernel may use."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ MARK = "__remote__"
 
 
 def remote(function: Function) -> Function:
-    """Declare that the kernel may call this method, or read or write the attribute of this property.
+    """Declare that the kernel may call this method, or may read and write the attribute of this property.
 
-    Arguments and results are plain values. A result may also be another object with remote methods.
+    Arguments and results are plain values. A result can also be another object with remote methods.
 
         @remote
         def read(self) -> int: ...
@@ -30,19 +30,19 @@ def remote(function: Function) -> Function:
 
 @dataclass(frozen=True)
 class Interface:
-    """The remote names of a class."""
+    """The names that a class has marked with `remote`."""
 
     methods: frozenset[str]
     readable: frozenset[str]
     writable: frozenset[str]
 
     def __bool__(self) -> bool:
-        """Return whether the class has any remote name."""
+        """Return whether the class has marked any name."""
         return bool(self.methods or self.readable or self.writable)
 
 
 def interface_of(kind: type) -> Interface:
-    """Return the names of the class `kind` that are marked by `remote`."""
+    """Return the names that the class `kind` has marked with `remote`."""
     members = {name: inspect.getattr_static(kind, name) for name in dir(kind)}
     properties = {name: value for name, value in members.items() if isinstance(value, property)}
     return Interface(

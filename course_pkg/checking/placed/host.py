@@ -1,8 +1,8 @@
 """The check runner's side of the proxies: it executes the calls that the student's kernel makes.
 
-Each thread of the kernel has its own connection, and each connection has its own thread here. So many calls
-can wait in the check runner at the same time, and `threading.get_ident()` is different for each thread of the
-kernel. Each line of a connection is one JSON object:
+Each thread of the kernel has its own connection, and the check runner has one thread for each connection.
+Therefore, many calls can wait in the check runner at the same time, and `threading.get_ident()` differs for
+each thread of the kernel. Each line of a connection is one JSON object:
 
     kernel -> runner   {"key": "…"}                                              once, first
     kernel -> runner   {"object": 0, "do": "call", "name": "read", "args": [], "kwargs": {}}
@@ -10,8 +10,8 @@ kernel. Each line of a connection is one JSON object:
     kernel -> runner   {"object": 0, "do": "set", "name": "count", "args": [3]}
     runner -> kernel   {"value": 5}, {"placed": {…}} for another object, or {"error": {"type": …, "text": …}}
 
-The listener is on the loopback interface, which a sandboxed kernel shares with its check runner. The request
-`place` of the channel contains the key, so no other user of the computer knows it.
+The listening socket is on the loopback interface, which a kernel in a sandbox shares with its check runner.
+The key is only in the request `place` on the channel, so other users of the computer do not know it.
 """
 
 from __future__ import annotations
@@ -30,22 +30,22 @@ from course_pkg.errors import ChannelBroken, ChannelError
 from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 from course_pkg.waiting import Deadline
 
-LIMIT = 1 << 16  # bytes of a line
-CONNECTIONS = 128  # maximum number of connections at the same time; a sandboxed kernel may have 200 threads
-# Maximum number of calls in one check. A loop that tries to acquire a lock makes about 10,000 per second.
+LIMIT = 1 << 16  # maximum bytes of a line
+CONNECTIONS = 128  # maximum number of simultaneous connections; a kernel in a sandbox may have 200 threads
+# maximum number of calls in one check a loop that tries to acquire a lock makes about 10,000 calls per second
 CALLS = 200_000
-KEY_TIMEOUT = 5.0  # s for the first line of a connection
-SEND_TIMEOUT = 5.0  # s for the kernel to read an answer
-END_TIMEOUT = 1.0  # s for all threads to end
-STACK = 512 * 1024  # bytes of a thread's stack; the memory of a check runner in a sandbox is limited
-LONGEST = 4000  # maximum number of characters of an error
+KEY_TIMEOUT = 5.0  # time limit for the first line of a connection (s)
+SEND_TIMEOUT = 5.0  # time limit for the kernel to read a reply (s)
+END_TIMEOUT = 1.0  # time limit for the end of all threads (s)
+STACK = 512 * 1024  # bytes of a thread's stack; a check runner in a sandbox has limited memory
+LONGEST = 4000  # maximum number of characters of an error message
 
 
 class PlacedObjects:
-    """Objects with remote methods, and the connections of the kernel to them; a context manager.
+    """Objects with remote methods, and the kernel's connections to them; a context manager.
 
-    At its end, all connections are closed, and a call that still waits raises an error in the kernel. If
-    calls of an object can wait, the object should end them when its method `close` is called.
+    At its end, all connections are closed, and a waiting call raises an error in the kernel. If calls of an
+    object can wait, its method `close` should end them.
     """
 
     def __init__(self) -> None:
@@ -83,7 +83,7 @@ class PlacedObjects:
             thread.join(deadline.left)
 
     def place(self, item: object) -> dict[str, Json]:
-        """Return the arguments of the request `place` for `item`: port, key and remote names."""
+        """Return the arguments of the request `place` for `item`: the port, the key and the remote names."""
         port: int = self._listener.getsockname()[1]
         return {"port": port, "key": self._key, "item": self._described(item)}
 
@@ -112,7 +112,7 @@ class PlacedObjects:
         while True:
             try:
                 sock, _ = self._listener.accept()
-            except OSError:  # the listener was closed
+            except OSError:  # the listening socket was closed
                 return
             with self._lock:
                 if self._closed or len(self._open) >= CONNECTIONS:
@@ -132,7 +132,7 @@ class PlacedObjects:
             threading.stack_size(before)
 
     def _serve(self, sock: socket.socket) -> None:
-        """Execute the calls of one connection until it is closed, or until a line breaks the protocol."""
+        """Execute the calls on one connection until it is closed, or until a line violates the protocol."""
         channel = JsonChannel(sock, LIMIT)
         try:
             sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -140,14 +140,14 @@ class PlacedObjects:
             while hmac.compare_digest(key, self._key.encode()):
                 channel.send(self._reply(channel.receive()), SEND_TIMEOUT)
         except (ChannelError, OSError):
-            pass  # the kernel notices the closed connection
+            pass  # the kernel notices that the connection is closed
         finally:
             channel.close()
             with self._lock:
                 self._open.pop(threading.current_thread(), None)
 
     def _reply(self, request: Mapping[str, Json]) -> dict[str, Json]:
-        """Return the reply to one line; raise ChannelBroken for a line that no proxy sends."""
+        """Return the reply to one line; raise ChannelBroken for a line that a proxy never sends."""
         number, do, name = request.get("object"), request.get("do"), request.get("name")
         args, kwargs = request.get("args", []), request.get("kwargs", {})
         with self._lock:
@@ -171,7 +171,7 @@ class PlacedObjects:
 def _done(
     item: object, names: Interface, do: str, name: str, args: list[Json], kwargs: dict[str, Json]
 ) -> object:
-    """Call the method, or read or write the attribute, if its name is one of the remote `names`."""
+    """Call the method, or read or write the attribute, if its name is in `names`."""
     if do == "call" and name in names.methods:
         return getattr(item, name)(*args, **kwargs)
     if do == "get" and name in names.readable:

@@ -1,1 +1,4 @@
-"""Assertions that the checks of several chapters share. Each chapter passes its own hints."""
+"""Assertions that several chapters use; each chapter passes its own hints.
+
+Each chapter passes its own hints.
+"""

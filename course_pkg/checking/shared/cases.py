@@ -1,4 +1,4 @@
-"""A check of a dict that assigns an entry of a list to each case, for example a cause to each symptom."""
+"""A check of a dict that assigns one of several entries to each case, for example a cause to each symptom."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from course_pkg.checking.plain_values import of_kind
 
 @dataclass(frozen=True)
 class Cases:
-    """The right entry of each case, and the texts of a report.
+    """The right entry for each case, and the texts for a report.
 
-    For each case, `right` contains the right entry, and `decisive` contains the fact that proves it.
-    `entries` contains a sentence about each entry of the list. There are three other hints: `missing` for
-    missing keys, `keys` for unknown keys, and `spelling` for an entry that is not in the list. `label` names
-    one case in an assertion, and `again` names it in a hint.
+    For each case, `right` contains the right entry, and `decisive` contains the fact from which it follows.
+    `entries` contains a sentence about each possible entry. There are three other hints: `missing` for
+    missing keys, `keys` for unknown keys, and `spelling` for an unknown entry. `label` is the name of a case
+    in the title of an assertion, and `again` is its name in a hint.
     """
 
     right: Mapping[str, str]
@@ -26,9 +26,9 @@ class Cases:
     missing: str
     keys: str
     spelling: str
-    entry: str = "cause"  # the word for an entry
+    entry: str = "cause"  # the word for an entry in a report
     listed: str = "the list"
-    case: str = "case"  # the word for a case
+    case: str = "case"  # the word for a case in a report
     label: str = "case {}"
     again: str = "case {}"
 
@@ -36,7 +36,7 @@ class Cases:
 def compare_cases(context: CheckContext, name: str, cases: Cases) -> None:
     """Assert that the student's dict `name` has the right entry for each case.
 
-    The hint for a wrong entry contains the sentence about this entry and the fact that decides the case.
+    The hint for a wrong entry contains the sentence about this entry, and the decisive fact of the case.
     """
     named = _entries_by_case(context, name, cases)
     odd = [entry for entry in named.values() if not isinstance(entry, str) or entry not in cases.entries]
@@ -58,7 +58,7 @@ def compare_cases(context: CheckContext, name: str, cases: Cases) -> None:
 
 
 def _entries_by_case(context: CheckContext, name: str, cases: Cases) -> dict[str, str]:
-    """Return the student's dict; assert that its keys are the cases."""
+    """Return the student's dict, after an assertion that its keys are the cases."""
     given = context.read(name)
     keys = set(given) if isinstance(given, dict) else set()
     context.require(

@@ -23,7 +23,7 @@ LIMITS = "ulimit -t 20 -f 60000 2> /dev/null"
 # time limit of the build in s; it takes 3 s of processor time, or 6 s at a load of 9 on two cores
 BUILD = 50.0
 OWN = "own"  # the folder of the check's own files; cp -n does not replace the student's files
-FILL = f"mkdir -p src {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
+FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
 # This path is enough for a package that contains only scripts.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
@@ -124,7 +124,7 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
     """
     files = [package.path(examined) if alone else package.folder]
     folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})
-    folder.command("bash", "-c", f"chmod -R +x {OWN} && {FILL}")
+    folder.command("bash", "-c", FILL)
     return BuiltPackage(folder, package)
 
 

@@ -1,4 +1,4 @@
-"""Inspect a compiled program: it uses roscpp, and it cannot let another program do its work."""
+"""Inspects a compiled program: it has to use roscpp, and no other program may do its work."""
 
 from __future__ import annotations
 
@@ -9,23 +9,25 @@ from course_pkg.checking.commands.folder import Folder
 from course_pkg.checking.context import CheckContext
 from course_pkg.errors import ToolMissing
 
-# A name in the list of dynamic symbols that `readelf` prints: the program calls it, and a library defines it.
+# A name in the list of dynamic symbols that `readelf` prints: the program uses the name, and a library
+# defines it.
 CALLED = re.compile(r"\sUND\s+([A-Za-z_]\w*)")
 STARTS = re.compile(
     r"f?exec[lv]\w*|posix_spawnp?|v?fork|clone\d?|system|popen|dlm?open|syscall|mprotect|memfd_create"
 )
 NEEDED = re.compile(r"\(NEEDED\)[^\[]*\[(lib\w+)\.so")
-# Instructions that enter the kernel without a function of a library, on x86 and ARM.
+# Instructions on x86 and ARM that enter the kernel directly, without a library function.
 INSTRUCTION = r"[[:space:]](syscall|sysenter|svc)([[:space:]]|$)|int +[$]0x80"
-LINES = 2000  # maximum number of lines of readelf's output; a student's program has about 400 symbols
+LINES = 2000  # maximum number of lines of readelf's output; a usual program has about 400 symbols
 
 
 def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
-    """Assert that the file `program` in `folder` is a compiled program of roscpp that works by itself.
+    """Assert that the file `program` in `folder` is a compiled roscpp program that starts no other program.
 
-    Otherwise, a program in another language could respond instead: C++ code can start such a program
-    (exec(3)), and a CMakeLists.txt can write a script in place of the program. Raises ToolMissing if binutils
-    is missing; it is usually installed with a compiler. A report shows these assertions only if they fail.
+    Otherwise, a program in another language could respond in its place: C++ code can start another program
+    (exec(3)), and a CMakeLists.txt can write a script in place of the compiled program. Raises ToolMissing if
+    binutils is missing; it is usually installed with a compiler. A report shows these assertions only if they
+    fail.
     """
     path = shlex.quote(program)
     seen = folder.command(

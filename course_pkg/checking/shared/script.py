@@ -19,10 +19,10 @@ def require_shebang(
     assertion: str = "its first line is #!/usr/bin/env python3",
     program: str = "python3",
 ) -> None:
-    """Assert that the first line of the student's file is a shebang that names `program`, and not Python 2.
+    """Assert that the first line of the student's file is a shebang with `program`, and not with Python 2.
 
-    The hints are for five cases: no shebang, a shebang in another line, another program, the line endings of
-    Windows, and a byte order mark. `missing` is also the default of the other hints.
+    There are hints for five cases: no shebang, a shebang in another line, another program, Windows line
+    endings, and a byte order mark. Where a hint is not given, `missing` is used.
     """
     text = context.source(f"file:{path}")
     first = text.partition("\n")[0]

@@ -1,4 +1,4 @@
-"""The command-line arguments about deadlines. This module imports only the standard library."""
+"""The command-line options about deadlines. This module imports only the standard library."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rows of a table by the names of its columns."""
+"""Reads a table; each row gives its values by the names of the columns."""
 
 from __future__ import annotations
 
@@ -10,13 +10,16 @@ from course_pkg.grading.tables import table_rows
 
 @dataclass(frozen=True)
 class Row:
-    """The values of a row by the names of the columns in small letters, and its place for messages."""
+    """The values of a row by the names of the columns, in small letters.
+
+    Messages contain the row's place in the file.
+    """
 
     where: str  # such as "times.csv, line 3"
     values: dict[str, str]
 
     def get(self, *columns: str) -> str:
-        """Return the value in the first of `columns` that is not empty, or ""."""
+        """Return the first value in `columns` that is not empty, or ""."""
         return next((value for name in columns if (value := self.values.get(name, ""))), "")
 
 

@@ -33,6 +33,11 @@ class Deadlines:
             return None
         return deadline + timedelta(days=self.extensions.days(student))
 
+    def is_over(self, student: str, chapter: str) -> bool:
+        """Return whether a student's time for a chapter is over now; without a deadline, it is."""
+        due = self.due(student, chapter)
+        return due is None or due + self.grace <= datetime.now(due.tzinfo)
+
     def days_late(self, student: str, chapter: str, submitted: datetime) -> float:
         """Return how many days after the end of the grace period a chapter was handed in, or 0."""
         due = self.due(student, chapter)

@@ -10,12 +10,12 @@ from course_pkg.errors import GradingError
 from course_pkg.grading.roster.people import Person
 
 COLUMN = "extension_days"
-FOLDED = "extension days"  # the form in which the roster stores the name of this column
+FOLDED = "extension days"  # the name of this column, as the roster stores it
 
 
 @dataclass(frozen=True)
 class Extensions:
-    """The additional days of each student, by the student's name in the grades."""
+    """The additional days of each student; the keys are the students' names in the grades."""
 
     by_student: Mapping[str, float] = field(default_factory=dict)
 

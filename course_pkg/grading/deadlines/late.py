@@ -1,4 +1,7 @@
-"""Lateness: a table contains the days, and options of `course grade` contain the deduction of points."""
+"""Lateness.
+
+A table contains the days late, and options of `course grade` say how many points are deducted.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +17,14 @@ from course_pkg.grading.grade import NO_TIME, Submission
 from course_pkg.grading.tables import table_rows
 
 COLUMNS = (["student", "days"], ["student", "chapter", "days"])
-LARGEST = 1_000_000  # bytes of a table
+LARGEST = 1_000_000  # maximum bytes of a table
 
 
 @dataclass(frozen=True)
 class LatePolicy:
-    """The deduction for lateness: `per_day` percent of the points for each day that has begun.
+    """The deduction for lateness: `per_day` percent of the points for each day late.
+
+    A day that has begun counts as a whole day. `per_day` percent of the points for each day that has begun.
 
     After more than `max_days` days, no points are left.
     """
@@ -39,10 +44,10 @@ class LatePolicy:
 def late_policy(
     table: Path | None, per_day: float | None, max_days: float | None, deadlines: Sequence[str] = ()
 ) -> LatePolicy:
-    """Return the policy of the options --late-per-day (percent) and --late-max-days.
+    """Return the policy from the options --late-per-day (percent) and --late-max-days.
 
-    Raises GradingError if there is a table of late days or a deadline and no policy, or a policy and neither
-    of them, or if a number is out of its range.
+    Raises GradingError if there is a table of late days or a deadline, but no policy; if there is a policy,
+    but neither of them; or if a number is out of its range.
     """
     if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(
@@ -63,7 +68,7 @@ def late_policy(
 
 @dataclass(frozen=True)
 class LateTable:
-    """Days late, by (student, chapter); the chapter "" means each chapter without a row."""
+    """The days late by (student, chapter); the chapter "" stands for all chapters without a row."""
 
     rows: Mapping[tuple[str, str], float]
 
@@ -72,7 +77,7 @@ class LateTable:
         return self.rows.get((student, chapter), self.rows.get((student, ""), 0.0))
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions with their days late; one without a row keeps the days that it has."""
+        """Return the submissions with their days late; without a row, the number of days does not change."""
         return [
             self._late(each)
             if (each.student, each.chapter) in self.rows or (each.student, "") in self.rows
@@ -85,7 +90,7 @@ class LateTable:
         return replace(submission, late=self.days(submission.student, submission.chapter), notes=notes)
 
     def strangers(self, submissions: Sequence[Submission]) -> int:
-        """Return how many students of the table handed in nothing; their names may be misspelt."""
+        """Return how many students in the table have no submission; their names may be misspelt."""
         return len({student for student, _ in self.rows} - {each.student for each in submissions})
 
 
@@ -110,7 +115,10 @@ def late_table(path: Path) -> LateTable:
 
 
 def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[str, str], float]:
-    """Return the key and the days of a row; a message quotes no cell, because each cell may be a name."""
+    """Return the key and the days of a row.
+
+    A message never contains a cell, because each cell may be a name.
+    """
     student, chapter = values.get("student", "").strip(), values.get("chapter", "").strip()
     if not complete or not student:
         raise GradingError(f"{where}: each row needs a student and a number of days, and no other cell.")

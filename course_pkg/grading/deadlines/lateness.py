@@ -16,7 +16,7 @@ LAST, BEST = "last", "best"
 
 @dataclass(frozen=True)
 class Lateness:
-    """The deadlines of a run, and a function that returns the time of a submission."""
+    """The deadlines of a run, and a function that returns the time at which a submission was handed in."""
 
     deadlines: Deadlines
     when: Callable[[Submission], datetime | None]
@@ -24,7 +24,7 @@ class Lateness:
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
         """Return the submissions with their days late.
 
-        Raises GradingError if there is a deadline, but no submission has a known time.
+        Raises GradingError if there is a deadline, but no submission has a time.
         """
         found = [self._dated(each) for each in submissions]
         due = [each for each in found if self._due(each) is not None]
@@ -59,7 +59,7 @@ class Lateness:
 def attempts_to_grade(
     submissions: Sequence[Submission], attempts: str, when: Callable[[Submission], datetime | None]
 ) -> list[Submission]:
-    """Return the attempts that are graded: all attempts if the best counts, or else the last attempts.
+    """Return the attempts to grade: all attempts if the best one counts, otherwise only the last ones.
 
     If the times of all attempts are known and different, the last attempt has the latest time. Otherwise, it
     has the highest number or the newest file.
@@ -77,7 +77,10 @@ def attempts_to_grade(
 
 
 def best_attempts(grades: Sequence[Grade]) -> list[Grade]:
-    """Return one grade for each student and chapter: the grade with the most points, or the later of two."""
+    """Return one grade for each student and chapter: the one with the most points.
+
+    If two have the same points, the later one.
+    """
     by_chapter: dict[tuple[str, str, str], list[Grade]] = {}
     for grade in grades:
         by_chapter.setdefault((grade.student, grade.chapter, grade.chapter or grade.origin), []).append(grade)
@@ -95,7 +98,7 @@ def _best(groups: Iterable[list[Grade]]) -> Iterator[Grade]:
 
 
 def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime | None]) -> Submission:
-    """Return the last of a student's attempts; `given` contains the attempts in the order of their rank."""
+    """Return the last of a student's attempts; `given` is sorted by the rank of the attempts."""
     times = [when(each) for each in given]
     stamps = [moment.timestamp() for moment in times if moment]
     if len(set(stamps)) < len(given):

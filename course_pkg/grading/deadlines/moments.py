@@ -1,4 +1,4 @@
-"""Read points in time in the formats of the platforms."""
+"""Reads points in time in the formats that the platforms write."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ ISO = re.compile(
 )
 OFFSET = re.compile(r"(?:UTC)?([+-])(\d\d):?(\d\d)", re.IGNORECASE)
 MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
-# "Sunday, 1 November 2026, 11:59 PM", or with the month first. Moodle writes both forms.
+# "Sunday, 1 November 2026, 11:59 PM"; the month may also come before the day. Moodle writes both forms,
+# depending on its language
 WRITTEN = re.compile(
     r"(?:[a-z]+,?\s+)?(?:(?P<day>\d{1,2})\.?\s+(?P<month>[a-z]{3,9})|(?P<month2>[a-z]{3,9})\s+(?P<day2>\d{1,2})),?\s+"
     r"(?P<year>\d{4}),?\s+(?:at\s+)?(?P<hour>\d{1,2}):(?P<minute>\d\d)(?::\d\d)?\s*(?P<half>[ap]\.?m\.?)?",
@@ -24,7 +25,7 @@ WRITTEN = re.compile(
 
 
 def zone_of(name: str) -> tzinfo:
-    """Return a time zone such as "Europe/Berlin" or "+01:00"; raise GradingError for an unknown name."""
+    """Return a time zone such as "Europe/Berlin" or "+01:00"; raise GradingError if the name is unknown."""
     if found := OFFSET.fullmatch(name):
         minutes = int(found[2]) * 60 + int(found[3])
         return timezone(timedelta(minutes=-minutes if found[1] == "-" else minutes))
@@ -41,8 +42,8 @@ def zone_of(name: str) -> tzinfo:
 def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
     """Return the point in time in `text`, or None if `text` is not a point in time.
 
-    `zone` is the time zone of a text that contains no zone. If there is no zone at all, the result is None.
-    If a time occurred twice, because the clock was put back, the result is the first of the two times.
+    `zone` is used if the text contains no time zone. If neither contains a time zone, the result is None. If
+    the clock was put back, a time can occur twice; then the result is the first of the two.
     """
     text = " ".join(text.split())
     if found := ISO.fullmatch(text):
@@ -61,7 +62,7 @@ def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
 
 
 def shown(moment: datetime) -> str:
-    """Return a point in time as a report shows it, with its offset: 2026-11-01 23:59 +01:00."""
+    """Return a point in time with its offset, as reports show it: 2026-11-01 23:59 +01:00."""
     offset = moment.strftime("%z")
     return f"{moment:%Y-%m-%d %H:%M} {offset[:3]}:{offset[3:5]}"
 

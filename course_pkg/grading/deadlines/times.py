@@ -1,4 +1,4 @@
-"""Finds the time of a submission in a table, or in the files that a platform adds to its download.
+"""Finds the time of a submission, in a table or in the files that a platform adds to its download.
 
 times.csv                    student,submitted, or with the columns chapter and file; one in the folder of the
                              submissions, as `course collect` writes it, is used without an option
@@ -67,7 +67,10 @@ def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
 
 @dataclass(frozen=True)
 class _Entry:
-    """A row of a table: a time for a chapter and a file. An empty chapter or file means all of them."""
+    """A row of a table: a time for a chapter and a file.
+
+    An empty chapter stands for all chapters, and an empty file for all files.
+    """
 
     chapter: str
     file: str
@@ -76,7 +79,10 @@ class _Entry:
 
 @dataclass(frozen=True)
 class _Table:
-    """The rows by student. The latest file of a submission counts, because all its files are graded."""
+    """The rows of each student.
+
+    If a submission has several files, the time of the latest file counts, because all files are graded.
+    """
 
     rows: Mapping[str, Sequence[_Entry]]
 
@@ -92,7 +98,10 @@ class _Table:
 
 
 def _has(submission: Submission, file: str) -> bool:
-    """Return whether `file`, a path in the submissions or in the student's folder, is in the submission."""
+    """Return whether the submission contains `file`.
+
+    This is a path in the submissions or in the student's folder.
+    """
     if file in _paths(submission.origin, submission.student) and submission.content:
         return True
     folders = [path for each in submission.packages for path in _paths(each.origin, submission.student)]
@@ -100,7 +109,10 @@ def _has(submission: Submission, file: str) -> bool:
 
 
 def _paths(origin: str, student: str) -> tuple[str, ...]:
-    """Return a path in the submissions unchanged, and relative to the folder of its student."""
+    """Return two paths of a submitted file.
+
+    One is relative to all submissions, and one to the student's folder.
+    """
     parts = origin.split("/")
     place = next((index for index, part in enumerate(parts[:-1]) if clean.identity(part) == student), None)
     return (origin,) if place is None else (origin, "/".join(parts[place + 1 :]))
@@ -144,7 +156,7 @@ def _table(rows: list[Row], zone: tzinfo | None) -> _Table:
 
 
 def _moment(row: Row, written: str, zone: tzinfo | None) -> datetime:
-    """Return the time in a row; a message quotes no cell, because each cell may be a name."""
+    """Return the time in a row. A message never contains a cell, because each cell may be a name."""
     moment = moment_of(written, zone)
     if moment is not None:
         return moment
@@ -201,7 +213,7 @@ class _Nbgrader:
 
 
 def _content(source: Path, path: str, limit: int) -> bytes:
-    """Return at most `limit` bytes of a file inside a folder or zip; b"" if it cannot be read."""
+    """Return at most `limit` bytes of a file in a folder or zip; b"" if the file cannot be read."""
     with suppress(GradingError, OSError, KeyError, ValueError, RuntimeError, zipfile.BadZipFile):
         if source.is_dir():
             return one_file(source / path).read()[:limit]

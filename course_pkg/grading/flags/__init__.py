@@ -1,1 +1,4 @@
-"""Marks work that an instructor should look at. A flag is for a person: it never changes points."""
+"""Flags mark work that an instructor should look at. A flag is a hint for a person.
+
+It never changes points.
+"""

@@ -1,4 +1,4 @@
-"""Find the flags of a class, by all kinds or by those that the instructor names."""
+"""Finds the flags of a class: of all kinds, or of the kinds that the instructor selects."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ NONE = "none"
 
 
 def kind_names() -> list[str]:
-    """Return the names of all kinds, which are the names of the modules in `kinds`."""
+    """Return the names of all kinds; each is the name of a module in `kinds`."""
     return sorted(module.name for module in pkgutil.iter_modules(kinds.__path__))
 
 
 def title_of(kind: str) -> str:
-    """Return the heading of a kind in a report; its name if there is no such kind (any more)."""
+    """Return the heading of a kind for a report; if this kind does not exist (any more), return its name."""
     return str(_module(kind).TITLE) if kind in kind_names() else kind
 
 
 def wanted_kinds(names: Sequence[str]) -> list[str]:
-    """Return the kinds that the option --flags names: all of them if it is empty, or none for "none".
+    """Return the kinds in the option --flags: all kinds if the option is empty, and no kind for "none".
 
-    Raises GradingError if there is no kind of such a name.
+    Raises GradingError for a name that is not a kind.
     """
     known = kind_names()
     if list(names) == [NONE]:
@@ -50,8 +50,8 @@ def with_flags(
 ) -> list[Grade]:
     """Return the grades with the flags of these kinds, found in the submissions that were graded.
 
-    A submission that does not count, such as an earlier attempt, is left out. A grade without a submission,
-    such as the result of an earlier run, keeps its flags.
+    Submissions that do not count, such as earlier attempts, are left out. A grade without a submission, such
+    as the result of an earlier run, keeps its old flags.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

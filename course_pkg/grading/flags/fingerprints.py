@@ -1,8 +1,8 @@
-"""What is characteristic of an answer's code, and stays when names, comments and the order are changed.
+"""Fingerprints of code: features that stay the same if names, comments and the order of statements change.
 
-There are three kinds of features: a statement in its block; a pair of statements of which one sets a name
-that the other uses; and the whole of a function or class as a set. Text is not compared in its order, because
-whoever copies an answer can reorder its functions and independent statements.
+There are three kinds of features: a statement in its block; two statements of which one sets a name and the
+other uses it; and the set of all statements of a function or class. The order of statements is ignored,
+because a student who copies an answer can reorder its functions and independent statements.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
 from course_pkg.grading.flags.tokens import cpp_statements
 from course_pkg.grading.flags.work import Answer
 
-BLOCK = 3  # statements of a function or class whose set is a feature
-PAIRS = 400  # the most pairs of one name: a name in every line says little
-LONG = 12  # characters of a text that is characteristic
-LINE = 500  # characters of a line of C++ that is read
+BLOCK = 3  # number of statements from which the set of a function's or class's statements is a feature
+PAIRS = 400  # maximum number of pairs for one name; a name in many lines is not characteristic
+LONG = 12  # least number of characters of a characteristic string
+LINE = 500  # maximum number of characters that are read of a line of C++
 TEXT = re.compile(r'"([^"]+)"')
 COMMENT = re.compile(r"//\s*(.+)|/\*(.+?)\*/")
 
@@ -35,12 +35,13 @@ class Fingerprint:
 
     statements: int
     code: frozenset[str] = field(default=frozenset())
-    words: frozenset[str] = field(default=frozenset())  # comments, texts and own names
-    lines: tuple[tuple[str, int], ...] = ()  # the form and the line of each statement
+    # comments, strings, and names that the program defines
+    words: frozenset[str] = field(default=frozenset())
+    lines: tuple[tuple[str, int], ...] = ()  # the normal form and the line number of each statement
 
 
 def fingerprint(answer: Answer) -> Fingerprint:
-    """Return the features of an answer; without any if it is neither Python nor C++, or cannot be read."""
+    """Return the features of an answer; there are none if it is neither Python nor C++, or cannot be read."""
     try:
         return _fingerprint(answer)
     except UNREADABLE:
@@ -61,7 +62,7 @@ def _fingerprint(answer: Answer) -> Fingerprint:
 
 
 def _features(made: list[Statement]) -> Iterator[str]:
-    """Yield the features; the second of two equal ones is another feature than the first."""
+    """Yield the features; if a feature occurs twice, the second occurrence is a different feature."""
     counts: Counter[str] = Counter()
     for feature in [*_single(made), *_pairs(made), *_blocks(made)]:
         counts[feature] += 1
@@ -75,7 +76,7 @@ def _single(made: list[Statement]) -> Iterator[str]:
 
 
 def _pairs(made: list[Statement]) -> Iterator[str]:
-    """Yield the pairs of statements where one sets a name that the other uses."""
+    """Yield the pairs of statements of which one sets a name and the other uses it."""
     binds: dict[Name, list[int]] = {}
     uses: dict[Name, list[int]] = {}
     for place, each in enumerate(made):
@@ -108,7 +109,7 @@ def _python_words(source: str, module: ast.Module) -> Iterator[str]:
             if token.type == tokenize.COMMENT:
                 yield from _long(token.string)
     except (tokenize.TokenError, SyntaxError, ValueError):
-        pass  # a magic, or a text that does not end: the comments before it are known
+        pass  # an IPython magic or an unterminated string: the comments before it have been found already
     for node in ast.walk(module):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             yield from _long(node.value)

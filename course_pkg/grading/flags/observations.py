@@ -1,7 +1,7 @@
-"""What a program does that may deserve a look, and what the course itself does in its notebooks.
+"""Observations: what a program does that an instructor may want to look at.
 
-An observation is identified by its key, such as "os.environ". What the course does, its students may do, so
-these observations are left out.
+The key of an observation, such as "os.environ", identifies it. Observations that the course's own notebooks
+cause are left out, because students may do the same.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from course_pkg.grading.flags.syntax import UNREADABLE, aliases, imports, is_pyt
 from course_pkg.grading.flags.work import Answer, Found, Group
 from course_pkg.grading.grade import Flag
 
-SHOWN = 5  # the most flags of one kind for one answer
+SHOWN = 5  # maximum number of flags of one kind for one answer
 
 
 @dataclass(frozen=True)
@@ -23,12 +23,12 @@ class Observation:
 
     key: str
     line: int
-    words: str  # a sentence for the instructor
+    words: str  # a sentence about it for the instructor
 
 
 @dataclass(frozen=True)
 class Program:
-    """A syntax tree, and the definitions that its names refer to."""
+    """A syntax tree, and the imported objects to which its names refer."""
 
     module: ast.Module
     names: Mapping[str, str]
@@ -38,10 +38,10 @@ Observe = Callable[[Program], Iterable[Observation]]
 
 
 def unusual(group: Group, kind: str, observe: Observe, *, whole_notebook: bool) -> Iterator[Found]:
-    """Yield a flag for each observation in an answer that the course's own code does not cause.
+    """Yield a flag for each observation in an answer that does not occur in the course's own code.
 
-    This code is the solution of the same exercise and all cells that are no exercises; `whole_notebook` adds
-    the solutions of the chapter's other exercises.
+    This code is the solution of the exercise, and all cells that are not exercises. With `whole_notebook`, it
+    includes the solutions of the chapter's other exercises.
     """
     shown = [tree(Answer("00", source)) for source in group.shown]
     given = imports(shown)
@@ -60,7 +60,10 @@ def unusual(group: Group, kind: str, observe: Observe, *, whole_notebook: bool) 
 
 
 def _seen(answer: Answer, given: Mapping[str, str], observe: Observe) -> list[Observation]:
-    """Return the observations in an answer; one that runs in the notebook can use what its cells import."""
+    """Return the observations in an answer.
+
+    An answer that runs in the notebook can use the imports of other cells.
+    """
     try:
         module = tree(answer)
         return list(observe(Program(module, aliases(module, {} if answer.path else given))))

@@ -1,18 +1,19 @@
-"""Which students handed in identical or nearly identical code, beyond what a class has in common.
+"""Finds students who handed in identical or nearly identical code that the class does not have in common.
 
-Handed-out code does not count, nor does code that more than a tenth of the class shares, nor an answer of
-fewer than ten statements. A feature that remains counts the more, the fewer students have it: if s of n
-students have it, it counts log2(n / s) bits. The likeness of two answers is the share of their bits that both
-have.
+Three things are ignored: handed-out code, code that more than a tenth of the class has, and answers with
+fewer than ten statements. Each remaining feature has a weight: if s of n students have it, its weight is
+log2(n / s) bits. The similarity of two answers is the weight of their common features, divided by the weight
+of all their features.
 
-Short answers to the same exercise can be alike by chance. So there are two reasons for a flag:
+Two short answers to the same exercise can be similar by chance. Therefore, a pair is flagged for one of two
+reasons:
 
-- One answer is enough if the two share much code that hardly any other student has, or rare comments, texts
-  or names.
-- Else, several answers of the same two students have to be alike. For each of them, the share of all pairs
-  of students whose answers are at least as much alike is an estimate of its probability p. The sum of
-  log2(1 / p) has to exceed log2 of the number of pairs: then chance explains less than one such pair in the
-  whole class.
+- One answer is enough if the two students share much code, or comments, strings or names, that hardly any
+  other student has.
+- Otherwise, several answers of the same two students have to be similar. For each of these answers, the
+  fraction of all pairs of students whose similarity is at least as high is an estimate of its probability p.
+  The sum of log2(1 / p) has to be larger than log2 of the number of pairs. Then, fewer than one such pair is
+  expected by chance in the whole class.
 """
 
 from __future__ import annotations
@@ -27,14 +28,14 @@ from itertools import combinations
 
 from course_pkg.grading.flags.fingerprints import Fingerprint
 
-STATEMENTS = 10  # an answer needs at least so many
-COMMON = 0.1  # of the class: what more students share does not count
-FEW = 3  # students who may share code, even in a small class
-SMALL = 30  # students: in a smaller class, a feature counts as much as in a class of this size
-ALIKE = 0.9  # the likeness of two answers that are nearly the same
-SAME = 0.95  # the likeness of two answers if one answer is the only reason
-OWN_CODE = 15  # features that these two share with at most one more student, if so
-OWN_WORDS = 3  # comments, texts or names, in place of such features
+STATEMENTS = 10  # least number of statements of an answer
+COMMON = 0.1  # part of the class; code that more students have is ignored
+FEW = 3  # number of students who may have the same code, even in a small class
+SMALL = 30  # number of students; in a smaller class, the weights are the same as in a class of this size
+ALIKE = 0.9  # least similarity of two nearly identical answers
+SAME = 0.95  # least similarity of two answers if one answer is the only reason
+OWN_CODE = 15  # least number of features that at most one other student has, if one answer is the only reason
+OWN_WORDS = 3  # least number of such comments, strings or names, in place of such features
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)
 Couple = tuple[int, int]
@@ -42,7 +43,7 @@ Couple = tuple[int, int]
 
 @dataclass(frozen=True)
 class Pair:
-    """Two students, and the likeness of their answers, by the name of the answer."""
+    """Two students, and the similarity of their answers; the keys are the names of the answers."""
 
     first: int
     second: int
@@ -50,7 +51,7 @@ class Pair:
 
 
 class Similarity:
-    """Compares the answers of a class: for each student, the fingerprints of the answers by their names."""
+    """Compares the answers of a class, which are given for each student as fingerprints by name."""
 
     def __init__(
         self, students: Sequence[Mapping[str, Fingerprint]], handed_out: Mapping[str, Fingerprint]
@@ -85,7 +86,7 @@ class Similarity:
 
 
 class Exercise:
-    """The answers of a class to one exercise, by the number of the student."""
+    """The answers of a class to one exercise; the keys are the numbers of the students."""
 
     def __init__(self, answers: Mapping[int, Fingerprint], given: Fingerprint, size: int) -> None:
         self._answers = answers
@@ -95,16 +96,16 @@ class Exercise:
         self._most = max(FEW, COMMON * size)
 
     def having(self, feature: str) -> int:
-        """Return how many students have a feature."""
+        """Return the number of students who have a feature."""
         return self._having[feature]
 
     def counts(self, feature: str) -> bool:
-        """Return whether a feature counts: it was not handed out, and few students have it."""
+        """Return whether a feature is compared: it was not handed out, and few students have it."""
         return feature not in self._given and self._having[feature] <= self._most
 
     @cached_property
     def likeness(self) -> dict[Couple, float]:
-        """The likeness of each two answers that have anything in common."""
+        """The similarity of each pair of answers that have a common feature."""
         return {
             (first, second): 2 * bits / (self._totals[first] + self._totals[second])
             for (first, second), bits in self._shared.items()
@@ -122,7 +123,7 @@ class Exercise:
         return math.log2(everybody / max(1, as_much))
 
     def is_enough(self, couple: Couple) -> bool:
-        """Return whether these two nearly identical answers need no other evidence."""
+        """Return whether one nearly identical answer of these two students is enough for a flag."""
         first, second = (self._answers[number] for number in couple)
         words = self._rare(first.words & second.words)
         return words >= OWN_WORDS or (
@@ -130,7 +131,7 @@ class Exercise:
         )
 
     def _rare(self, features: frozenset[str]) -> int:
-        """Return how many of these features hardly any student has."""
+        """Return the number of these features that hardly any student has."""
         return sum(self.counts(feature) and self.having(feature) <= FEW for feature in features)
 
     @cached_property
@@ -146,7 +147,7 @@ class Exercise:
 
     @cached_property
     def _shared(self) -> dict[Couple, float]:
-        """The bits of each two answers that have anything in common."""
+        """The weight (bits) of the common features of each pair of answers that have any."""
         holders: dict[str, list[int]] = {}
         for number, features in self._code.items():
             for feature in features:

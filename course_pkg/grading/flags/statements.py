@@ -1,8 +1,8 @@
-"""The statements of an answer, in a form that does not depend on names, comments, layout and order.
+"""The statements of an answer in a normal form, which does not depend on names, comments, layout and order.
 
-The program's own names (variables, parameters, functions, attributes that it sets) are replaced by one sign.
-Names from outside stay: they say what the code does. Docstrings, annotations and the texts of strings are
-left out.
+One sign replaces all names that the program defines: variables, parameters, functions, and attributes that it
+sets. Names that are defined elsewhere stay, because they tell what the code does. Docstrings, annotations and
+the contents of strings are removed.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ Name = tuple[int, str]  # the scope that binds a name (0: the module; -1: attrib
 
 @dataclass
 class Statement:
-    """One statement without the statements inside it."""
+    """One statement, without the statements in its body."""
 
     form: str  # its normal form
     line: int
-    parent: int  # the index of the statement that contains it; -1 at the top level
-    binds: set[Name] = field(default_factory=set)  # own names that it gives a value
-    uses: set[Name] = field(default_factory=set)  # own names that it reads
+    parent: int  # index of the statement whose body contains it; -1 at the top level
+    binds: set[Name] = field(default_factory=set)  # the program's own names to which it assigns a value
+    uses: set[Name] = field(default_factory=set)  # the program's own names that it reads
 
 
 def statements_of(module: ast.Module) -> list[Statement]:
-    """Return the statements of a Python program, each after the one that contains it."""
+    """Return the statements of a Python program; each comes after the statement whose body contains it."""
     return _Reader(module).read()
 
 
@@ -73,14 +73,17 @@ class _Reader:
                     self._block([child], place, inner)
 
     def owner(self, name: str, scopes: tuple[int, ...]) -> Name | None:
-        """Return the own name that `name` stands for in these nested scopes; None for a name from outside."""
+        """Return the program's own name to which `name` refers in these nested scopes.
+
+        None if the program does not define it.
+        """
         for scope in reversed(scopes):
             if name in self._scopes[scope]:
                 return scope, name
         return None
 
     def is_own_attribute(self, name: str) -> bool:
-        """Return whether the program sets an attribute of this name, or defines a method of this name."""
+        """Return whether the program sets an attribute, or defines a method, with this name."""
         return name in self._attributes
 
 
@@ -93,7 +96,7 @@ class _Form:
         self._scopes = scopes
 
     def of(self, node: ast.AST) -> str:
-        """Return the form of a node."""
+        """Return the normal form of a node."""
         if isinstance(node, ast.Name):
             return self._name(node.id, stored=not isinstance(node.ctx, ast.Load))
         if isinstance(node, ast.arg):
@@ -110,7 +113,7 @@ class _Form:
     def _compound(self, node: ast.AST) -> str:
         if isinstance(node, ast.AugAssign):
             target = self.of(node.target)
-            self._statement.uses |= self._statement.binds  # the old value is read, too
+            self._statement.uses |= self._statement.binds  # an augmented assignment also reads the old value
             value = self._operands(node.op, [target, self.of(node.value)])
             return f"Assign({target},{value})"
         if isinstance(node, ast.AnnAssign):
@@ -133,7 +136,7 @@ class _Form:
         return f"{type(node).__name__}({','.join(self._fields(node))})"
 
     def _fields(self, node: ast.AST) -> Iterator[str]:
-        """Yield the forms of the parts of a node, without statements, annotations and contexts."""
+        """Yield the normal forms of a node's fields, without statements, annotations and contexts."""
         for name, value in ast.iter_fields(node):
             if name in (*BLOCKS, "returns", "annotation", "ctx", "type_comment", "name"):
                 continue
@@ -159,7 +162,7 @@ class _Form:
         return self._own((-1, name), stored) if self._reader.is_own_attribute(name) else name
 
     def _is_own(self, function: ast.expr) -> bool:
-        """Return whether the program itself defines what is called, with its parameters."""
+        """Return whether the program itself defines the called function, with its parameters."""
         if isinstance(function, ast.Attribute):
             return self._reader.is_own_attribute(function.attr)
         return isinstance(function, ast.Name) and self._reader.owner(function.id, self._scopes) is not None
@@ -181,7 +184,7 @@ def _own_attributes(module: ast.Module) -> Iterator[str]:
 
 
 def _bound(node: ast.AST) -> set[str]:
-    """Return the names that a function, or the module, binds; those of functions inside are left out."""
+    """Return the names that a function or a module binds, without those of inner functions."""
     names: set[str] = set()
     if isinstance(node, Function):
         given = node.args

@@ -1,4 +1,4 @@
-"""The Python of an answer as a tree, and the imported objects that its names stand for."""
+"""The syntax tree of an answer in Python, and the imported objects to which its names refer."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from course_pkg.grading.flags.work import Answer
 from course_pkg.grading.rebuild.context import LONGEST, tree_of
 
-UNREADABLE = (RecursionError, ValueError, MemoryError)  # of a tree that is too deep, or has a huge number
+# errors for a tree that is too deep, or for a huge number
+UNREADABLE = (RecursionError, ValueError, MemoryError)
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -20,12 +21,12 @@ def is_python(answer: Answer) -> bool:
 
 
 def is_too_long(answer: Answer) -> bool:
-    """Return whether an answer is not parsed because of its length."""
+    """Return whether an answer is too long to be parsed."""
     return len(answer.source) > LONGEST
 
 
 def tree(answer: Answer) -> ast.Module:
-    """Return the tree of an answer, with the line numbers of its cell or file.
+    """Return the syntax tree of an answer; its line numbers are those of the cell or file.
 
     The tree is empty if the answer is not Python, too long, or too deeply nested.
     """
@@ -39,7 +40,7 @@ def line_of(answer: Answer, number: int) -> str:
 
 
 def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
-    """Return what imported names stand for, such as {"Trigger": "std_srvs.srv.Trigger"}."""
+    """Return the objects to which imported names refer, such as {"Trigger": "std_srvs.srv.Trigger"}."""
     found: dict[str, str] = {}
     for each in trees:
         for node in ast.walk(each):
@@ -54,9 +55,9 @@ def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
 
 
 def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
-    """Return `known` with the names that `module` imports, and those that it assigns from one of them.
+    """Return `known`, and the names that `module` imports or assigns from a known name.
 
-    A variable with a path stands for its class, so that its methods are known.
+    If a variable contains a path, its name refers to the class of paths, so that its methods are known.
     """
     names = {**known, **imports([module])}
     assigned = [node for node in ast.walk(module) if isinstance(node, ast.Assign)]
@@ -70,7 +71,7 @@ def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
 
 
 def dotted(node: ast.expr, names: Mapping[str, str]) -> str:
-    """Return the full name of an imported object, such as "threading.Lock"; "" for another expression."""
+    """Return the full name of an imported object, such as "threading.Lock"; "" for any other expression."""
     attributes: list[str] = []
     while isinstance(node, ast.Attribute):
         attributes.append(node.attr)
@@ -81,13 +82,13 @@ def dotted(node: ast.expr, names: Mapping[str, str]) -> str:
 
 
 def docstrings(module: ast.Module) -> set[int]:
-    """Return the identities of the nodes that are docstrings."""
+    """Return the ids (see id()) of the nodes that are docstrings."""
     first = [statement for body in _bodies(module) for statement in body[:1]]
     return {id(each.value) for each in first if isinstance(each, ast.Expr) and is_text(each)}
 
 
 def is_text(statement: ast.stmt) -> bool:
-    """Return whether a statement is only a constant, such as a docstring or `...`."""
+    """Return whether a statement consists of a constant, such as a docstring or `...`."""
     return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
 
 
@@ -98,7 +99,7 @@ def _bodies(module: ast.Module) -> Iterator[list[ast.stmt]]:
 
 
 def _body(answer: Answer) -> str:
-    """Return the source; an empty line replaces the magic that writes a file."""
+    """Return the source; the magic that writes a file is replaced by an empty line."""
     if answer.path and answer.source.lstrip().startswith("%%"):
         return "\n" + answer.source.lstrip().partition("\n")[2]
     return answer.source

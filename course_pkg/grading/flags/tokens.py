@@ -1,4 +1,4 @@
-"""The statements of a C++ program, in the same normal form as those of a Python program."""
+"""The statements of a C++ program, in the same normal form as those of Python."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pygments.token import Comment, Keyword, Name, String, Text, _TokenType
 
 from course_pkg.grading.flags.statements import Statement
 
-LEADS = ("&", "*", ">", "auto")  # stand between a type and the name that is declared
+LEADS = ("&", "*", ">", "auto")  # tokens between a type and the name that it declares
 OPENS, CLOSES, ENDS = "{", "}", ";"
 
 
@@ -22,7 +22,10 @@ class _Token:
 
 
 def cpp_statements(source: str) -> list[Statement]:
-    """Return the statements: the lines with #, and what ends with a semicolon or before a brace."""
+    """Return the statements.
+
+    These are lines that begin with #, and code that ends with a semicolon or before a brace.
+    """
     every = list(_tokens(source))
     directives = {token.line for token in every if token.text.lstrip().startswith("#")}
     tokens = [token for token in every if token.line not in directives]
@@ -62,7 +65,7 @@ def _neighbours(tokens: list[_Token]) -> Iterator[tuple[_Token | None, _Token, _
 
 
 def _declares(before: _Token | None, token: _Token, after: _Token | None) -> bool:
-    """Return whether a token is a name directly after a type, that is, a declaration of this name."""
+    """Return whether a token is a name directly after a type; then the program declares this name."""
     if before is None or after is None or token.kind not in Name or after.text in (":", "<"):
         return False
     typed = before.kind in Keyword.Type or before.kind in Name or before.text in LEADS

@@ -1,4 +1,4 @@
-"""What the kinds of flags look at: the answers of all students to one chapter, and the course's own code."""
+"""The input for all kinds of flags: all students' answers to one chapter, and the course's own code."""
 
 from __future__ import annotations
 
@@ -13,34 +13,34 @@ from course_pkg.grading.grade import Flag, Package, Submission
 from course_pkg.grading.plan import Plan
 from course_pkg.grading.rebuild.wanted import written_path
 
-ENDINGS = (".py", ".cpp", ".cc", ".h", ".hpp")  # of the files in a package that are read
-LARGEST = 100_000  # characters of a file; longer files are not read
+ENDINGS = (".py", ".cpp", ".cc", ".h", ".hpp")  # endings of the files in a package that are read
+LARGEST = 100_000  # maximum number of characters of a file; longer files are not read
 
 
 @dataclass(frozen=True)
 class Answer:
     """The code of one exercise cell, or one file of a package."""
 
-    where: str  # the part, such as "05.1", or the path of the file below src
+    where: str  # the part, such as "05.1", or the file's path below src
     source: str = field(repr=False)
 
     @cached_property
     def path(self) -> str:
-        """The file that the answer is or that its cell writes; an empty string for code that runs itself."""
+        """The file that the answer is or that its cell writes; "" for code that runs in the notebook."""
         return written_path(self.source) if self.where[:1].isdigit() else self.where
 
     @property
     def name(self) -> str:
-        """What identifies the same exercise in another student's work: a file, or else the part.
+        """The name of the same exercise in all students' work: the path of a file, or the id of the part.
 
-        One student may write a file in a cell, and another student may hand it in as part of a package.
+        One student may write the file in a cell, and another student may hand it in with a package.
         """
         return self.path.removeprefix("src/") or self.where
 
 
 @dataclass(frozen=True)
 class Work:
-    """What one student handed in for one chapter."""
+    """The work that one student handed in for one chapter."""
 
     student: str
     origin: str
@@ -53,22 +53,22 @@ class Group:
 
     chapter: str
     works: tuple[Work, ...]
-    solution: Mapping[str, Answer]  # the course's own answers, by their names
-    blanks: Mapping[str, str]  # what students get in place of these answers, by the same names
+    solution: Mapping[str, Answer]  # the course's own answers by name
+    blanks: Mapping[str, str]  # the blank answers that students get, by the same names
     shown: tuple[str, ...]  # the code of all other cells of the chapter's notebook
 
     def answers(self) -> Iterator[tuple[Work, Answer]]:
-        """Yield each answer with the work that it belongs to."""
+        """Yield each answer with the work that contains it."""
         for work in self.works:
             for answer in work.answers:
                 yield work, answer
 
 
-Found = tuple[Work, Flag]  # what `find` of a kind yields
+Found = tuple[Work, Flag]  # the result of a kind's function `find`
 
 
 def group_of(chapter: str, submissions: Sequence[Submission], plan: Plan) -> Group:
-    """Return the answers of `submissions`, which are all for `chapter`."""
+    """Return the answers in `submissions`; all of them are for `chapter`."""
     notebook = read(NotebookStore().solutions([chapter])[0])
     cells = code_cells(notebook)
     parts = {part: cell["source"] for cell in cells if (part := exercise_of(cell))}

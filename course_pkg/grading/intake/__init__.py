@@ -1,1 +1,1 @@
-"""Reads the files that were handed in (archives, and notebooks of any form), and returns submissions."""
+"""Reads handed-in files (archives, and notebooks in any format), and returns submissions."""

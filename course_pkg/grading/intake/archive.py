@@ -1,6 +1,8 @@
-"""The files in a submitted folder or zip. They are listed and read one by one, but never unpacked.
+"""The files in a submitted folder or zip; they are listed and read one by one, and never unpacked.
 
-Links are not followed, no file outside of the folder or zip is opened, and each file has a size limit.
+They are listed and read one by one, but never unpacked.
+
+Links are not followed, no file outside the folder or zip is opened, and each file has a size limit.
 """
 
 from __future__ import annotations
@@ -20,11 +22,11 @@ from pathlib import Path, PurePosixPath
 from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 
-LARGEST = 20 << 20  # bytes of one notebook
-ALTOGETHER = 4 << 30  # maximum bytes of all notebooks of a zip after unpacking
-# Largest allowed compression ratio; it is about 10 for a usual notebook, and 100 for a repetitive one.
+LARGEST = 20 << 20  # maximum bytes of one notebook
+ALTOGETHER = 4 << 30  # maximum bytes of all unpacked notebooks in a zip
+# Maximum compression ratio; it is about 10 for a usual notebook, and 100 for one with much repetition.
 RATIO = 400
-SMALL = 1 << 20  # bytes; for smaller files, the ratio is not checked
+SMALL = 1 << 20  # bytes; the ratio of smaller files is not checked
 MEMBERS = 200_000
 DEPTH = 16  # folders within folders
 LITTER = {"__macosx", "thumbs.db", "desktop.ini", "timestamp.txt", "__pycache__"}
@@ -32,12 +34,12 @@ LITTER = {"__macosx", "thumbs.db", "desktop.ini", "timestamp.txt", "__pycache__"
 
 @dataclass(frozen=True)
 class Entry:
-    """A file that was handed in; `read` returns its contents, or raises GradingError with the reason."""
+    """A handed-in file; `read` returns its content, or raises GradingError with the reason."""
 
-    path: str  # its path in the submitted folder or archive, with / between the folders
+    path: str  # its path in the submitted folder or archive, with / between folders
     modified: float  # s since 1970
     read: Callable[[], bytes]
-    # Whether its owner may execute it; False if an archive does not store permissions.
+    # Whether the file's owner may execute it; False if an archive does not contain permissions.
     executable: bool = False
 
     @property
@@ -48,7 +50,7 @@ class Entry:
 
 @contextmanager
 def opened(source: Path) -> Iterator[list[Entry]]:
-    """List the files in `source`, a folder or a zip; they can be read until the block ends."""
+    """List the files in `source`, a folder or a zip. They can be read until the end of the block."""
     if source.is_dir():
         yield sorted(_in_folder(source, "", DEPTH), key=lambda entry: entry.path)
         return
@@ -72,7 +74,7 @@ def one_file(path: Path) -> Entry:
 
 
 def is_litter(parts: tuple[str, ...]) -> bool:
-    """Return whether a system or an editor created the file, and not a student."""
+    """Return whether an operating system or an editor created the file, and not the student."""
     return any(part.lower() in LITTER or (part.startswith(".") and part not in ("..", ".")) for part in parts)
 
 
@@ -102,7 +104,7 @@ def _in_folder(folder: Path, prefix: str, depth: int) -> Iterator[Entry]:
 
 
 def _read_file(path: Path) -> bytes:
-    """Read a regular file, but never open a link, a pipe or a device."""
+    """Read a regular file; do not open a link, a pipe or a device."""
     try:
         handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     except OSError as error:
@@ -132,7 +134,7 @@ def _refuse_large(size: int) -> None:
 
 
 class _Archive:
-    """A zip, with a limit for the total number of bytes that are read from it."""
+    """A zip file, with a limit for the sum of all bytes that are read from it."""
 
     def __init__(self, archive: zipfile.ZipFile) -> None:
         self._archive = archive
@@ -187,7 +189,7 @@ def _refuse_suspicious(member: zipfile.ZipInfo) -> None:
 
 
 def leads_out(path: str) -> bool:
-    """Return whether a path in an archive leads out of the archive."""
+    """Return whether a path in an archive leads to a place outside the archive."""
     parts = path.replace("\\", "/").split("/")
     return not parts[0] or ".." in parts or re.match(r"[A-Za-z]:", path) is not None
 

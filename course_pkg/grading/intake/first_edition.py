@@ -1,4 +1,4 @@
-"""Notebooks of the first edition of the course, in which some chapters and exercises had other numbers."""
+"""Notebooks of the course's first edition, in which some chapters and exercises have other numbers."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ TITLE = re.compile(r"# (.+)")
 
 @dataclass(frozen=True)
 class RenumberedChapter:
-    """A chapter of the first edition, and the number that it has now."""
+    """A chapter of the first edition, with the number that it has in this edition."""
 
-    name: str  # the name of its file in the first edition, without .ipynb
-    title: str  # the number in the first edition
+    name: str  # the name of its file in the first edition, without the ending .ipynb
+    title: str  # its number in the first edition
     now: str
-    moved: str = ""  # a sentence about exercises that are in another chapter now
+    moved: str = ""  # a sentence about exercises that another chapter contains now
 
     @property
     def number(self) -> str:
@@ -50,7 +50,7 @@ RENUMBERED = (
     RenumberedChapter("13_go_further", "Go further", "16"),
 )
 
-# This chapter has the same number as in the first edition, but its exercises have other numbers.
+# This chapter has the same number in both editions, but its exercises have other numbers.
 CHOOSE = RenumberedChapter(
     "03_choose",
     "Choose between a stream and a question",
@@ -62,11 +62,13 @@ LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")  # only the f
 
 
 def first_edition(name: str, cells: Sequence[StudentCell], by_ids: str) -> RenumberedChapter | None:
-    """Return the first edition's chapter of a notebook, or None for a notebook of this edition.
+    """Return the first edition's chapter to which a notebook belongs.
 
-    `name` is the name of its file, in small letters with underscores. `by_ids` is the chapter with which its
-    cells share the most ids. The number of the chapter is not enough, because another chapter has this number
-    now.
+    None if the notebook is of this edition.
+
+    `name` is the name of the notebook's file, in small letters with underscores. `by_ids` is the chapter that
+    has the most cell ids in common with the notebook. The number of the chapter is not enough, because it
+    belongs to another chapter in this edition.
     """
     number = _number(cells)
     if number == CHOOSE.number and (CHOOSE.title in _titles(cells) or _has_last_part(cells)):

@@ -1,4 +1,4 @@
-"""Folders without a submission: empty folders of students, and folders with reports."""
+"""Folders that are not submissions: empty folders of students, and folders with reports."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-DEPTH = 3  # nested folders: two folders that a platform adds, and the folder of the student
+DEPTH = 3  # maximum depth of folders: two folders that a platform adds, and the student's folder
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 
 
@@ -24,8 +24,8 @@ def handed_in_nothing(
 ) -> list[Submission]:
     """Return a submission with a problem for each student whose folder contains no file.
 
-    `source` is a folder or a zip, `files` are the paths in it, and `outer` is the number of folders around
-    all students' folders. `reports` are the paths of folders in `source` that belong to no student.
+    `source` is a folder or a zip, `files` are the paths in it, and `outer` is the number of folders that
+    contain all students' folders. `reports` are the paths of folders in `source` that belong to no student.
     """
     filled = {PurePosixPath(path).parts[:depth] for path in files for depth in range(1, DEPTH + 1)}
     found: dict[str, Submission] = {}
@@ -46,7 +46,10 @@ def handed_in_nothing(
 
 
 def require_other_folder(source: Path, out: Path) -> None:
-    """Raise GradingError if reports in the folder `out` would be mixed with submissions."""
+    """Raise GradingError if the folder `out` contains submissions or is inside them.
+
+    Otherwise, reports would be among the submissions.
+    """
     if not source.is_dir() or not out.is_dir() or (out / FOLDER).is_dir():
         return
     same = out.resolve() == source.resolve()
@@ -57,7 +60,7 @@ def require_other_folder(source: Path, out: Path) -> None:
 
 
 def report_folders(source: Path, out: Path | None) -> list[str]:
-    """Return the folders inside of `source` that contain reports: `out`, and those of other runs.
+    """Return the folders in `source` that contain reports: `out`, and those of other runs.
 
     The paths have / between the names. A message on stderr contains the folders of other runs.
     """
@@ -73,12 +76,12 @@ def report_folders(source: Path, out: Path | None) -> list[str]:
 
 
 def is_inside(path: str, folders: Sequence[str]) -> bool:
-    """Return whether a file, given by its path with /, is in one of `folders`."""
+    """Return whether a file is in one of `folders`; its path has / between the folders."""
     return any(path.startswith(f"{folder}/") for folder in folders)
 
 
 def _path_inside(source: Path, folder: Path | None) -> str:
-    """Return the path of `folder` inside of the folder `source`, with / between the names, or ""."""
+    """Return the path of `folder` in the folder `source`, with / between the names; "" if it is not there."""
     try:
         inside = folder.resolve().relative_to(source.resolve()) if folder else Path()
     except ValueError:
@@ -87,13 +90,13 @@ def _path_inside(source: Path, folder: Path | None) -> str:
 
 
 def _leads_to(parts: tuple[str, ...], folders: Sequence[str]) -> bool:
-    """Return whether a folder is one of `folders`, or contains one of them."""
+    """Return whether a folder is one of `folders` or a parent of one of them."""
     inner = (PurePosixPath(folder).parts for folder in folders)
     return any(parts[: len(each)] == each[: len(parts)] for each in inner)
 
 
 def _folders(source: Path) -> Iterator[tuple[str, ...]]:
-    """Yield the outermost DEPTH levels of folders; links are not followed."""
+    """Yield the upper DEPTH levels of folders; links are not followed."""
     if source.is_dir():
         yield from _below(source, ())
         return

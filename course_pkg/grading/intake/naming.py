@@ -1,4 +1,6 @@
-"""Find the student to whom a file belongs from its path, which an instructor or a platform has chosen.
+"""Finds the student to whom a file belongs.
+
+An instructor or a platform has put the name into a folder's or file's name.
 
 SUBMISSIONS/<student>/NN_topic.ipynb                          by hand; folders below are allowed
 Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle, a folder for each; or all in the name
@@ -27,29 +29,29 @@ CANVAS = re.compile(
 )
 GRADESCOPE = re.compile(r"submission_\d+")
 METADATA = "submission_metadata.yml"
-TIMES = "times.csv"  # `course collect` writes it next to the students' folders
+TIMES = "times.csv"  # `course collect` writes this file next to the students' folders
 WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
-# Some systems add .txt or .json.
+# some systems add .txt or .json
 NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)
-Submitters = Mapping[str, Sequence[str]]  # the submitters by the name of Gradescope's folder
+Submitters = Mapping[str, Sequence[str]]  # the submitters of each folder in Gradescope's export
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A file and its student, known from the path of the file."""
+    """A file, and the student to whom it belongs according to its path."""
 
-    student: str  # the student's name, or empty if the path does not contain it
-    stem: str  # the name that the student gave to the notebook; empty for any other file
-    attempt: int = 0  # the number of the attempt, as the platform counts
+    student: str  # the student's name, or "" if the path does not contain it
+    stem: str  # the notebook's name as the student chose it; "" for any other file
+    attempt: int = 0  # the number of the attempt, as the platform counts attempts
     marked_late: bool = False
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
-    """Return the students to whom the file belongs: one student, or the members of a group.
+    """Return the students to whom a file belongs: one student, or all members of a group.
 
-    Only the name that a platform chose is read: the name of the first folder, or of the file if there is no
-    folder. Students choose the names below this folder, so they could use the name of another student.
+    Only a name that a platform chose is read. This is the name of the first folder, or of the file if there
+    is no folder. Names below this folder are chosen by students, who could use another student's name.
     """
     *folders, name = parts
     first = folders[0] if folders else name
@@ -63,9 +65,11 @@ def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
 
 
 def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -> tuple[str, str]:
-    """Return the name and the number by which `platform` (MOODLE, CANVAS) knows a student, or empty texts.
+    """Return the name and the number of a student on `platform` (MOODLE, CANVAS).
 
-    The number is read only from names that the platform chose: a student whose name is `s_17` has no number.
+    Both are "" if they are not known.
+
+    The number is read only from names that the platform chose; a student with the name `s_17` has no number.
     """
     for origin in origins:
         for part in origin.split("/"):
@@ -76,7 +80,7 @@ def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -
 
 
 def unwrapped(parts: Sequence[str], outer: int) -> tuple[str, ...]:
-    """Return a path without its first `outer` folders, and without a folder that a platform adds."""
+    """Return a path without its first `outer` folders, and without a folder that the platform added."""
     inner = tuple(parts[outer:]) if len(parts) > outer else tuple(parts)
     return inner[1:] if len(inner) > 1 and WRAPPING.fullmatch(inner[0]) else inner
 
@@ -91,9 +95,11 @@ def _claim(student: str, name: str, *, late: bool = False) -> Claim:
 
 
 def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
-    """Return the number of folders around the students' folders: 1 if one folder contains all, else 0.
+    """Return the number of folders that contain all students' folders.
 
-    `archive` is the name of the zip without .zip; it is empty for a folder.
+    It is 1 if one folder contains all files, otherwise 0.
+
+    `archive` is the name of the zip without .zip, or "" for a folder.
     """
     inside = [path for path in paths if path]
     outer = {path[0] for path in inside if len(path) > 1 or NOTEBOOK.fullmatch(path[0])}
@@ -110,7 +116,7 @@ def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
 
 
 def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
-    """Return the submitters of each folder of an export: their student numbers, addresses or names."""
+    """Return the submitters of each folder of an export, as student numbers, addresses or names."""
     return {
         folder: [_submitter(each) or folder for each in record.get(":submitters") or [{}]]
         for folder, record in gradescope_records(content).items()
@@ -123,7 +129,7 @@ def gradescope_records(content: bytes) -> dict[str, dict[str, Any]]:
 
     Raises GradingError if the metadata cannot be read.
 
-    The file is YAML with Ruby's symbols as keys. Every scalar is read as a string, and tags are ignored.
+    The file is YAML; its keys are symbols of Ruby. Every scalar is read as a string, and tags are ignored.
     """
     loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
     try:

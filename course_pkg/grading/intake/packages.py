@@ -1,12 +1,13 @@
-"""The submitted catkin packages: SUBMISSIONS/<student>/<package>/package.xml, next to the notebooks.
+"""The submitted catkin packages.
+
+Each is next to the notebooks: SUBMISSIONS/<student>/<package>/package.xml.
 
 A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
 writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
-If no part needs a package of this name, the name of the folder is used, provided that a part needs it.
+If no part needs this name, but a part needs the name of the folder, the name of the folder is used.
 
-A link or a device is left out, with a note, and the other files of the package are examined. A package that
-is too large is not examined. If two packages have the same name, the newest package is used, as for
-notebooks.
+A link or a device is left out with a note; the other files of the package are examined. A package that is too
+large is not examined. If two packages have the same name, the newest one is used, as for notebooks.
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ from course_pkg.sandbox.job import work_file
 from course_pkg.workspace.fault import manifest_tags
 
 MANIFEST = "package.xml"
-GENERATED = frozenset({"build", "devel", "install"})  # catkin writes these folders; students do not
-LARGEST = 2 << 20  # bytes of all files of a package; a package of the course has less than 50 KiB
+GENERATED = frozenset({"build", "devel", "install"})  # catkin writes these folders
+LARGEST = 2 << 20  # maximum bytes of all files of a package; the course's own packages have less than 50 KiB
 FILES = 300
 SHOWN = 3  # maximum number of names in a sentence
 NO_NOTEBOOK = "No notebook was handed in for this chapter."
@@ -33,7 +34,7 @@ NO_NOTEBOOK = "No notebook was handed in for this chapter."
 
 @dataclass(frozen=True)
 class Member:
-    """A file, and its place below the folder of its student."""
+    """A file, and its path below the student's folder."""
 
     entry: Entry
     path: tuple[str, ...]
@@ -41,33 +42,33 @@ class Member:
 
 @dataclass(frozen=True)
 class Found:
-    """A package as it was handed in; `problem` says why it cannot be examined."""
+    """A handed-in package; `problem` says why it cannot be examined."""
 
     package: Package
-    folder: str  # the last part of its path
-    modified: float  # s since 1970, the time of the newest file
+    folder: str  # the name of its folder
+    modified: float  # time of the newest file (s since 1970)
     notes: tuple[str, ...] = ()
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the package's name among `names`, the names that parts need, or an empty string."""
+        """Return which of `names` is the package's name, or ""; `names` are the names that parts need."""
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
 
 def package_roots(paths: Sequence[tuple[str, ...]]) -> set[tuple[str, ...]]:
-    """Return the folders of the packages in a student's `paths`; no package is inside another package."""
+    """Return the folders of the packages in a student's `paths`; a package cannot be in another package."""
     with_manifest = {path[:-1] for path in paths if len(path) > 1 and path[-1] == MANIFEST}
     own = {root for root in with_manifest if not is_generated(root)}
     return {root for root in own if not any(root[:depth] in own for depth in range(1, len(root)))}
 
 
 def is_generated(folders: Sequence[str]) -> bool:
-    """Return whether catkin wrote the contents of the last of these nested folders."""
+    """Return whether catkin has written the files in the last of these nested folders."""
     return not GENERATED.isdisjoint(folders)
 
 
 def root_of(path: tuple[str, ...], packages: set[tuple[str, ...]]) -> tuple[str, ...] | None:
-    """Return the package to which a file belongs, or None; a notebook belongs to no package."""
+    """Return the package that contains a file, or None; a notebook belongs to no package."""
     if NOTEBOOK.fullmatch(path[-1]):
         return None
     return next((path[:depth] for depth in range(1, len(path)) if path[:depth] in packages), None)
@@ -95,8 +96,8 @@ def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
     manifest = next((content for name, content, _ in contents if name == MANIFEST), None)
     if manifest is None:
         return replace(found, problem=f"The package {clean.line(root[-1], 60)} was not graded. {notes[0]}")
-    # Many platforms lose the permission bits. A student who has run a program of the package has set at least
-    # one bit. So if no file is executable, the bits were lost.
+    # Many platforms do not store permissions. If a student has run a program of the package, at least one
+    # file is executable. Therefore, if no file is executable, the platform has lost the permissions.
     lost = not any(executable for *_, executable in contents)
     files = [
         work_file(name, content, executable=executable or (lost and content.startswith(b"#!")))
@@ -119,11 +120,11 @@ def _name(manifest: bytes) -> str:
 def attached(
     given: Sequence[Submission], packages: Mapping[str, Sequence[Found]], wanted: Sequence[str] = ()
 ) -> list[Submission]:
-    """Add each student's packages to the submissions of the chapters that need them; return all submissions.
+    """Add each student's packages to the submissions for the chapters that need them; return all submissions.
 
     `given` are the submissions with notebooks, and `packages` are the packages of each student. `wanted` are
-    the graded chapters; an empty list means all chapters. If there is no notebook, a package becomes a
-    submission if it contains a file that a part of the chapter needs.
+    the graded chapters; an empty list means all chapters. Without a notebook, a package becomes a submission
+    if it contains a file that a part of the chapter needs.
     """
     if not packages:
         return list(given)
@@ -139,7 +140,7 @@ def attached(
 
 
 def _asked(parts: Sequence[Part]) -> dict[str, set[str]]:
-    """Return the files that `parts` need, by the name of the package."""
+    """Return the files that `parts` need; the keys are the names of packages."""
     asked: dict[str, set[str]] = {}
     for part in parts:
         for name, paths in part.package_files.items():
@@ -154,7 +155,7 @@ def _made(
     asked: Mapping[str, set[str]],
     given: Submission | None,
 ) -> Submission | None:
-    """Return a student's submission for a chapter with the packages that it needs, or None."""
+    """Return a student's submission for a chapter, with the packages that the chapter needs, or None."""
     taken, notes = [], []
     for name in asked:
         ranked = sorted((each for each in found if each.called(list(asked)) == name), key=_rank, reverse=True)

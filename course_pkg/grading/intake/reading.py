@@ -1,4 +1,4 @@
-"""Reads a student's notebook, which may have any version and may be damaged.
+"""Reads a student's notebook; it may have any format version, and it may be damaged.
 
 The size of the input is limited.
 """
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from course_pkg.errors import GradingError
 from course_pkg.types.fields import Plain
 
-# Maximum number of lists and objects in the file: 20 MiB of them would need half a GB of memory.
+# Maximum number of lists and objects in the file; 20 MiB of them would need half a GB of memory.
 BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {
@@ -31,23 +31,26 @@ WRONG = (
     ValueError,
     IndexError,
     RecursionError,
-)  # errors that a damaged old notebook causes
+)  # errors that a damaged notebook in an old format causes
 
 
 @dataclass(frozen=True)
 class StudentCell:
-    """One cell, with only the data that grading needs."""
+    """One cell with the data that grading needs."""
 
     id: str
     kind: str  # "code", "markdown", "raw"
     source: str
-    exercise: str = ""  # the part that it answers, according to its metadata
-    check: str = ""  # the part that it checks
+    exercise: str = ""  # the id of the part to which it belongs, from its metadata
+    check: str = ""  # the id of the part that it checks
     tags: tuple[str, ...] = ()
 
 
 def read_cells(content: bytes) -> list[StudentCell]:
-    """Return the cells of a notebook; raise GradingError with a short reason if it is not a notebook."""
+    """Return the cells of a notebook.
+
+    Raise GradingError with a short reason if the content is not a notebook.
+    """
     cells = _all_cells(_parsed(content))
     if not isinstance(cells, list):
         raise GradingError(
@@ -59,7 +62,10 @@ def read_cells(content: bytes) -> list[StudentCell]:
 
 
 def slimmed(cells: Sequence[StudentCell]) -> bytes:
-    """Return a notebook with only the data for grading; the outputs of a class would fill the memory."""
+    """Return a notebook with only the data for grading.
+
+    The outputs of a whole class would fill the memory.
+    """
     kept = [
         {
             "id": cell.id,
@@ -91,10 +97,10 @@ def _parsed(content: bytes) -> dict[str, Plain]:
 
 
 def _all_cells(data: dict[str, Plain]) -> object:
-    """Return the cells of any format: up to version 3, worksheets contain them.
+    """Return the cells, whatever the format: up to version 3, they are in worksheets.
 
-    nbformat's own upgrade would first validate an old notebook. This takes seconds for a long notebook, and
-    it writes the contents to a log.
+    nbformat's conversion would first validate an old notebook. For a long notebook, this takes seconds and
+    writes the whole content to a log.
     """
     sheets = data.get("worksheets")
     if "cells" in data or not isinstance(sheets, list):

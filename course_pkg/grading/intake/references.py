@@ -1,4 +1,4 @@
-"""The solutions of the course, and methods that find the solution to which a submission belongs."""
+"""The solutions of the course; methods find the solution to which a submission belongs."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.authoring.cells import exercise_of
 from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.grading.intake.reading import StudentCell
 
-ENOUGH = 5  # ids that a notebook has to share with a solution if none of them is the id of an exercise
+ENOUGH = 5  # least number of ids that a notebook has to share with a solution if it has no id of an exercise
 
 
 class References:
@@ -35,13 +35,13 @@ class References:
         return sorted(self._stems)
 
     def name_of(self, chapter: str) -> str:
-        """Return the name of the chapter's file, without the ending."""
+        """Return the name of the chapter's file without the extension."""
         return self._stems.get(chapter, f"{chapter}_topic")
 
     def by_name(self, stem: str) -> str:
-        """Return the number of the chapter in the name of the file, even if there is no such chapter.
+        """Return the chapter's number in the name of the file, even if there is no such chapter.
 
-        The result is an empty string if the name contains no number.
+        Return "" if the name contains no number.
         """
         name = plain(stem)
         for chapter, known in self._stems.items():
@@ -54,9 +54,9 @@ class References:
         return found[1].zfill(2) if found else ""
 
     def by_cells(self, cells: Sequence[StudentCell], favoured: str) -> str:
-        """Return the chapter to which most exercises belong, or `favoured` if it has as many.
+        """Return the chapter to which most exercises belong; if `favoured` has as many, return `favoured`.
 
-        If there are no exercises, all ids of cells are compared.
+        If the notebook has no exercises, the ids of all cells are compared.
         """
         asked = Counter(
             self._parts[key] for cell in cells for key in {cell.id, cell.exercise} if key in self._parts
@@ -66,7 +66,7 @@ class References:
         return self.by_ids(cells)
 
     def by_ids(self, cells: Sequence[StudentCell]) -> str:
-        """Return the chapter with which the cells share the most ids; "" if there are too few."""
+        """Return the chapter that has the most ids in common with the cells; "" if there are too few."""
         shared = Counter(chapter for cell in cells for chapter in self._ids.get(cell.id, []))
         chapter, count = max(shared.items(), key=lambda item: (item[1], item[0]), default=("", 0))
         return chapter if count >= ENOUGH else ""

@@ -46,7 +46,7 @@ SHOWN = 3  # maximum number of file names in a sentence
 
 @dataclass(frozen=True)
 class _Found:
-    """A submission, and the values that decide between two submissions for one chapter."""
+    """A submission, and the values that decide which of two submissions for a chapter counts."""
 
     submission: Submission
     attempt: int
@@ -63,10 +63,10 @@ def submissions(
     """Return the submissions for `chapters`, or for all chapters, sorted by student and chapter.
 
     `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, a download from a platform (see naming.py),
-    or one notebook. `root` is the checkout with the solutions. The folder `without`, and folders with reports
-    of earlier runs, contain no submissions. A file that cannot be used becomes a submission with a `problem`,
-    and so does a student's folder without any file; GradingError is raised only when `source` can be neither
-    listed nor opened.
+    or one notebook. `root` is the checkout that contains the solutions. The folder `without`, and folders
+    with the reports of earlier runs, are ignored. A file that cannot be used becomes a submission with a
+    `problem`, and so does an empty folder of a student. GradingError is raised only if `source` can neither
+    be listed nor opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
@@ -99,7 +99,7 @@ def submission_of(path: Path, student: str = "", root: Path | None = None) -> Su
 
 
 def _beside(path: Path) -> Iterator[Found]:
-    """Yield the packages in the folder of a notebook; ignore all other files there."""
+    """Yield the packages in the folder of a notebook; other files there are ignored."""
     for folder in sorted(path.parent.iterdir()):
         if (folder / MANIFEST).exists() and folder.is_dir() and not folder.is_symlink():
             with opened(folder) as entries:
@@ -111,7 +111,7 @@ def _beside(path: Path) -> Iterator[Found]:
 
 @dataclass(frozen=True)
 class _File:
-    """A file, its path without the folders around all students' folders, and its student."""
+    """A file with its student, and its path in the students' folders."""
 
     entry: Entry
     path: tuple[str, ...]
@@ -119,7 +119,7 @@ class _File:
 
 
 def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_File]]:
-    """Return the packages of each student, and all other files except the files that catkin wrote."""
+    """Return the packages of each student, and all other files; files that catkin wrote are left out."""
     packages: dict[str, list[Found]] = {}
     others: list[_File] = []
     for _, group in groupby(sorted(files, key=lambda each: each.path), lambda each: each.path[:1]):
@@ -140,7 +140,7 @@ def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_Fil
 
 
 def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list[str]]]:
-    """Return the number of folders around all students' folders, and Gradescope's list of submitters."""
+    """Return the number of folders around the students' folders, and Gradescope's list of submitters."""
     outer = wrapping([entry.parts for entry in entries if not leads_out(entry.path)], archive)
     submitters: dict[str, list[str]] = {}
     for entry in entries:
@@ -151,12 +151,12 @@ def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list
 
 
 def _is_metadata(entry: Entry, outer: int) -> bool:
-    """Return whether Gradescope wrote the file, and not a student: it is not in a student's own folder."""
+    """Return whether Gradescope, and not a student, wrote the file: it is not in a student's folder."""
     return unwrapped(_inside(entry), outer) == (METADATA,)
 
 
 def _unwrapped(entries: Sequence[Entry], outer: int, submitters: dict[str, list[str]]) -> Iterator[_File]:
-    """Yield each file with its student; its path begins with the student's folder."""
+    """Yield each file with its student; the path begins with the student's folder."""
     for entry in entries:
         path = unwrapped(_inside(entry), outer)
         if path != (TIMES,) and not (submitters and _is_metadata(entry, outer)):
@@ -164,7 +164,7 @@ def _unwrapped(entries: Sequence[Entry], outer: int, submitters: dict[str, list[
 
 
 def _inside(entry: Entry) -> tuple[str, ...]:
-    """Return the folders and the name of a file; a path that leads out loses parts such as `..`."""
+    """Return the folders and the name of a file; parts such as `..` are removed."""
     if not leads_out(entry.path):
         return entry.parts
     return tuple(part for part in entry.parts if part.strip("./\\") and ":" not in part)
@@ -176,7 +176,7 @@ def _found(file: _File, references: References) -> Iterator[_Found]:
 
 
 def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
-    """Read one file; the text of its `problem` says what is wrong, where, and what to do."""
+    """Read one file; if it has a `problem`, the text says what is wrong, where it is, and what to do."""
     name = clean.line(entry.path.rpartition("/")[2] or "the archive", 120)
     blank = Submission(owner.student, "", b"", clean.line(entry.path, 500))
     try:
@@ -217,7 +217,10 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
 
 
 def _of_first_edition(found: RenumberedChapter, references: References, blank: Submission) -> Submission:
-    """Return a submission whose `problem` says what has changed, and which notebook to hand in instead."""
+    """Return a submission with a `problem`.
+
+    It says what has changed, and which notebook has to be handed in.
+    """
     name = clean.line(blank.origin.rpartition("/")[2], 120)
     problem = (
         f"{name} was not graded: it belongs to the first edition of the course, where {found.difference} "
@@ -227,7 +230,7 @@ def _of_first_edition(found: RenumberedChapter, references: References, blank: S
 
 
 def _refuse_other(entry: Entry) -> None:
-    """Raise GradingError with a message about this kind of file, which is not a notebook."""
+    """Raise GradingError for a file that is not a notebook; the message depends on the kind of file."""
     if entry.path.endswith(METADATA):
         raise GradingError("it does not contain the names of the students; export it from Gradescope again")
     ending = entry.path.rpartition(".")[2].lower()
@@ -242,7 +245,7 @@ def _refuse_other(entry: Entry) -> None:
 
 
 def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
-    """Yield the last submission for each chapter and student; its notes name the earlier submissions."""
+    """Yield the last submission for each chapter and student; its notes list the earlier submissions."""
 
     def key(each: _Found) -> tuple[str, str, bool]:
         return each.submission.student, each.submission.chapter, bool(each.submission.chapter)
@@ -262,7 +265,7 @@ def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
 
 
 def _without_chapter(given: Sequence[Submission]) -> Iterator[Submission]:
-    """Yield one submission for all unusable files of a student, which usually have the same problem."""
+    """Yield one submission with all unusable files of a student; they usually have the same problem."""
     first, *others = sorted(given, key=lambda each: each.origin)
     if others:
         names = _listed([each.origin for each in others])

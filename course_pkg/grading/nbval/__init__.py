@@ -1,1 +1,1 @@
-"""The run of nbval on a submission, which gives feedback and earns no points."""
+"""Runs a submission with nbval; this gives feedback, but no points."""

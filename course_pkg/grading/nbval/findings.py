@@ -8,7 +8,7 @@ COLOUR = re.compile(r"\x1b\[[\d;]*m")
 RAISED = re.compile(r"^(?P<error>[A-Za-z_][\w.]*): (?P<message>.*)$", re.MULTILINE)
 OWN_LIMIT = re.compile(r"gave no result within (?P<seconds>\d+) s")
 LIMIT = re.compile(r"Timeout of (?P<seconds>\d+) seconds exceeded (?:while )?executing")
-SENTENCES = (  # a text that nbval 0.11 or pytest writes, and its meaning for a student
+SENTENCES = (  # each entry is a text of nbval 0.11 or pytest, and its meaning for a student
     ("Missing output fields", "The cell showed no output, or less output than with the right answers."),
     ("Unexpected output fields", "The cell showed more output than with the right answers."),
     (
@@ -24,7 +24,10 @@ OTHER = "The result of the cell differs from the result with the right answers."
 
 
 def finding(words: str) -> str:
-    """Return a sentence about a cell from the text that nbval wrote about it; "" for an empty text."""
+    """Return a sentence about a cell for the student; `words` is nbval's text about the cell.
+
+    For "", return "".
+    """
     text = COLOUR.sub("", words)
     if not text.strip():
         return ""

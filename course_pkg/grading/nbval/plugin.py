@@ -1,9 +1,9 @@
 """A pytest plug-in that reports the result of each part after nbval has run a notebook of the course.
 
-The run fails if a part has not all of its points: its check did not pass, did not run, or is not in the
-notebook. The result is only feedback: it comes from the outputs of the notebook, and student code can forge
-them. If the variable COURSE_NBVAL_RECORD names a file, the outcome of each cell is appended to this file, one
-JSON object per line.
+The run fails if a part does not have all of its points: its check did not pass, did not run, or is missing.
+The result is only feedback, because it comes from the outputs of the notebook, which student code can forge.
+If the variable COURSE_NBVAL_RECORD contains the name of a file, one JSON object per cell is appended to this
+file.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from course_pkg.authoring.cells import Cell, check_of, exercise_of
 from course_pkg.checking.parts import chapters, parts_of
 
 RECORD = "COURSE_NBVAL_RECORD"
-WORDS = 40000  # maximum number of characters of a failure
-PART, MISSING = "part", "missing"  # the user properties of a report
+WORDS = 40000  # maximum number of characters of a failure's text
+PART, MISSING = "part", "missing"  # the names of a report's user properties
 CALL = re.compile(r"""^\s*check\(["'](\d\d\.\d+)["']\)""", re.MULTILINE)
 SEEN = pytest.StashKey[bool]()
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Record the result of a cell; ignore reports that are not about a cell."""
+    """Record the result of a cell; reports that are not about a cell are ignored."""
     report = yield
     cell: Cell | None = getattr(item, "cell", None)
     if cell is not None and (report.when == "call" or report.outcome != "passed"):
@@ -44,7 +44,7 @@ def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestR
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """End the run as failed if points are missing."""
+    """Make the run fail if points are missing."""
     reporter = session.config.pluginmanager.get_plugin("terminalreporter")
     if session.exitstatus == pytest.ExitCode.OK and reporter and _lacking(_lines(reporter)):
         session.exitstatus = pytest.ExitCode.TESTS_FAILED
@@ -84,7 +84,10 @@ def _is_passed(headline: str) -> bool:
 
 
 def _missing(item: pytest.Item) -> Sequence[str]:
-    """Return the parts of the notebook's chapter that it does not check; for its first report only."""
+    """Return the parts of the chapter for which the notebook has no check.
+
+    Only for the notebook's first report.
+    """
     notebook = item.parent
     if notebook is None or notebook.stash.get(SEEN, False):
         return ()

@@ -1,4 +1,4 @@
-"""Run nbval in an outer sandbox with trusted processes; the kernel runs in an inner sandbox.
+"""Runs nbval in an outer sandbox with trusted processes; the kernel runs in an inner sandbox.
 
 The trusted processes are pytest, the master and the check runner. The program reads a notebook from stdin.
 Its argument is the time limit of a cell in s. It writes the result of each cell to stdout, as one JSON object
@@ -26,18 +26,20 @@ from course_pkg.sandbox.channel import descendants, end, fork
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
 from course_pkg.waiting import Deadline, at_this_load
 
-SILENCE = 15.0  # s after the time limit of a cell, in which nbval waits for output and ends the kernel
-TOGETHER = 2 * confinement.TOGETHER  # memory limit in bytes for pytest and all nodes of a chapter
+# s; nbval waits for output and ends the kernel within this time after the time limit of a cell
+SILENCE = 15.0
+TOGETHER = 2 * confinement.TOGETHER  # memory limit for pytest and all nodes of a chapter (bytes)
 KERNEL = "sandboxed"
-OVERVIEW = re.compile(r"\b(progress|results)\(")  # `results` was its name in the first edition
+OVERVIEW = re.compile(r"\b(progress|results)\(")  # in the first edition, the function was called `results`
 OWN = "/student/.course"
-NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"  # in the same folder, as in a checkout
-# Without this, a kernel whose parent is process 1 ends, because it seems to have lost its parent.
+NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"  # in one folder, as in a checkout
+# Without this, a kernel whose parent is process 1 would end, because it would assume that its parent has
+# ended.
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")
 
 
 def main() -> None:
-    """Run the notebook of stdin."""
+    """Run the notebook that stdin contains."""
     with tempfile.TemporaryDirectory(prefix="course-nbval-") as folder:
         notebook = json.load(sys.stdin)
         for cell in notebook["cells"]:
@@ -60,9 +62,9 @@ def main() -> None:
 
 
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
-    """Run `command`; kill its processes if they use too much memory, or if `record` stops growing.
+    """Run `command`. Kill its processes if they use too much memory, or if `record` does not grow any more.
 
-    Returns whether `record` did not grow for `silence` s. nbval itself has no limit for a kernel whose
+    Returns whether `record` did not grow for `silence` s. nbval itself waits for ever for a kernel whose
     connections are damaged.
     """
     size, deadline = 0, Deadline(silence)
@@ -90,7 +92,7 @@ def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
 
 
 def _remove_overview(cell: Cell) -> None:
-    """Empty each cell that shows the student's progress: a graded run has no record of the progress."""
+    """Make each cell empty that shows the student's progress, because a graded run has no record of it."""
     if cell["cell_type"] == "code" and OVERVIEW.search(cell["source"]) and not check_of(cell):
         cell["source"] = ""
         cell["outputs"] = []
@@ -169,7 +171,7 @@ def _command(notebook: Path, cell: float) -> list[str]:
 
 
 def _run_checks(listener: socket.socket) -> None:
-    """Fork a check runner for each check that the notebook asks for."""
+    """Fork a check runner for each check that the notebook requests."""
     from course_pkg.checking.parts import every_part
 
     list(every_part())
@@ -186,7 +188,7 @@ def _run_check(sock: socket.socket) -> None:
     from course_pkg.checking.channel import Channel
     from course_pkg.checking.runner import run_check
 
-    # the submission decides how many bytes it sends to its check
+    # the submission decides how many bytes the check receives
     namespaces.limit(AS=confinement.CHECK_RUNNER)
     run_check(Channel(sock))
 

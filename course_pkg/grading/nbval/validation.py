@@ -1,4 +1,4 @@
-"""The run of a rebuilt notebook with nbval, which finds the cells with the same output as the reference.
+"""Runs a rebuilt notebook with nbval, and finds the cells whose output differs from that of the reference.
 
 The results earn no points.
 """
@@ -16,9 +16,9 @@ from course_pkg.grading.nbval.findings import finding
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.bubblewrap import sandbox_command
 
-CELL = 40  # s on an idle machine; with this limit, a cell that blocks the kernel costs less than 60 s
+CELL = 40  # s on an idle machine; because of this limit, a cell that blocks the kernel costs less than 60 s
 LIMIT = 600.0  # s for a notebook; the longest chapter takes 100 s
-LINE = 100  # maximum number of characters of a cell's first line
+LINE = 100  # maximum bytes of the output
 OUTPUT = 8 << 20  # bytes of the output
 
 
@@ -30,7 +30,7 @@ def wanted(grade: Grade, whose: str) -> bool:
 
 
 def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
-    """Return `grade` with the outcomes of the notebook's cells, or with a note that gives the reason."""
+    """Return `grade` with the outcomes of the notebook's cells. If there are none, a note says why."""
     if not grade.sandboxed:
         return replace(
             grade, notes=(*grade.notes, "nbval runs notebooks only in a sandbox, but this run had none.")

@@ -1,1 +1,1 @@
-"""Build the reference notebook with a student's answers: find the cell of each answer."""
+"""Builds the notebook to grade: the reference notebook with a student's answers."""

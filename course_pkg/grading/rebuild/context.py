@@ -1,35 +1,40 @@
-"""Find the cells that an answer needs by the names that they define.
+"""Finds the cells that an answer needs, by the names that these cells define.
 
 An answer is run only with the cells that its check needs (see checking/fixtures.py). But an answer may use
-other names, such as an import of a cell above, or a function of an earlier answer. So the cells that define
-these names are run, too, and also the cells that those cells need.
+other names, for example an import in a cell above, or a function from an earlier answer. Therefore, the cells
+that define these names run, too, and also the cells that those cells need.
 """
 
 from __future__ import annotations
 
 import ast
 import builtins
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-# Maximum number of characters of a cell that is parsed; real cells are shorter, and parsing takes time.
+# Maximum number of characters of a cell that is parsed. Usual cells are shorter, and parsing takes time.
 LONGEST = 20_000
-# Maximum number of lines of a cell with magics; IPython's time grows with the square of this number.
+# Maximum number of lines of a cell with magics, because IPython's time grows with the square of this number.
 MAGICAL = 300
+# Names that these nodes assign inside are not names of the cell.
+SCOPES = (
+    *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),
+    *(ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
+)
 KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", "__name__"}
 
 
 @dataclass(frozen=True)
 class _Cell:
-    """The names that a cell defines for later cells, and the names that it uses but does not define."""
+    """The names that a cell defines for later cells, and the names that it uses without defining them."""
 
     gives: frozenset[str]
     uses: frozenset[str]
 
 
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
-    """Return the sources in `above` that `answer` needs, in order; `before` is always run."""
+    """Return the sources in `above` that `answer` needs, in their order; `before` runs in any case."""
     given = KNOWN | _read(before).gives
     cells = [_read(source) for source in above]
     chosen: set[int] = set()
@@ -46,16 +51,14 @@ def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
 
 def _read(source: str) -> _Cell:
     tree = tree_of(source)
-    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
-    loaded = {node.id for node in names if isinstance(node.ctx, ast.Load)}
-    own = {node.id for node in names if isinstance(node.ctx, ast.Store)}
-    arguments = {node.arg for node in ast.walk(tree) if isinstance(node, ast.arg)}
-    gives = _given(tree)
-    return _Cell(gives, frozenset(loaded - own - arguments) - gives)
+    nodes = list(ast.walk(tree))
+    loaded = {node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}
+    arguments = {node.arg for node in nodes if isinstance(node, ast.arg)}
+    return _Cell(_given(tree), frozenset(loaded - _bound(nodes) - arguments))
 
 
 def tree_of(source: str) -> ast.Module:
-    """Return the tree of a cell, as IPython reads it; an empty tree if the cell is not Python."""
+    """Return the syntax tree of a cell as IPython reads it; the tree is empty if the cell is not Python."""
     from IPython.core.inputtransformer2 import TransformerManager
 
     empty = ast.Module(body=[], type_ignores=[])
@@ -71,15 +74,26 @@ def tree_of(source: str) -> ast.Module:
 
 
 def _given(tree: ast.Module) -> frozenset[str]:
-    """Return the names that a cell defines at top level, and not inside a function or class."""
-    names = set()
-    for statement in tree.body:
-        opens = isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef)
-        for node in [statement] if opens else ast.walk(statement):
-            if isinstance(node, ast.Import | ast.ImportFrom):
-                names |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
-            elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-                names.add(node.name)
-            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-                names.add(node.id)
-    return frozenset(names)
+    """Return the names that a cell defines outside functions, classes and comprehensions."""
+    nodes: list[ast.AST] = []
+    todo: list[ast.AST] = list(tree.body)
+    while todo:
+        node = todo.pop()
+        nodes.append(node)
+        if not isinstance(node, SCOPES):
+            todo += ast.iter_child_nodes(node)
+    # Python deletes the name of a caught exception at the end of the clause.
+    return _bound(node for node in nodes if not isinstance(node, ast.ExceptHandler))
+
+
+def _bound(nodes: Iterable[ast.AST]) -> frozenset[str]:
+    """Return the names that these nodes assign, import, define, or give to a caught exception."""
+    names: set[str | None] = set()
+    for node in nodes:
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            names |= {alias.asname or alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.ExceptHandler):
+            names.add(node.name)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            names.add(node.id)
+    return frozenset(name for name in names if name)

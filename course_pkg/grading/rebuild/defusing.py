@@ -1,7 +1,7 @@
-"""Remove markers of nbval and the magic of a cell from a student's source, because they change its execution.
+"""Removes nbval's markers and a cell's magic from a student's source, because they change how it runs.
 
-nbval obeys a comment such as `# NBVAL_SKIP` on any line, and IPython passes a whole cell to the magic on its
-first line. With such a comment or magic, an answer could avoid its check.
+nbval obeys a comment such as `# NBVAL_SKIP` in any line, and IPython passes the whole cell to the magic in
+its first line. With such a comment or magic, an answer could avoid its check.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TypeAlias, cast
 
 from IPython.core.inputtransformer2 import TransformerManager
 
-MARKERS = (  # nbval 0.11, plugin.py, comment_markers
+MARKERS = (  # see plugin.py of nbval 0.11, comment_markers
     "PYTEST_VALIDATE_IGNORE_OUTPUT",
     "NBVAL_IGNORE_OUTPUT",
     "NBVAL_CHECK_OUTPUT",
@@ -29,7 +29,7 @@ Transform: TypeAlias = Callable[[list[str]], list[str]]
 
 @dataclass(frozen=True)
 class Defused:
-    """A source that is safe to place, and notes for the student about the changes."""
+    """A source that can be placed safely, and notes for the student about the changes."""
 
     source: str
     notes: tuple[str, ...] = ()
@@ -47,7 +47,7 @@ def defuse(source: str, first_line: str = "") -> Defused:
 
 
 def magic_of(source: str) -> str:
-    """Return the line of the magic to which IPython would pass the whole cell, or an empty string."""
+    """Return the line of the magic to which IPython would pass the whole cell, or ""."""
     return first[0].strip() if (first := _as_ipython_reads(source)) and first[0].startswith("%%") else ""
 
 
@@ -61,7 +61,10 @@ def _readable(source: str) -> tuple[str, list[str]]:
 
 
 def _as_ipython_reads(source: str) -> list[str]:
-    """Return the lines in which IPython looks for a magic: without blank lines, indentation and prompts."""
+    """Return the lines in which IPython looks for a magic.
+
+    They have no indentation and no prompts, and none is empty.
+    """
     lines = (source.rstrip() + "\n").splitlines(keepends=True)
     for transform in TransformerManager().cleanup_transforms:
         lines = cast(Transform, transform)(lines)
@@ -91,7 +94,7 @@ def _with_magic(source: str, first_line: str) -> tuple[str, list[str]]:
 
 
 def _without_markers(source: str) -> tuple[str, list[str]]:
-    """Put each marker in brackets; the text is split with str.splitlines, as in nbval."""
+    """Put each marker in brackets; the text is split with str.splitlines, as nbval does."""
     lines = source.splitlines(keepends=True)
     found = [_marker(line) for line in lines]
     if not any(found):
@@ -104,7 +107,7 @@ def _without_markers(source: str) -> tuple[str, list[str]]:
 
 
 def _marker(line: str) -> str:
-    """Return the marker that nbval would find in the line."""
+    """Return the marker that nbval would find in this line."""
     if not (comment := line.strip()).startswith("#"):
         return ""
     word = comment.lstrip("#").strip()

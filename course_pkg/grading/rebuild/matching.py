@@ -1,9 +1,9 @@
-"""Find the cells of a student's notebook that answer an exercise, even if they were moved or copied.
+"""Finds the cells of a student's notebook that answer an exercise, even if they were moved or copied.
 
-The cell of an exercise is found by its id, or by its metadata, which a copy keeps. Otherwise it is found by
-the names that it defines, or by the file that it writes. If several cells fit, the last cell that is not
-blank is used. If the student split the answer, the pieces directly below belong to it, but other cells of the
-student do not.
+The cell of an exercise is found by its id, or by its metadata, which stay in a copy. Otherwise, it is found
+by the names that it defines, or by the file that it writes. If there are several such cells, the last one
+that is not blank is used. If the student has split the answer, the parts directly below belong to it; other
+cells of the student do not.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from course_pkg.grading.rebuild.defusing import TAGS
 from course_pkg.grading.rebuild.wanted import Wanted, defined, lent, used, written_path
 
 LONGEST = 100_000  # maximum number of characters of an answer
-BELOW = 50  # maximum number of cells below an exercise in which its answer may continue
+BELOW = 50  # maximum number of cells below an exercise that may belong to its answer
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Match:
     source: str = ""
     missing: str = ""
     notes: tuple[str, ...] = ()
-    cells: frozenset[int] = frozenset()  # the indices of its cells
+    cells: frozenset[int] = frozenset()  # indices of its cells in the notebook
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class _Run:
     kind: str
     cells: frozenset[int]
     tags: frozenset[str]
-    written: int  # cells that are not empty
+    written: int  # number of cells that are not empty
 
 
 class Matching:
@@ -46,7 +46,10 @@ class Matching:
     def __init__(
         self, cells: Sequence[StudentCell], wanted: Sequence[Wanted], given: Mapping[str, str]
     ) -> None:
-        """`given` contains the sources of all cells of the reference that are not exercises, by their ids."""
+        """`given` contains the sources of all cells of the reference that are not exercises.
+
+        The keys are their ids.
+        """
         self._cells = cells
         self._given = given
         self._texts = {source.strip() for source in given.values()}
@@ -77,7 +80,7 @@ class Matching:
         return Match(missing=f"Its cell is not in the notebook, and no other cell {_known_by(wanted)}.")
 
     def lent(self, taken: frozenset[int]) -> set[str]:
-        """Return the names that the unused cells define, but not the reference."""
+        """Return the names that unused cells define, and that the reference does not define."""
         names: set[str] = set()
         for place, cell in enumerate(self._cells):
             if place not in taken and cell.kind == "code" and not self._owners[place]:
@@ -87,12 +90,15 @@ class Matching:
         return names
 
     def _is_own(self, place: int) -> bool:
-        """Return whether the student added the cell: it is not an exercise, and not in the reference."""
+        """Return whether the student added the cell: it is neither an exercise nor in the reference."""
         cell = self._cells[place]
         return not (cell.check or cell.id in self._given or cell.source.strip() in self._texts)
 
     def _runs(self, wanted: Wanted) -> Iterator[_Run]:
-        """Yield the candidates for the exercise: each of its cells, with the pieces that were split off."""
+        """Yield the possible answers to the exercise.
+
+        Each is one cell, together with the parts that were split off.
+        """
         run: list[int] = []
         above = _Above()
         for place in self._places.get(wanted.part, []):
@@ -106,7 +112,7 @@ class Matching:
             yield self._run([*run, *self._rest(run[-1], above, wanted)])
 
     def _rest(self, last: int, above: _Above, wanted: Wanted) -> list[int]:
-        """Return the indices of the student's own cells directly below that belong to the answer."""
+        """Return the indices of the student's own cells directly below `last` that belong to the answer."""
         taken: list[int] = []
         pending: list[int] = []
         for place in range(last + 1, min(last + 1 + BELOW, len(self._cells))):
@@ -133,7 +139,7 @@ class Matching:
 
 
 class _Above:
-    """The cells that already belong to an answer; each cell is parsed once."""
+    """The cells that already belong to an answer; each cell is parsed only once."""
 
     def __init__(self) -> None:
         self._last = StudentCell("", "", "")
@@ -150,14 +156,14 @@ class _Above:
             self._lines |= {line.strip() for line in cell.source.splitlines()}
 
     def goes_on(self, cell: StudentCell, wanted: Wanted) -> bool:
-        """Return whether a cell of the same exercise continues this answer, and is not a copy of it."""
+        """Return whether a cell of the same exercise continues this answer; a copy of the answer does not."""
         if cell.kind != self._last.kind or cell.source == self._last.source or wanted.is_blank(cell.source):
             return False
         anew = defined(cell.source) & self._names & wanted.names
         return not (anew or cell.source.lstrip().startswith("%%"))
 
     def needs(self, source: str, wanted: Wanted) -> bool:
-        """Return whether a student's own cell is a part of this answer."""
+        """Return whether one of the student's own cells is a part of this answer."""
         lines = [line for line in source.splitlines() if line.strip()]
         if not lines or source.lstrip().startswith(("%%", "!")):
             return False
@@ -170,7 +176,7 @@ class _Above:
 
 
 def _matched(runs: Sequence[_Run]) -> Match:
-    """Return the last of several answers, with notes for the student."""
+    """Return the last of several possible answers, with notes for the student."""
     chosen = runs[-1]
     notes = []
     if len({run.source.strip() for run in runs}) > 1:

@@ -1,4 +1,7 @@
-"""Build the reference notebook with a student's answers, but without any other cell of the student."""
+"""Builds the notebook to grade.
+
+It is the reference notebook with a student's answers, but no other cell of the student.
+"""
 
 from __future__ import annotations
 
@@ -13,35 +16,35 @@ from course_pkg.grading.rebuild.defusing import defuse
 from course_pkg.grading.rebuild.matching import Match, Matching
 from course_pkg.grading.rebuild.wanted import defined, every_wanted, used
 
-NOTES = 40  # maximum number of notes; further notes would say nothing new
+NOTES = 40  # maximum number of notes; more notes would not help the student
 
 
 @dataclass(frozen=True)
 class Rebuilt:
-    """The notebook that is graded; each part of the reference is in `answers` or in `missing`."""
+    """The notebook to grade; each part of the reference is either in `answers` or in `missing`."""
 
-    notebook: Notebook  # without the outputs of the exercises' cells, so nbval does not compare them
-    answers: Mapping[str, str]  # the source of each part that is run; it may be the unchanged blank cell
-    # For each part without an answer, the reason for the student.
+    notebook: Notebook  # the exercise cells have no outputs, so nbval does not compare them
+    answers: Mapping[str, str]  # the source that runs for each part; it may be the unchanged blank cell
+    # For each part without an answer, the reason as a text for the student.
     missing: Mapping[str, str] = field(default_factory=dict)
-    untouched: frozenset[str] = frozenset()  # parts in `answers` whose cell was not changed
-    notes: tuple[str, ...] = ()  # notes for the student about everything unusual
+    untouched: frozenset[str] = frozenset()  # the parts in `answers` whose cell the student did not change
+    notes: tuple[str, ...] = ()  # notes for the student about everything that is unusual
     problem: str = ""  # the reason why the notebook could not be used
 
 
 def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
-    """Return the notebook that is run and graded for a student who handed in `content`.
+    """Return the notebook to run and grade for a student who handed in `content`.
 
-    `reference` is a solution, as `authoring.shelf.read` reads it.
+    `reference` is a solution, as `authoring.notebook_store.read` returns it.
     """
     return Rebuilder(reference).rebuild(content)
 
 
 class Rebuilder:
-    """One reference, which is used for all students.
+    """A reference notebook; the same object is used for all students.
 
-    If an answer is missing, its cell is the blank cell of the exercise, and never the solution. The cells
-    that are not exercises keep the output objects of the reference.
+    If an answer is missing, the notebook contains the blank cell of the exercise, and never the solution.
+    Cells that are not exercises have the output objects of the reference.
     """
 
     def __init__(self, reference: Notebook) -> None:
@@ -51,7 +54,7 @@ class Rebuilder:
         self._given = {cell["id"]: cell["source"] for cell in reference["cells"] if not exercise_of(cell)}
 
     def rebuild(self, content: bytes) -> Rebuilt:
-        """Return the graded contents of the notebook `content`."""
+        """Return the notebook to grade for the handed-in notebook `content`."""
         try:
             cells = read_cells(content)
         except GradingError as error:
@@ -83,9 +86,9 @@ class Rebuilder:
 
 
 def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
-    """Return the reference with these sources.
+    """Return a copy of the reference with these sources in its exercise cells.
 
-    Nbval does not compare the outputs of a cell without a number.
+    nbval does not compare the outputs of a cell without an execution count.
     """
     notebook = copy.copy(reference)
     notebook["cells"] = [copy.copy(cell) for cell in reference["cells"]]
@@ -96,7 +99,7 @@ def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
 
 
 def _lent(cells: Sequence[StudentCell], matching: Matching, matches: Mapping[str, Match]) -> set[str]:
-    """Return the names that an answer may use from cells that are not graded."""
+    """Return the names in cells that are not graded which an answer may use."""
     taken = frozenset(place for match in matches.values() for place in match.cells)
     names = matching.lent(taken) if len(taken) < len(cells) else set()
     for match in matches.values():

@@ -1,7 +1,7 @@
-"""Find the names and files of an exercise in the reference, and the names that a source defines.
+"""Finds the names and files of an exercise in the reference, and the names that a source defines.
 
-A student's source is only searched line by line. So a source that is written to overload a parser does no
-harm.
+A student's source is only searched line by line, and not parsed. Therefore, a source that is made to overload
+a parser does no harm.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
 from course_pkg.grading.rebuild.defusing import WRITES, magic_of
 
-SCANNED = 200_000  # maximum number of characters of a source that are read
+SCANNED = 200_000  # maximum number of characters of a source that are searched
 DEFINED = re.compile(r"^(?:async[ \t]+)?(?:def|class)[ \t]+(\w+)", re.MULTILINE)
 ASSIGNED = re.compile(r"^(\w+)[ \t]*(?::[^=\n]{1,200})?=(?!=)", re.MULTILINE)
 IMPORTED = re.compile(r"^(?:import|from[ \t]+[\w.]+[ \t]+import)[ \t]+([^\n#]{1,1000})", re.MULTILINE)
@@ -26,23 +26,23 @@ class Wanted:
 
     part: str
     cell: str  # the id of its cell
-    blank: str  # the blank cell that students get
+    blank: str  # the blank cell in the student's notebook
     first_line: str  # the cell magic in the first line, such as `%%writefile src/Area.srv`
-    names: frozenset[str]  # the names that an answer defines at top level
-    wiring: frozenset[str]  # whole lines of the blank that define nothing, such as node.serve(…)
+    names: frozenset[str]  # the names that an answer defines at the top level
+    wiring: frozenset[str]  # whole lines of the blank cell that define no name, such as node.serve(…)
 
     @property
     def path(self) -> str:
-        """The file that the cell writes, if it writes one."""
+        """The file that the cell writes, or "" if it writes none."""
         return written_path(self.first_line)
 
     def is_blank(self, source: str) -> bool:
-        """Return whether a source is the unchanged blank; spaces at the ends of lines do not matter."""
+        """Return whether a source is the unchanged blank cell, except for spaces at the ends of lines."""
         return _plain(source) == _plain(self.blank)
 
 
 def every_wanted(reference: Notebook) -> list[Wanted]:
-    """Return the exercises of a solution, in its order."""
+    """Return the exercises of a solution, in their order."""
     return [
         _wanted(part, cell["id"], cell["source"])
         for cell in code_cells(reference)
@@ -68,25 +68,25 @@ def _wanted(part: str, cell: str, solution: str) -> Wanted:
 
 
 def defined(source: str) -> set[str]:
-    """Return the names that a source defines, assigns or imports at top level."""
+    """Return the names that a source defines, assigns or imports at the top level."""
     text = source[:SCANNED]
     return {*DEFINED.findall(text), *ASSIGNED.findall(text), *_imported(text)}
 
 
 def lent(source: str) -> set[str]:
-    """Return the names that another cell may use: functions, classes, imports, CONSTANTS."""
+    """Return the names in a source that another cell may use: functions, classes, imports and CONSTANTS."""
     text = source[:SCANNED]
     constants = {name for name in ASSIGNED.findall(text) if name.isupper()}
     return {*DEFINED.findall(text), *constants, *_imported(text)}
 
 
 def used(source: str) -> set[str]:
-    """Return all words of a source."""
+    """Return all words that occur in a source."""
     return set(WORD.findall(source[:SCANNED]))
 
 
 def written_path(source: str) -> str:
-    """Return the file that a cell writes with %%writefile, or an empty string."""
+    """Return the path of the file that a cell writes with %%writefile, or ""."""
     found = WRITES.fullmatch(magic_of(source[:SCANNED]))
     return found["path"].strip("'\"") if found else ""
 

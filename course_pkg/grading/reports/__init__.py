@@ -1,4 +1,4 @@
-"""Grades as files for spreadsheets, learning platforms, other programs, students and instructors."""
+"""Writes grades into files for spreadsheets, learning platforms, other programs, students and instructors."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Write tables completely or not at all."""
+"""Writes tables; each file is written completely or not at all."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.files import write_atomically
 
 
 def put_table(path: Path, rows: Sequence[Sequence[str]], encoding: str = "utf-8") -> None:
-    """Write rows of clean cells as CSV (RFC 4180)."""
+    """Write rows of clean cells as a CSV file (RFC 4180)."""
     buffer = io.StringIO()
     csv.writer(buffer).writerows(rows)
     write_atomically(path, buffer.getvalue(), encoding)

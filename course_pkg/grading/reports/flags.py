@@ -13,16 +13,19 @@ from course_pkg.grading.grade import Flag
 from course_pkg.grading.reports.gradebook import Book, name_of
 from course_pkg.grading.reports.page import paragraph, text
 
-OTHERS = 10  # students that are named for one flag
+OTHERS = 10  # maximum number of other students that one flag lists
 ABOUT = (
     "A flag is a reason to look at an answer yourself. It changes no points, and the feedback for students "
     "does not contain it."
 )
-Flagged = tuple[str, str, Flag]  # the student and the chapter
+Flagged = tuple[str, str, Flag]  # (student, chapter, flag)
 
 
 def flag_sections(book: Book) -> Iterator[str]:
-    """Yield the section about flags, with a list of students for each kind; nothing if there are no flags."""
+    """Yield the section about flags, with a list of students for each kind.
+
+    Yield nothing if there are no flags.
+    """
     found = list(_flagged(book))
     if not found:
         return

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from course_pkg.checking.report import Report, Verdict
 from course_pkg.grading import clean
 from course_pkg.grading.grade import NO_TIME, Grade
+from course_pkg.grading.reports.asked import Asked, Column
 from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of
 from course_pkg.grading.roster.people import Person
 
@@ -19,28 +20,21 @@ WITHOUT_SANDBOX = (
 ABSENT = "These results are from an earlier run. In the latest run, nothing was handed in for this chapter."
 
 
-@dataclass(frozen=True)
-class Column:
-    """A part that was graded."""
-
-    check: str
-    chapter: str
-    goal: str
-    possible: float
-
-
 class Book:
     """Grades by student, chapter and part.
 
     The notes of a grade say if it was made without a sandbox, and if nothing was handed in for it this time.
     """
 
-    def __init__(self, grades: Sequence[Grade], class_list: ClassList | None = None) -> None:
+    def __init__(
+        self, grades: Sequence[Grade], class_list: ClassList | None = None, asked: Asked | None = None
+    ) -> None:
+        self._asked = asked or Asked()
         self.class_list = class_list or Lists().matched(origins_of(grades))
         marked = [_with_warning(grade) for grade in grades]
         self.grades = tuple(sorted(marked, key=lambda grade: (grade.student, grade.chapter, grade.origin)))
         self.students = tuple(sorted({grade.student for grade in self.grades}))
-        self.columns = tuple(_columns(self.grades))
+        self.columns = tuple(_columns(self.grades, self._asked.columns))
         self.chapters = tuple(sorted({column.chapter for column in self.columns}))
         self.sandboxed = all(grade.sandboxed for grade in self.grades)
         self._by_student: dict[str, list[Grade]] = {student: [] for student in self.students}
@@ -75,6 +69,17 @@ class Book:
     def earned(self, student: str) -> float:
         """Return all points of a student after the deduction for lateness."""
         return round(sum(grade.earned for grade in self.of(student)), 2)
+
+    def counted(self, student: str) -> list[str]:
+        """Return the chapters that count for a student, or for a student of the roster without a submission.
+
+        These are the chapters that were asked for; see Asked.
+        """
+        return self._asked.counted(student, self._by_student.get(student, []), self.chapters)
+
+    def possible_for(self, student: str) -> float:
+        """Return the highest possible points of a student in all chapters that count."""
+        return round(sum(map(self.possible, self.counted(student))), 2)
 
     @property
     def total(self) -> float:
@@ -137,7 +142,7 @@ def attention(book: Book, student: str) -> list[str]:
 def not_handed_in(book: Book, student: str) -> str:
     """Return a sentence about the chapters for which a student handed in nothing, or an empty string."""
     there = {grade.chapter for grade in book.of(student)}
-    missing = [chapter for chapter in book.chapters if chapter not in there]
+    missing = [chapter for chapter in book.counted(student) if chapter not in there]
     if not missing:
         return ""
     word = "chapter" if len(missing) == 1 else "chapters"
@@ -208,8 +213,8 @@ def _with_warning(grade: Grade) -> Grade:
     return replace(grade, notes=(*warnings, *others))
 
 
-def _columns(grades: Sequence[Grade]) -> list[Column]:
-    found: dict[str, Column] = {}
+def _columns(grades: Sequence[Grade], asked: Sequence[Column]) -> list[Column]:
+    found = {column.check: column for column in asked}
     for grade in grades:
         for report in grade.reports:
             known = found.get(report.check, Column(report.check, grade.chapter, "", 0))

@@ -1,4 +1,4 @@
-"""The frame of a complete page, which loads and runs nothing; its policy permits only its own style."""
+"""The frame of a page that loads and runs nothing; its policy permits only its own style sheet."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from course_pkg.checking.report import Verdict
 from course_pkg.grading import clean
 
-KINDS = {  # for each verdict, a class of the style sheet, and a sign next to its name
+KINDS = {  # for each verdict, a class of the style sheet, and a sign before the verdict
     Verdict.PASSED: ("passed", "✓"),
     Verdict.FAILED: ("failed", "✗"),
     Verdict.NOT_ATTEMPTED: ("untried", "○"),
@@ -53,7 +53,7 @@ def paragraph(value: object, kind: str = "") -> str:
 
 
 def banner(title: str, sentences: Sequence[str]) -> str:
-    """Return sentences in a box that is easy to notice, or an empty string if there are no sentences."""
+    """Return sentences in a conspicuous box, or "" if there are no sentences."""
     shown = [sentence for value in sentences if (sentence := text(value, 1000))]
     if not shown:
         return ""
@@ -63,7 +63,7 @@ def banner(title: str, sentences: Sequence[str]) -> str:
 
 
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:
-    """Return a table; the first cell of a row is its header, the last `numbers` columns are numbers.
+    """Return a table. The first cell of each row is a header, and the last `numbers` columns are numbers.
 
     The cells of `rows` are HTML; `caption` and `head` may be any text.
     """

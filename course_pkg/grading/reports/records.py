@@ -1,4 +1,4 @@
-"""The record of a grade, `results/<student>/NN.json`; every report is made from these records."""
+"""The record of a grade, `results/<student>/NN.json`; all reports are made from these records."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def record_path(out: Path, student: str, chapter: str, origin: str = "") -> Path
 
 
 def write_record(out: Path, grade: Grade) -> Path:
-    """Write the cleaned record of a grade, completely or not at all; return its path."""
+    """Write the cleaned record of a grade, completely or not at all; return the path of the file."""
     path = record_path(out, grade.student, grade.chapter, grade.origin)
     code = {clean.line(part): clean.code(text) for part, text in grade.code.items()}
     write_json(path, {**clean.record(grade.as_dict()), "code": code})
@@ -29,14 +29,14 @@ def write_record(out: Path, grade: Grade) -> Path:
 
 
 def read_grades(out: Path) -> list[Grade]:
-    """Return the grades below `out`, in the order of students and chapters."""
+    """Return the grades in `out`, sorted by student and chapter."""
     paths = sorted(path for path in (out / RESULTS).glob("*/*.json") if not path.name.startswith("."))
     grades = [_read(path, f"record {number} of {len(paths)}") for number, path in enumerate(paths, 1)]
     return sorted(grades, key=lambda grade: (grade.student, grade.chapter, grade.origin))
 
 
 def _read(path: Path, which: str) -> Grade:
-    """Return the grade in a record; an error message identifies the record without the student's name."""
+    """Return the grade in a record; error messages identify the record without the student's name."""
     try:
         return grade_from(json.loads(path.read_text("utf-8")))
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:

@@ -1,4 +1,7 @@
-"""The part of the reports about the roster: students who are missing, unknown or not identified."""
+"""The section of the reports about the roster.
+
+It lists missing and unknown students, and those who were not identified.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ values = attrgetter(*FIELDS)
 
 
 def about_identity(book: Book, student: str) -> list[str]:
-    """Return the reasons why a student was not found in the instructor's lists."""
+    """Return the reasons why the student was not found in the instructor's lists."""
     known = book.class_list
     reason = known.unclear.get(student, "")
     return [
@@ -33,13 +36,13 @@ def identity_cells(person: Person | None) -> list[str]:
 
 
 def lead(book: Book) -> str:
-    """Return a sentence about the roster for the top of the class's page, or "" without a roster."""
+    """Return a sentence about the roster for the top of class.html, or "" if there is no roster."""
     known = book.class_list
     return f"{known.found} of {len(known.roster)} students of the roster handed in." if known.roster else ""
 
 
 def section(book: Book) -> Iterator[str]:
-    """Yield the part of the class's page about the roster, if the instructor has given a list."""
+    """Yield the section of class.html about the roster, if the instructor gave a list."""
     known = book.class_list
     if not known.given:
         return

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from course_pkg.errors import GradingError
 from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports import formats
+from course_pkg.grading.reports.asked import Asked
 from course_pkg.grading.reports.gradebook import Book
 from course_pkg.grading.roster.class_list import ClassList
 
@@ -25,20 +26,22 @@ def write_reports(
     grades: Sequence[Grade],
     out: Path,
     class_list: ClassList | None = None,
-    chapters: Collection[str] = (),
+    asked: Asked | None = None,
 ) -> None:
     """Write every report about `grades` into the folder `out`.
 
-    `class_list` contains the students' identities and the missing students. `chapters` are the chapters of
-    this run; an empty list means all chapters of `grades`.
+    `class_list` contains the students' identities and the missing students. `asked` contains the
+    chapters of this run; without it, these are all chapters of `grades`.
 
     Each module in `formats` writes one report with its function `write(book, out)`; a new format needs only
     such a module.
     """
-    book = Book(grades, class_list)
+    book = Book(grades, class_list, asked)
+    chapters = asked.chapters if asked else ()
     present = [grade for grade in grades if not (grade.absent or grade.nothing)]
     platforms = Book(present, class_list)
-    assignment = Book([grade for grade in present if not chapters or grade.chapter in chapters], class_list)
+    of_run = [grade for grade in present if not chapters or grade.chapter in chapters]
+    assignment = Book(of_run, class_list, asked)
     books = {**dict.fromkeys(WITH_ABSENT, book), **dict.fromkeys(OF_ASSIGNMENT, assignment)}
     try:
         out.mkdir(parents=True, exist_ok=True)

@@ -1,1 +1,1 @@
-"""The class list of an instructor, Moodle's grading worksheet, and the search for a student's row."""
+"""An instructor's class list and Moodle's grading worksheet, and the search for a student's row in them."""

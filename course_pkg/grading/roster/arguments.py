@@ -1,4 +1,4 @@
-"""The options of `course grade` for the lists of an instructor."""
+"""The options of `course grade` for an instructor's lists."""
 
 from __future__ import annotations
 

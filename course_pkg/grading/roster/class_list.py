@@ -1,4 +1,4 @@
-"""The identities of the students, from an instructor's lists and from the names that platforms give."""
+"""The identities of the students, from an instructor's lists and from the names that platforms use."""
 
 from __future__ import annotations
 
@@ -15,21 +15,26 @@ from course_pkg.grading.roster.worksheet import Participant, Worksheet, read_wor
 
 ROSTER, WORKSHEET = "the roster", "Moodle's worksheet"
 SHOWN = 10  # maximum number of names in one sentence
-Origins = Mapping[str, Sequence[str]]  # the paths of the files that each student handed in
+Origins = Mapping[str, Sequence[str]]  # for each student, the paths of the handed-in files
 
 
 @dataclass(frozen=True)
 class ClassList:
-    """The identities of the students of the submissions; empty without a roster and a worksheet."""
+    """The identities of the students with submissions.
+
+    It is empty if there is neither a roster nor a worksheet.
+    """
 
     people: Mapping[str, Person] = field(default_factory=dict)  # by student
     roster: tuple[Person, ...] | None = None
-    found: int = 0  # number of students of the roster who have handed in a submission
-    missing: tuple[Person, ...] = ()  # students of the roster who have handed in nothing
+    found: int = 0  # number of students of the roster with a submission
+    missing: tuple[Person, ...] = ()  # students of the roster without a submission
     strangers: tuple[str, ...] = ()  # students who are not on the roster
-    unclear: Mapping[str, str] = field(default_factory=dict)  # for each student who was not found, the reason
+    # for each student who was not found, the reason for this
+    unclear: Mapping[str, str] = field(default_factory=dict)
     worksheet: Worksheet | None = None
-    participants: Mapping[str, Participant] = field(default_factory=dict)  # of the worksheet, by student
+    # the participants in the worksheet, by student
+    participants: Mapping[str, Participant] = field(default_factory=dict)
     unlisted: tuple[str, ...] = ()  # students who are not in the worksheet
 
     @property
@@ -38,7 +43,7 @@ class ClassList:
         return self.roster is not None or self.worksheet is not None
 
     def summary(self) -> Iterator[str]:
-        """Yield sentences for the terminal about students who are missing, not on a list, or unclear."""
+        """Yield sentences for the terminal about students who are missing, not listed, or not identified."""
         if self.roster is not None:
             yield f"Roster: {self.found} of {len(self.roster)} students handed in."
             yield from _counted("handed in nothing", "handed in nothing", list(labels(self.missing)))
@@ -70,15 +75,15 @@ class ClassList:
 
 @dataclass(frozen=True)
 class Lists:
-    """The lists that an instructor gave, read before anything is graded."""
+    """The lists that an instructor gave; they are read before the grading begins."""
 
     roster: tuple[Person, ...] | None = None
     worksheet: Worksheet | None = None
 
     def matched(self, origins: Origins, source: Path | None = None) -> ClassList:
-        """Return the identities of the students of the submissions.
+        """Return the identities of the students with submissions.
 
-        `source` is the folder or the zip of all submissions, in which Gradescope's metadata may be.
+        `source` is the folder or the zip of all submissions; it may contain Gradescope's metadata.
         """
         students = [student for student in origins if student]
         platform = _platform(origins, source, self.worksheet.word if self.worksheet else "")
@@ -86,7 +91,7 @@ class Lists:
         sheet = _Search([each.person for each in listed], WORKSHEET)
         roster = _Search(self.roster or (), ROSTER)
         for student in students:
-            text = "" if student in platform else student  # a name that an instructor or a script gave
+            text = "" if student in platform else student  # an instructor or a script chose this name
             sheet.search(student, platform.get(student), text)
             roster.search(student, _joined(sheet.found.get(student), platform.get(student)), text)
             if student in roster.found and not sheet.decided(student):
@@ -112,7 +117,7 @@ class Lists:
 
 
 def read_lists(roster: Path | None, worksheet: Path | None) -> Lists:
-    """Read the lists in two files; raises GradingError if a file cannot be used."""
+    """Read the two lists; raises GradingError if a file cannot be used."""
     return Lists(
         read_roster(roster) if roster else None,
         read_worksheet(worksheet) if worksheet else None,
@@ -120,21 +125,24 @@ def read_lists(roster: Path | None, worksheet: Path | None) -> Lists:
 
 
 class _Search:
-    """The rows of one list that were found, and the students for whom it is unclear."""
+    """The rows of one list that belong to students, and the students without a clear row."""
 
     def __init__(self, people: Iterable[Person], title: str) -> None:
         self._people = People(people, title)
         self._title = title
         self.found: dict[str, Person] = {}
         self.unclear: dict[str, str] = {}
-        self.lines: set[int] = set()  # the lines that belong, or may belong, to a student
+        self.lines: set[int] = set()  # numbers of the lines that belong, or may belong, to a student
 
     def decided(self, student: str) -> bool:
-        """Return whether the search for a student has ended: the row was found, or it is unclear."""
+        """Return whether the search for a student is finished.
+
+        Then the row was found, or several rows are possible.
+        """
         return student in self.found or student in self.unclear
 
     def search(self, student: str, known: Person | None, text: str) -> None:
-        """Search the row of a student with the known fields, and with the name of the folder."""
+        """Search for the row of a student, by the known fields and by the name of the folder."""
         match = self._people.find(known or Person(), text)
         if match.person:
             self.found[student] = match.person
@@ -144,7 +152,7 @@ class _Search:
             self.lines |= match.possible
 
     def refuse_shared(self) -> None:
-        """Remove a row that fits several students, because only the instructor can decide whose row it is."""
+        """Remove a row that fits several students. Only the instructor can decide to whom it belongs."""
         by_line: dict[int, list[str]] = {}
         for student, person in self.found.items():
             by_line.setdefault(person.line, []).append(student)
@@ -160,7 +168,7 @@ class _Search:
 
 
 def origins_of(handed_in: Iterable[Submission | Grade]) -> dict[str, list[str]]:
-    """Return the paths of each student's files inside the folder or the zip of all submissions."""
+    """Return the paths of each student's files in the folder or zip of all submissions."""
     origins: dict[str, list[str]] = {}
     for each in handed_in:
         origins.setdefault(each.student, []).append(each.origin)
@@ -168,7 +176,7 @@ def origins_of(handed_in: Iterable[Submission | Grade]) -> dict[str, list[str]]:
 
 
 def _platform(origins: Origins, source: Path | None, nameless: str) -> dict[str, Person]:
-    """Return the data about students in the names of files and folders that platforms choose.
+    """Return the data about students that platforms write into the names of files and folders.
 
     `nameless` is the word that Moodle writes in place of a name if submissions are anonymous.
     """

@@ -1,7 +1,7 @@
-"""A CSV file in which single cells can be changed without a change of any other byte.
+"""A CSV file in which a cell can be changed without changing any other byte.
 
-The csv module returns only the values of cells, so quotes, line endings and the byte order mark would be
-lost. The format is RFC 4180, with any character as the separator.
+The csv module returns only values; quotes, line endings and the byte order mark would be lost. The format is
+RFC 4180, with any character as the separator.
 """
 
 from __future__ import annotations
@@ -15,21 +15,24 @@ BREAK = r"\r\n|\n|\r"
 
 @dataclass
 class Record:
-    """One record: `cells` as in the file, the line break `end` after them, and its line number."""
+    """One record: The `cells` as they are in the file, the line break `end`, and the number of the line."""
 
     cells: list[str]
     end: str
     line: int
 
     def value(self, place: int) -> str:
-        """Return the value of a cell."""
+        """Return the value of the cell with this index."""
         written = self.cells[place]
         if len(written) >= 2 and written[0] == written[-1] == '"':
             return written[1:-1].replace('""', '"')
         return written
 
     def put(self, place: int, value: str, separator: str) -> None:
-        """Write a value into a cell; it gets quotes if the cell had quotes, or if the value needs them."""
+        """Write a value into a cell.
+
+        It is quoted if the old cell was quoted, or if the value needs quotes.
+        """
         quotes = self.cells[place].startswith('"') or re.search(f'[{re.escape(separator)}"\r\n]', value)
         self.cells[place] = '"' + value.replace('"', '""') + '"' if quotes else value
 
@@ -42,8 +45,8 @@ class Record:
 def records(text: str, separator: str) -> Iterator[Record]:
     """Yield the records of a CSV file.
 
-    Moodle is written in PHP, which does not double a quote after a backslash. So a quote ends a cell only if
-    a separator or a line break follows.
+    Moodle is written in PHP, which does not double a quote that comes after a backslash. Therefore, a quote
+    ends a cell only if a separator or a line break follows it.
     """
     ends = rf"{re.escape(separator)}|{BREAK}|\Z"
     cell = re.compile(

@@ -1,7 +1,7 @@
-"""Find the row of a list that belongs to a student, from the data in a submission, without guesses.
+"""Finds the row of a list that belongs to a student, without guesses, from the data in a submission.
 
-Each known field (a number, an address, a name) proposes the rows that it fits. A field that fits no row is
-ignored. The student is found only if exactly one row fits all other fields.
+For each known field (a number, an address or a name), some rows have the same value. A field is ignored if no
+row has its value. The row belongs to the student only if it is the only row that fits all other fields.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ from course_pkg.grading.roster.people import IDENTITY, Person
 
 @dataclass(frozen=True)
 class Match:
-    """The row that belongs to a student. If it is unclear, `problem` contains the reason."""
+    """The row that belongs to a student. If several rows are possible, `problem` contains the reason."""
 
     person: Person | None = None
     problem: str = ""
-    possible: frozenset[int] = frozenset()  # the lines of the possible rows, if it is unclear
+    possible: frozenset[int] = frozenset()  # numbers of the lines that are possible, if there are several
 
 
 class People:
-    """The rows of one list, found by each of their fields."""
+    """The rows of a list; each row can be found by each of its fields."""
 
     def __init__(self, people: Iterable[Person], title: str) -> None:
         self._people = tuple(people)
@@ -35,9 +35,9 @@ class People:
                 self._rows.setdefault(key, set()).add(place)
 
     def find(self, known: Person, text: str = "") -> Match:
-        """Return the row of the person `known`.
+        """Return the row that belongs to the person `known`.
 
-        `text` is a name that an instructor gave to a folder, so it may be any field.
+        `text` is a folder's name that an instructor chose; it may be the value of any field.
         """
         proposals = [rows for rows in self._proposals(known, text) if rows]
         if not proposals:
@@ -56,7 +56,8 @@ class People:
         for key in IDENTITY:
             yield self._fitting(key, getattr(known, key))
         yield self._fitting("name", known.name)
-        # Moodle's number identifies a participant of one assignment. Some rosters contain it as the id.
+        # Moodle's number identifies a participant only within one assignment. Some rosters contain it in the
+        # column `id`.
         yield self._fitting("number", known.number) or {
             place
             for place in self._fitting("id", known.number)
@@ -92,11 +93,11 @@ def orders(name: str) -> set[str]:
 
 
 def _agree(one: str, other: str) -> bool:
-    """Return whether two names may belong to one student; Moodle may put the group before the name."""
+    """Return whether two names can belong to one student; Moodle may write the group before the name."""
     return not one or not other or any(folded(one).endswith(order) for order in orders(other))
 
 
 def folded(name: str) -> str:
-    """Return the letters and digits of a name, small and without accents."""
+    """Return the letters and digits of a name, in small letters without accents."""
     letters = unicodedata.normalize("NFKD", name.casefold())
     return "".join(letter for letter in letters if letter.isalnum())

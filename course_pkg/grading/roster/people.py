@@ -1,9 +1,10 @@
 """The roster: the students of a class, from a CSV file.
 
-The first line names the columns, in any order: name, id, email, username, section. One of the first four is
-enough. The names that Canvas (Student, ID, SIS Login ID, Section), Gradescope (First Name, Last Name, SID,
-Email, Sections) and Moodle (First name, Last name, Email address, ID number, Username) give to these columns
-are understood, too, so that an export from there is a roster. Further columns are kept under their own names.
+The first line contains the names of the columns, in any order: name, id, email, username, section. One of the
+first four columns is enough. The course also understands the columns of Canvas (Student, ID, SIS Login ID,
+Section), Gradescope (First Name, Last Name, SID, Email, Sections) and Moodle (First name, Last name, Email
+address, ID number, Username). Therefore, an export from one of them is a roster. Other columns are stored
+under their own names.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from course_pkg.grading.tables import table_rows
 
 WHAT = "roster"
 FIRST, LAST = "first name", "last name"
-IDENTITY = ("id", "email", "username")  # each value of these fields may belong to only one student
+IDENTITY = ("id", "email", "username")  # a value of one of these fields belongs to only one student
 FIELDS = ("name", *IDENTITY, "section")
 ALIASES = {
     "name": ("name", "full name", "student", "student name"),
@@ -32,31 +33,31 @@ ALIASES = {
     "username": ("username", "user name", "login", "login id", "sis login id"),
     "section": ("section", "sections"),
 }
-# Canvas adds these two rows to each gradebook that it exports.
+# Canvas adds these two rows to each exported gradebook.
 NO_STUDENTS = ("Points Possible", "Student, Test")
 
 
 @dataclass(frozen=True)
 class Person:
-    """The data about a student in a roster or on a platform; an unknown field is empty."""
+    """The data about a student from a roster or from a platform; an unknown field is empty."""
 
     name: str = ""
-    id: str = ""  # for Canvas, the Canvas user id; for Gradescope, the student number (SID)
+    id: str = ""  # the Canvas user id, or Gradescope's student number (SID)
     email: str = ""
     username: str = ""
     section: str = ""
-    number: str = ""  # the number of a participant of one assignment in Moodle, such as "12345"
-    line: int = 0  # the line in the file; 0 if the person is not from a file
-    more: Mapping[str, str] = field(default_factory=dict)  # further columns, by their names in small letters
+    number: str = ""  # the number of a participant in one assignment of Moodle, such as "12345"
+    line: int = 0  # number of the line in the file; 0 if the person is not from a file
+    more: Mapping[str, str] = field(default_factory=dict)  # other columns, by their names in small letters
 
     @property
     def label(self) -> str:
-        """The most readable field that is known."""
+        """The first known field that a person can read most easily."""
         known = (self.name, self.username, self.email, self.id, self.number)
         return next(filter(None, known), f"line {self.line}")
 
     def completed(self, other: Person) -> Person:
-        """Return this person, with the fields of `other` in place of empty fields."""
+        """Return this person; empty fields get the values of `other`."""
         gaps = {key: getattr(other, key) for key in (*FIELDS, "number") if not getattr(self, key)}
         return replace(self, **gaps)
 
@@ -64,8 +65,8 @@ class Person:
 def read_roster(path: Path) -> tuple[Person, ...]:
     """Return the students in the CSV file at `path`, in its order.
 
-    Raises GradingError if the file cannot be read, names none of the columns, names a column twice, or has a
-    row that identifies no student, or the same student as another row. A message quotes no cell, because each
+    Raises GradingError if the file cannot be read, has none of the columns, has a column twice, or has a row
+    that identifies no student or the same student as another row. Messages never contain a cell, because each
     cell may be a name.
     """
     lines = table_rows(path, WHAT)
@@ -84,7 +85,7 @@ def read_roster(path: Path) -> tuple[Person, ...]:
 
 
 def _columns(file: str, head: Sequence[str]) -> dict[str, int]:
-    """Return the places of the known columns."""
+    """Return the index of each known column."""
     found: dict[str, int] = {}
     for place, name in enumerate(head):
         for known, names in ALIASES.items():
@@ -120,7 +121,7 @@ def _person(
 
 
 def _refuse_twice(file: str, people: Sequence[Person]) -> None:
-    """Raise GradingError if two students have the same id, email or username; names may be the same."""
+    """Raise GradingError if two students have the same id, email or username; equal names are allowed."""
     for key in IDENTITY:
         seen: dict[str, int] = {}
         for person in people:
@@ -141,7 +142,7 @@ def _text(value: str) -> str:
 
 
 def labels(people: Sequence[Person]) -> Iterator[str]:
-    """Yield a label for each person; persons with the same label get their line."""
+    """Yield a label for each person; if two persons have the same label, the number of the line is added."""
     known = Counter(person.label for person in people)
     for person in people:
         yield f"{person.label} (line {person.line})" if known[person.label] > 1 else person.label

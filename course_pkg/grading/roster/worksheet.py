@@ -1,16 +1,16 @@
-"""Moodle's offline grading worksheet: read it, and write a copy with other grades and feedback comments.
+"""Reads Moodle's offline grading worksheet, and writes a copy with new grades and feedback comments.
 
-An instructor downloads it in an assignment ("Download grading worksheet", for which the feedback type
-"Offline grading worksheet" has to be on) and uploads the copy there ("Upload grading worksheet").
+An instructor downloads the worksheet from an assignment ("Download grading worksheet"; for this, the feedback
+type "Offline grading worksheet" has to be on), and uploads the copy there ("Upload grading worksheet").
 
 Layout, from Moodle's source: mod/assign/gradingtable.php writes the columns Identifier ("Participant 12345"),
 Full name, further fields such as Email address or ID number, Status, Group, Marker, Grade, Maximum grade (or
 Scale), Marking workflow state, Grade can be changed, Last modified (submission), Online text, Last modified
-(grade), Feedback comments. Most of them are optional; with anonymous submissions, the name is missing. Their
-names and the word "Participant" are those of the user's language.
+(grade), Feedback comments. Most of these columns are optional; if submissions are anonymous, the name is
+missing. The names of the columns and the word "Participant" are in the user's language.
 mod/assign/feedback/offline/importgradeslib.php finds the columns by exactly these names, takes the number
-from the end of the identifier, and refuses a file that has lost a column. locallib.php beside it skips a
-grade that is empty, above the maximum, or locked.
+from the end of the identifier, and refuses a file without one of its columns. locallib.php in the same folder
+ignores a grade that is empty, above the maximum, or locked.
 """
 
 from __future__ import annotations
@@ -75,16 +75,16 @@ AGAIN = "Download the grading worksheet again from Moodle, and do not open it in
 
 @dataclass(frozen=True)
 class Participant:
-    """A row of the worksheet."""
+    """One row of the worksheet."""
 
-    place: int  # index in the records of the file
+    place: int  # index of the row in the records of the file
     person: Person
     locked: bool  # whether Moodle ignores a new grade for this participant
     maximum: float | None  # points; None if the worksheet does not contain it
 
 
 class Worksheet:
-    """A worksheet that was read from a file; changes are made in a copy."""
+    """A worksheet that was read from a file; changes are only made in copies."""
 
     def __init__(
         self, found: Sequence[Record], separator: str, columns: Mapping[str, int], file: str
@@ -100,28 +100,36 @@ class Worksheet:
 
     @property
     def word(self) -> str:
-        """The word before the number of a participant, in small letters; Moodle's anonymous name."""
+        """The word before the number of a participant, in small letters.
+
+        It is also the name of anonymous students.
+        """
         first = self._records[1:2]
         return folded(re.sub(r"\d+\s*\Z", "", self._value(first[0], IDENTIFIER))) if first else ""
 
     @property
     def takes_feedback(self) -> bool:
-        """Whether it has a column for feedback: the feedback type "Feedback comments" is on."""
+        """Whether the worksheet has a column for feedback.
+
+        This depends on Moodle's feedback type "Feedback comments".
+        """
         return FEEDBACK in self._columns
 
     @property
     def about_points(self) -> str:
-        """The end of a sentence that says whether the points are scaled."""
+        """The end of a sentence that says whether the points are scaled to the maximum grade."""
         if MAXIMUM not in self._columns:
             return "; it contains no maximum grade, so the points are not scaled"
         maxima = sorted({f"{each.maximum:g}" for each in self.participants if each.maximum})
         return f"; the points are scaled to Moodle's maximum grade of {' or '.join(maxima)}" if maxima else ""
 
     def copy(self, graded: Mapping[int, tuple[str, str]]) -> bytes:
-        """Return a copy of the file with the grades and feedback (HTML) of some participants, by their place.
+        """Return a copy of the file with new grades and feedback (HTML).
 
-        All other bytes of the file are unchanged. A grade is a number such as "7.5"; it gets a decimal comma
-        if the maximum grade of its row has one.
+        The keys are the places of participants.
+
+        All other bytes of the file are unchanged. A grade is a number such as "7.5". It gets a decimal comma
+        if the maximum grade in its row has one.
         """
         changed = deepcopy(self._records)
         for place, (grade, feedback) in graded.items():
@@ -174,15 +182,15 @@ class Worksheet:
 def read_worksheet(path: Path) -> Worksheet:
     """Return the worksheet in the file at `path`.
 
-    Raises GradingError if it cannot be read, if it is not a worksheet, if it grades with a scale and not with
-    points, or if a row is damaged.
+    Raises GradingError if it cannot be read, if it is not a worksheet, if it uses a scale in place of points,
+    or if a row is damaged.
     """
     try:
         text = table_bytes(path, WHAT, LARGEST).decode()
     except UnicodeDecodeError as error:
         raise GradingError(f"The {WHAT} {path.name} is not in UTF-8, as Moodle writes it. {AGAIN}") from error
     separator = delimiter_of(text)
-    # The byte order mark stays in its place, before the name of the first column.
+    # The byte order mark stays before the name of the first column.
     found = list(records(text, separator))
     head = [clean.line(found[0].value(place)) for place in range(len(found[0].cells))] if found else []
     if found and text.startswith("\ufeff"):

@@ -55,6 +55,22 @@ def _between(before: Grade, after: Grade) -> Iterator[Change]:
         yield Change(student, chapter, "total", points(before.earned), points(after.earned))
 
 
+def worth_changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[str]:
+    """Return a line for each part whose possible points, or their division among its goals, have changed."""
+    old, new = (
+        {report.check: report for grade in grades for report in grade.reports} for grades in (before, after)
+    )
+    lines = []
+    for check in sorted(old.keys() & new.keys()):
+        values = [each[check].possible for each in (old, new)]
+        shares = [{goal.text: goal.points for goal in each[check].goals} for each in (old, new)]
+        if values[0] != values[1]:
+            lines.append(f"  {check}: {points(values[0])} before, {points(values[1])} now")
+        elif shares[0] != shares[1]:
+            lines.append(f"  {check}: divided differently among its goals")
+    return ["Parts whose possible points have changed since the last run:", *lines] if lines else []
+
+
 def write_changes(found: Sequence[Change], out: Path) -> None:
     """Write changes.csv, with a row for each change."""
     head = ["student", "chapter", "part", "points before", "points now"]

@@ -1,4 +1,4 @@
-"""The dask cluster of `course grade --scheduler`: waits for its workers, and notices if they have ended."""
+"""The dask cluster of `course grade --scheduler`; it waits for workers, and notices when all have ended."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from course_pkg.errors import GradingError
 if TYPE_CHECKING:
     from distributed import Client
 
-PATIENCE = 20.0  # s in which a scheduler has to respond, and a worker has to connect
-INTERVAL = 1.0  # s between two polls of the workers after all tasks were submitted
+PATIENCE = 20.0  # s; a scheduler has to respond, and a worker has to connect, within this time
+INTERVAL = 1.0  # s between two polls of the workers, after all tasks were submitted
 AGAIN = "The finished grades are kept. Correct this problem, and type the same command again."
 
 
 class Cluster:
-    """An executor of a dask cluster, with the number of its threads.
+    """An executor that uses a dask cluster, and the number of the cluster's threads.
 
-    `require` raises GradingError if the scheduler has ended, or if it has had no worker for `patience` s.
+    `require` raises GradingError if the scheduler has ended, or if there has been no worker for `patience` s.
     """
 
     def __init__(self, client: Client, executor: Executor, scheduler: str, patience: float) -> None:
@@ -43,13 +43,16 @@ class Cluster:
 
     @property
     def failures(self) -> tuple[type[BaseException], ...]:
-        """The exceptions of a task that the cluster could not run; `explained` returns their meaning."""
+        """The exceptions that mean that the cluster could not run a task.
+
+        `explained` returns their meaning.
+        """
         from distributed.scheduler import KilledWorker
 
         return CancelledError, KilledWorker, ImportError, RuntimeError
 
     def explained(self, error: BaseException) -> GradingError:
-        """Return an error that says what one of the `failures` means, and what to do."""
+        """Return an error that says what one of the `failures` means and what the user can do."""
         if isinstance(error, CancelledError):
             return self._lost()
         if isinstance(error, (ImportError, RuntimeError)):
@@ -72,7 +75,7 @@ class Cluster:
 
 
 def no_workers(scheduler: str, patience: float) -> GradingError:
-    """Return the error about a scheduler that has no workers."""
+    """Return the error for a scheduler without workers."""
     return GradingError(
         f"The dask scheduler at {scheduler} has had no worker for {patience:g} s, so nothing can be graded. "
         f"Start workers with this command, and type the same command again: ./course run dask worker "
@@ -110,12 +113,12 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
             raise no_workers(scheduler, patience) from error
         yield Cluster(client, client.get_executor(pure=False), scheduler, patience)
     finally:
-        # Otherwise, a client would wait for a scheduler that has ended.
+        # otherwise, a client would wait for a scheduler that has ended
         with suppress(OSError, TimeoutError):
             client.close(timeout=1)
 
 
 def _silence() -> None:
-    """Hide dask's own messages about lost connections, because the run prints one message about them."""
+    """Hide dask's own messages about lost connections, because the run prints its own message."""
     for name in ("distributed.client", "distributed.comm", "distributed.core"):
         logging.getLogger(name).setLevel(logging.CRITICAL)

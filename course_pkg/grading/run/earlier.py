@@ -1,4 +1,4 @@
-"""The results of earlier runs, which stay in the reports unless this run replaces them."""
+"""The results of earlier runs; they stay in the reports unless this run replaces them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,10 @@ from course_pkg.grading.run.selection import Selection
 
 @dataclass(frozen=True)
 class Earlier:
-    """The records of earlier runs in the folder `out`; `unreadable` of its files are not records."""
+    """The records of earlier runs in the folder `out`.
+
+    `unreadable` counts the files there that are not records.
+    """
 
     out: Path
     grades: tuple[Grade, ...] = ()
@@ -27,11 +30,13 @@ class Earlier:
         return found.unreviewed() if found else None
 
     def rest(self, graded: Sequence[Grade], selected: Selection) -> list[Grade]:
-        """Return the earlier grades that stay in the reports besides `graded`, with the points of the checks.
+        """Return the earlier grades that stay in the reports in addition to `graded`.
 
-        A selected one is marked as absent: its record exists, but nothing was handed in for it this time. If
-        everything was selected, a chapter for which no student handed in anything is another assignment, and
-        its grades are not marked.
+        They have the points of the checks.
+
+        An earlier grade that is selected is marked as absent: there is a record, but nothing was handed in
+        this time. If everything was selected, and no student handed in anything for a chapter, the chapter
+        belongs to another assignment; then its grades are not marked.
         """
         chapters = {grade.chapter for grade in graded}
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}
@@ -47,7 +52,10 @@ class Earlier:
         return kept
 
     def forget_files(self, graded: Sequence[Grade], selected: Selection) -> None:
-        """Remove the records of files that could not be graded earlier and that are no longer there."""
+        """Remove the records of files that could not be graded in an earlier run.
+
+        Only records of files that do not exist any more are removed.
+        """
         now = {(grade.student, grade.origin) for grade in graded if not grade.chapter}
         for grade in self.grades:
             gone = (grade.student, grade.origin) not in now
@@ -60,7 +68,7 @@ class Earlier:
 
 
 def read_earlier(out: Path) -> Earlier:
-    """Return the records below `out`; a file that is not a record of this version is counted."""
+    """Return the records in `out`; files that are not records of this version are counted."""
     grades, unreadable = [], 0
     for path in sorted((out / RESULTS).glob("*/*.json")):
         if path.name.startswith("."):

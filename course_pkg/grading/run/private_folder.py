@@ -1,4 +1,4 @@
-"""The test of an instructor's private folder (--private) for misnamed, empty and unused files."""
+"""Tests an instructor's private folder (--private) for misnamed, empty and unused files."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ EXPECTED = f"private_NN.py, such as private_05.py, or {POINTS}"
 
 
 def require_names(folder: Path, chapters: Sequence[str]) -> None:
-    """Raise GradingError if a file in `folder` is misnamed or empty, or if no file in it can be used.
+    """Raise GradingError if a file in `folder` is misnamed or empty, or if none of the files can be used.
 
-    A message on stderr names the files that are not used. `chapters` are the chapters that have checks.
+    A message on stderr lists the files that are not used. `chapters` are the chapters that have checks.
     """
     try:
         files = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "__")))
@@ -40,7 +40,7 @@ def require_names(folder: Path, chapters: Sequence[str]) -> None:
 
 
 def require_parts(folder: Path) -> None:
-    """Raise GradingError if a private module declares no part, or a part that belongs to no exercise."""
+    """Raise GradingError if a private module declares no part, or if a part belongs to no exercise."""
     for chapter, name in _modules(folder):
         declared = parts_of(chapter)
         public = {part.check for part in declared if part.check == exercise_of(part.check)}

@@ -1,4 +1,4 @@
-"""Grades selected notebooks or parts again; all other parts keep their results."""
+"""Grades selected notebooks or parts again; the results of all other parts stay."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from course_pkg.grading.store import Store
 
 @dataclass(frozen=True)
 class Regrade:
-    """The selection of a run, and the earlier results that it completes."""
+    """The selection of a run, and the earlier results that are combined with the new ones."""
 
     selected: Selection
     earlier: Earlier
@@ -21,29 +21,29 @@ class Regrade:
 
     @property
     def again(self) -> bool:
-        """Whether the selected notebooks are graded without the use of stored grades."""
+        """Whether the selected notebooks are graded again even if there are stored grades."""
         return self.fresh or self.selected.again
 
     def parts(self, submission: Submission) -> tuple[str, ...]:
-        """Return the parts of a notebook that are graded again, or nothing for the whole notebook.
+        """Return the parts of a notebook that are graded again, or () for the whole notebook.
 
-        The whole notebook is graded if the student has handed in another one since the last run, or if it
-        has no earlier result.
+        The whole notebook is graded if there is no earlier result, or if the student has handed in another
+        notebook since then.
         """
         asked = self.selected.parts_of(submission.chapter)
         return asked if asked and not submission.problem and self._base(submission) else ()
 
     def completed(self, grade: Grade, parts: tuple[str, ...]) -> Grade:
-        """Return the grade with the earlier reports of all other parts, if only `parts` were graded."""
+        """Return the grade with the earlier reports of all other parts, if only `parts` were graded again."""
         base = self.earlier.find(grade.student, grade.chapter)
         return merged(base, grade) if parts and base else grade
 
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
-        """Store a new grade, which does not contain a student yet, for later runs.
+        """Store a new grade for later runs; it does not contain a student yet.
 
-        `alike` are the submissions with this grade. If only `parts` were graded, they replace those of the
-        kept grade. A grade that was kept with other options, or by another version of the checks, is removed,
-        so that the next complete run does not bring back the old points.
+        `alike` are the submissions that get this grade. If only `parts` were graded, their reports replace
+        those in the stored grade. A grade that was stored with other options, or by another version of the
+        checks, is removed; otherwise, the next complete run would use the old points again.
         """
         if not parts:
             store.keep(graded)

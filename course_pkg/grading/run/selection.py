@@ -1,4 +1,7 @@
-"""The selection of a run: some students, parts or chapters, or everything. All other results stay."""
+"""The selection of a run: some students, parts or chapters, or all of them.
+
+All other results stay as they are.
+"""
 
 from __future__ import annotations
 
@@ -11,12 +14,12 @@ from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 from course_pkg.grading.grade import IN_PACKAGES, Grade, Submission
 
-PLATFORM_ID = re.compile(r"_\d+$")  # Moodle and Canvas add this number to the end of a name
+PLATFORM_ID = re.compile(r"_\d+$")  # Moodle and Canvas add this number to the end of a student's name
 
 
 @dataclass(frozen=True)
 class Selection:
-    """The options --student, --part and --chapters; an empty tuple selects everything."""
+    """The options --student, --part and --chapters; an empty tuple means that everything is selected."""
 
     students: tuple[str, ...] = ()
     chapters: tuple[str, ...] = ()
@@ -29,17 +32,17 @@ class Selection:
 
     @property
     def everything(self) -> bool:
-        """Whether no option was given, so that the run grades everything."""
+        """Whether everything is selected, because no option was given."""
         return not (self.students or self.chapters or self.parts)
 
     def covers(self, student: str, chapter: str) -> bool:
-        """Return whether this run grades what a student hands in for a chapter ("" if it is unknown)."""
+        """Return whether this run grades a student's submission for a chapter; "" is an unknown chapter."""
         if self.students and student not in self.students:
             return False
         return not self.chapters or chapter in ("", *self.chapters)
 
     def only(self, graded: Sequence[Grade]) -> Selection:
-        """Return the selection of exactly the students and chapters of `graded`."""
+        """Return a selection that contains exactly the students and chapters of `graded`."""
         students, chapters = {each.student for each in graded}, {each.chapter for each in graded}
         return replace(self, students=tuple(students), chapters=tuple(chapters))
 
@@ -52,18 +55,18 @@ class Selection:
         return tuple(each for each in self.parts if each.partition(".")[0] == chapter)
 
     def for_students(self, submissions: Sequence[Submission]) -> Selection:
-        """Return the selection with the full names of the students.
+        """Return the selection with the students' full names.
 
-        Raises GradingError if a name fits no student or several students.
+        Raises GradingError if a name fits no student, or several students.
         """
         known = sorted({each.student for each in submissions if each.student})
         return replace(self, students=tuple(_student(name, known) for name in self.students))
 
 
 def selection(students: Sequence[str], chapters: Sequence[str], parts: Sequence[str]) -> Selection:
-    """Return the selection of the options; a part selects its chapter.
+    """Return the selection for these options; a part also selects its chapter.
 
-    Raises UnknownCheck if there is no such part, and GradingError if --chapters leaves out its chapter.
+    Raises UnknownCheck if a part does not exist, and GradingError if --chapters does not contain its chapter.
     """
     checks = tuple(dict.fromkeys(find(two_digits(part)).check for part in parts))
     asked = tuple(dict.fromkeys(check.partition(".")[0] for check in checks))
@@ -75,13 +78,13 @@ def selection(students: Sequence[str], chapters: Sequence[str], parts: Sequence[
 
 
 def two_digits(number: str) -> str:
-    """Return the number of a chapter or part with two digits for the chapter: "05" for "5"."""
+    """Return the number of a chapter or of a part, in which the chapter has two digits: "05" for "5"."""
     chapter, dot, rest = number.strip().partition(".")
     return f"{chapter.zfill(2)}{dot}{rest}"
 
 
 def merged(base: Grade, again: Grade) -> Grade:
-    """Return `base` with the reports of `again`, which contains only the parts that were graded again."""
+    """Return `base` with the reports of `again`; `again` contains only the parts that were graded again."""
     fresh = {report.check: report for report in again.reports}
     reports = [fresh.pop(report.check, report) for report in base.reports]
     reports = sorted([*reports, *fresh.values()], key=lambda report: list(map(int, report.check.split("."))))
@@ -100,7 +103,7 @@ def merged(base: Grade, again: Grade) -> Grade:
 
 
 def _student(name: str, known: Sequence[str]) -> str:
-    """Return the student whom `name` means; the number at the end of a platform's name can be left out."""
+    """Return the student whose name is `name`; the number that a platform adds to the name may be missing."""
     identity = clean.identity(name)
     if identity in known:
         return identity

@@ -18,26 +18,26 @@ def status_of(graded: Sequence[Grade]) -> int:
 
 
 def last_line(graded: Sequence[Grade]) -> str:
-    """Return, for example, "45 graded, 22 need a look"."""
+    """Return the last line, for example "45 graded, 22 need a look"."""
     looks = sum(map(needs_look, graded))
     return f"{len(graded) - looks} graded, {looks} {'needs' if looks == 1 else 'need'} a look"
 
 
 def about_empty(graded: Sequence[Grade]) -> list[str]:
-    """Return the line about students whose folders are empty, if there are any."""
+    """Return a line about students whose folders are empty, or no line if there are none."""
     names = [name_of(grade.student) for grade in graded if grade.nothing]
     return [f"Handed in nothing, because the folder is empty: {_listed(names)}."] if names else []
 
 
 def about_flags(grades: Sequence[Grade]) -> list[str]:
-    """Return the line about the students with flags, if there are any."""
+    """Return a line about students with flags, or no line if there are none."""
     count = len({grade.student for grade in grades if grade.flags})
     students = "1 student has" if count == 1 else f"{count} students have"
     return [f"{students} flags, which change no points. See Flags in class.html."] if count else []
 
 
 def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
-    """Return the lines about the results of earlier runs that stay in the reports."""
+    """Return lines about the results of earlier runs that stay in the reports."""
     absent = [grade for grade in rest if grade.absent]
     kept = len(rest) - len(absent)
     lines = []

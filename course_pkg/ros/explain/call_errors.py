@@ -1,4 +1,4 @@
-"""The errors of a call itself; `handler_errors` describes the rows."""
+"""The table of errors that a service call itself raises; `handler_errors` explains the columns."""
 
 from __future__ import annotations
 

@@ -9,7 +9,8 @@ from course_pkg.errors import CourseError
 from course_pkg.ros.explain.explanation import Explanation, known
 from course_pkg.workspace import explain as explain_build
 
-LONGEST = 50_000  # characters; only this part at the end of a text is searched
+# maximum number of characters that are searched; if a text is longer, only its end is searched
+LONGEST = 50_000
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TRACEBACK = "Traceback (most recent call last)"
 _BUILD = re.compile(r"^(?:CMake Error|-- |Base path:|Invoking \"|\[rospack\])", re.MULTILINE)
@@ -32,7 +33,7 @@ def explain(error: object) -> Explanation:
     """Return the explanation of an error: cause, remedy, and chapter. This function raises no exception.
 
     `error` is an exception, or a text: an error message, a traceback, lines of rospy's log, or the output of
-    catkin_make, rosrun, roslaunch or roscore. If no table contains the error, the result's `known` is False.
+    catkin_make, rosrun, roslaunch or roscore. If no table contains the error, `known` is False in the result.
     """
     if isinstance(error, BaseException):
         return _of_exception(error)
@@ -43,7 +44,10 @@ def explain(error: object) -> Explanation:
 
 
 def _of_exception(error: BaseException) -> Explanation:
-    """Return the explanation of an exception or of its cause; an error of the course explains itself."""
+    """Return the explanation of an exception or of its cause.
+
+    If a CourseError is in no table, the error's own message is the explanation.
+    """
     for each in _chain(error):
         message = f"{type(each).__name__}: {_string(each)}"
         if found := known(message) or _of_build(message):
@@ -54,7 +58,7 @@ def _of_exception(error: BaseException) -> Explanation:
 
 
 def _string(thing: object) -> str:
-    """Return an object as a string; empty if its __str__ raises an error."""
+    """Return an object as a string, or an empty string if its __str__ raises an error."""
     try:
         return thing.decode("utf-8", "replace") if isinstance(thing, bytes) else str(thing)
     except Exception:  # noqa: BLE001 -- a student's __str__ may raise any exception
@@ -62,7 +66,7 @@ def _string(thing: object) -> str:
 
 
 def _chain(error: BaseException) -> Iterator[BaseException]:
-    """Yield the exception and its causes; the loop ends if an exception is indirectly its own cause."""
+    """Yield the exception and its causes, each only once: an exception may indirectly be its own cause."""
     seen: set[int] = set()
     each: BaseException | None = error
     while each is not None and id(each) not in seen:
@@ -72,7 +76,7 @@ def _chain(error: BaseException) -> Iterator[BaseException]:
 
 
 def _of_text(text: str) -> Explanation | None:
-    """Return the explanation of a build's output, or of the last known error in another text."""
+    """Return the explanation of a build's output, or of the last known error in any other text."""
     if _BUILD.search(text) and (found := _of_build(text)):
         return found
     for message in _candidates(text):
@@ -82,7 +86,11 @@ def _of_text(text: str) -> Explanation | None:
 
 
 def _candidates(text: str) -> Iterator[str]:
-    """Yield possible error messages: the lines below each traceback, the last first; then the whole text."""
+    """Yield possible error messages.
+
+    First come the error lines of each traceback, from the last traceback to the first; then comes the whole
+    text.
+    """
     if _TRACEBACK in text:
         for part in reversed(text.split(_TRACEBACK)[1:]):
             yield from _below_frames(part)
@@ -90,7 +98,7 @@ def _candidates(text: str) -> Iterator[str]:
 
 
 def _below_frames(part: str) -> Iterator[str]:
-    """Yield the lines of a traceback with an error message, such as `ValueError: boom`, the last first."""
+    """Yield the error lines of a traceback, such as `ValueError: boom`, from last to first."""
     for line in reversed(part.splitlines()[1:]):
         if re.match(r"[\w.]+(?:: |$)", line) and not line.startswith(("During", "The above")):
             yield line

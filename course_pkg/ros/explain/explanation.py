@@ -1,4 +1,4 @@
-"""The explanation of an error, its form in a notebook, and the table of all explanations."""
+"""The explanation of an error, how a notebook displays it, and the table of all explanations."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ CHAPTERS = {
 
 @dataclass(frozen=True, repr=False)
 class Explanation:
-    """The cause of an error and the next step, in whole sentences that are the same in every run.
+    """The cause of an error and the next step, in whole sentences; the sentences are the same in every run.
 
     `chapter` is the number of the chapter about this error, or "". `known` is False if no table contains the
     error.
@@ -44,7 +44,7 @@ class Explanation:
         return taught(self.chapter)
 
     def as_dict(self) -> dict[str, str]:
-        """Return the strings that a page shows."""
+        """Return the explanation as a dict of strings, for a page that displays it."""
         return {"cause": self.cause, "remedy": self.remedy, "taught": self.taught}
 
     def __repr__(self) -> str:
@@ -57,7 +57,7 @@ class Explanation:
 
 
 def known(message: str) -> Explanation | None:
-    """Return the explanation of the error message `TypeName: message`, or None if the table has none."""
+    """Return the explanation of the error message `TypeName: message`, or None if no table contains it."""
     for pattern, cause, remedy, chapter in TABLE:
         if re.search(pattern, message):
             return Explanation(cause, remedy, chapter)
@@ -65,12 +65,15 @@ def known(message: str) -> Explanation | None:
 
 
 def taught(chapter: str) -> str:
-    """Return number and title of a chapter, such as "chapter 06, Write a client"; "" if it is unknown."""
+    """Return the number and title of a chapter, such as "chapter 06, Write a client".
+
+    For an unknown chapter, return "".
+    """
     title = CHAPTERS.get(chapter, "")
     return f"chapter {chapter}, {title}" if title else ""
 
 
 def _marked(text: str) -> str:
-    """Return the text as HTML; parts between backticks become code."""
+    """Return the text as HTML; text between backticks is shown as code."""
     parts = escape(text).split("`")
     return "".join(f"<code>{part}</code>" if index % 2 else part for index, part in enumerate(parts))

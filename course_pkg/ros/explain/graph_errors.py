@@ -1,6 +1,7 @@
-"""The errors of the master, of nodes and of addresses; `handler_errors` describes the rows.
+"""The table of errors of the master, of nodes and of addresses; `handler_errors` explains the columns.
 
-These rows are searched before the rows for calls, because `unable to contact master` is also a failed call.
+These rows are searched before the rows for calls, because a failed call may also report `unable to contact
+master`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,9 @@
-"""The errors that a client gets if the server's handler fails, or if the service is declared wrongly.
+"""The table of errors that a client gets.
 
-A row is (pattern, cause, remedy, chapter). The pattern matches the part of an error message that is the same
-in every release of ROS. The first row that matches is used.
+These errors are caused by a failed handler of the server, or by an incorrect declaration of the service.
+
+Each row is (pattern, cause, remedy, chapter). The pattern matches the part of an error message that is the
+same in every release of ROS. The first row that matches is used.
 """
 
 from __future__ import annotations

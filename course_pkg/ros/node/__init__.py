@@ -1,1 +1,1 @@
-"""Make a process a node: join the graph, create services, publishers and subscriptions, and leave again."""
+"""Make a process a node: join the graph, create services, publishers and subscriptions, and leave."""

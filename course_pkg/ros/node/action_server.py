@@ -1,7 +1,10 @@
-"""An action server in a kernel: a cell may create it again, and the kernel can end while it exists.
+"""An action server in a kernel.
 
-actionlib's own thread for goals would keep the process running. This module therefore uses actionlib's
-second method: http://wiki.ros.org/actionlib_tutorials/Tutorials, "Goal Callback Method".
+A cell may create the action server again, and the kernel can end while the server runs.
+
+A SimpleActionServer can execute goals on a thread of its own, but this thread would keep the process running.
+This module therefore uses the other method of actionlib, goal callbacks:
+http://wiki.ros.org/actionlib_tutorials/Tutorials, "Goal Callback Method".
 """
 
 from __future__ import annotations
@@ -16,18 +19,18 @@ import rospy
 
 from course_pkg.ros.node.type_lookup import Message
 
-END_TIMEOUT = 2.0  # s for a running `execute` to end after its goal was cancelled
-INTERVAL = 0.5  # s between checks if rospy has ended
+END_TIMEOUT = 2.0  # maximum time in s until a running `execute` ends after its goal was cancelled
+INTERVAL = 0.5  # time in s between two checks whether rospy has been shut down
 
 Execute = Callable[[Message, actionlib.SimpleActionServer], object]
 
 
 class ActionServer:
-    """Serves the action `name` of type `kind`: calls `execute(goal, server)` for one goal after the other.
+    """Serves the action `name` of type `kind`: calls `execute(goal, server)` for each goal, one at a time.
 
-    `server` is an actionlib.SimpleActionServer: `execute` sends feedback and the result through it, and
-    asks it if the goal was cancelled. An ActionServer ends with stop(), or when no variable refers to it.
-    This happens, for example, when its cell runs again.
+    `server` is an actionlib.SimpleActionServer: `execute` uses it to send feedback and the result, and to
+    check whether the goal was cancelled. An ActionServer ends when stop() is called, or when no variable
+    refers to it any more. The second case happens, for example, when the cell that created it runs again.
     """
 
     def __init__(self, name: str, kind: type, execute: Execute) -> None:
@@ -35,14 +38,18 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        # With a reference to self, the thread would keep this object alive, and __del__ would never run.
+        # The thread gets no reference to self. Otherwise, the thread would keep this object alive, and
+        # __del__ would never run.
         work = (self._server, execute, self._goal_came, self._stopped)
         self._thread = threading.Thread(target=_work, args=work, daemon=True)
         self._thread.start()
         self._server.start()
 
     def stop(self) -> None:
-        """Remove the action from the graph; a running goal is cancelled, but its thread may run longer."""
+        """Remove the action from the graph and cancel a running goal.
+
+        The thread of this goal may run longer.
+        """
         if self._stopped.is_set():
             return
         self._stopped.set()
@@ -67,7 +74,7 @@ def _work(
     goal_came: threading.Event,
     stopped: threading.Event,
 ) -> None:
-    """Execute each goal that comes, until the server is stopped."""
+    """Execute each goal that arrives, until the server is stopped."""
     while not stopped.is_set() and not rospy.is_shutdown():
         if not goal_came.wait(INTERVAL):
             continue
@@ -77,7 +84,7 @@ def _work(
 
 
 def _execute(server: actionlib.SimpleActionServer, execute: Execute, goal: Message) -> None:
-    """Execute a goal, and set a terminal state even if the student's function raises an exception."""
+    """Execute a goal, and set its terminal state even if the student's function raises an exception."""
     try:
         execute(goal, server)
         message = "No terminal state was set."

@@ -1,4 +1,7 @@
-"""The printed text of a handler is stored with its service, not shown below the cell that is running."""
+"""Store the printed text of a handler in the handler's service.
+
+Otherwise, the text would appear below the cell that is running.
+"""
 
 from __future__ import annotations
 
@@ -13,25 +16,27 @@ LIMIT = 65536  # characters
 
 
 class Printed(io.TextIOBase):
-    """The last 65,536 characters that were written."""
+    """A text stream that stores only the last 65,536 characters."""
 
     def __init__(self) -> None:
         self.text = ""
 
     def writable(self) -> bool:
-        """Return True, as print() expects."""
+        """Return True: text can be written to this stream."""
         return True
 
     def write(self, text: str) -> int:
-        """Append `text`, and drop the oldest characters beyond the limit."""
+        """Append `text`; if the limit is exceeded, delete the oldest characters."""
         self.text = (self.text + text)[-LIMIT:]
         return len(text)
 
 
 class RoutedStream(io.TextIOBase):
-    """Replaces sys.stdout or sys.stderr: text from a handler's thread is stored, other text passes through.
+    """Replaces sys.stdout or sys.stderr. Text that a handler's thread prints is stored.
 
-    The destination of a thread's text is a context variable, because each thread has its own destination.
+    All other text goes to the replaced stream.
+
+    Each thread has its own destination for text; the destination is therefore stored in a context variable.
     """
 
     def __init__(self, stream: TextIO, destination: ContextVar[Printed | None]) -> None:
@@ -39,11 +44,14 @@ class RoutedStream(io.TextIOBase):
         self._destination = destination
 
     def writable(self) -> bool:
-        """Return True, as print() expects."""
+        """Return True: text can be written to this stream."""
         return True
 
     def write(self, text: str) -> int:
-        """Write to this thread's destination, or to the replaced stream if the thread has none."""
+        """Write `text` to this thread's destination.
+
+        If this thread has no destination, write to the replaced stream.
+        """
         return int((self._destination.get(None) or self.stream).write(text) or 0)
 
     def flush(self) -> None:
@@ -55,7 +63,7 @@ class RoutedStream(io.TextIOBase):
         return bool(self.stream.isatty())
 
     def fileno(self) -> int:
-        """Return the descriptor of the replaced stream."""
+        """Return the file descriptor of the replaced stream."""
         return int(self.stream.fileno())
 
     @property
@@ -65,7 +73,7 @@ class RoutedStream(io.TextIOBase):
 
     @property
     def errors(self) -> str | None:  # type: ignore[override]
-        """How the replaced stream treats characters that it cannot encode."""
+        """The error handler of the replaced stream for characters that it cannot encode, such as "strict"."""
         return self.stream.errors
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 -- IPython's stream has more methods
@@ -73,7 +81,7 @@ class RoutedStream(io.TextIOBase):
 
 
 class HandlerOutput:
-    """Stores the printed text of this node's handlers from install() until remove()."""
+    """Stores the text that this node's handlers print between install() and remove()."""
 
     def __init__(self) -> None:
         self._destination: ContextVar[Printed | None] = ContextVar("handler output", default=None)
@@ -94,7 +102,7 @@ class HandlerOutput:
 
     @contextmanager
     def into(self, printed: Printed) -> Iterator[None]:
-        """Store the text that this thread prints during the block in `printed`."""
+        """Store in `printed` the text that this thread prints during the block."""
         token = self._destination.set(printed)
         try:
             yield

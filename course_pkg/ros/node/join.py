@@ -1,4 +1,4 @@
-"""Make a kernel a node. A cell may run join() many times, although rospy starts only once in a process."""
+"""Make a kernel a node. A cell may call join() many times, although rospy starts only once in a process."""
 
 from __future__ import annotations
 
@@ -32,14 +32,15 @@ from course_pkg.ros.trace.handover import hand_over
 from course_pkg.setup.figures import set_up_figures
 from course_pkg.workspace import OwnPackages, own_workspace
 
-NAME_TIMEOUT = 2.0  # s for another node of this name to end, such as a kernel that is being restarted
+# maximum time in s until another node with this name has ended, such as a kernel that is being restarted
+NAME_TIMEOUT = 2.0
 
 
 def join(name: str) -> Node:
     """Make this kernel the node `name`, and return the node; a second call returns the same node.
 
-    join() uses the master at ROS_MASTER_URI, or starts a master that ends with this kernel. If a new master
-    has replaced a lost master, join() registers this node's services and topics there again.
+    join() uses the master at ROS_MASTER_URI. If this variable is not set, join() starts a master that ends
+    with this kernel. If the master was restarted, join() registers this node's services and topics again.
     """
     return _kernel(os.getpid()).join(name)
 
@@ -50,23 +51,26 @@ def this_node() -> Node | None:
 
 
 def cells() -> Cells:
-    """Return the record of the runs of this kernel's cells."""
+    """Return the object that records the runs of this kernel's cells."""
     return _kernel(os.getpid()).cells
 
 
 def leave(node: Node) -> None:
-    """Take this kernel's node off the graph."""
+    """Remove this kernel's node from the graph."""
     _kernel(os.getpid()).leave(node)
 
 
 @cache
 def _kernel(pid: int) -> _Kernel:
-    """Return the only _Kernel of this process; a forked child gets a new one, because it is no node."""
+    """Return the only _Kernel of this process.
+
+    A forked child process gets a new _Kernel, because the child is not a node.
+    """
     return _Kernel(pid)
 
 
 class _Kernel:
-    """This process's node, its private master if any, and the process that cleans up after a SIGKILL."""
+    """This process's node, its private master (if any), and the process that cleans up after a SIGKILL."""
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
@@ -76,7 +80,8 @@ class _Kernel:
         self._packages: OwnPackages | None = None
         self._private: Roscore | None = None
         self._cleaner: SupervisedProcess | None = None
-        self._registered: tuple[str, str, str] | None = None  # the node that the cleaner unregisters
+        # the node that the cleaner process unregisters: the master's URI, the node's name, the node's URI
+        self._registered: tuple[str, str, str] | None = None
 
     def join(self, name: str) -> Node:
         _require_main_thread()
@@ -87,7 +92,7 @@ class _Kernel:
             return self._joined(full)
 
     def _follow_cells(self) -> None:
-        """Start to follow the notebook's cells, if this process is the kernel of a notebook."""
+        """Start to observe the runs of the notebook's cells, if this process is the kernel of a notebook."""
         shell = current_shell()
         if shell is not None and self._shell is None:
             self._shell = NotebookShell(shell, self.cells)
@@ -109,7 +114,8 @@ class _Kernel:
             if self._shell is not None:
                 self._shell.add_programs(self._node.keep)
             atexit.register(self._at_exit)
-            # Otherwise, a forked child that ends would unregister its parent's services and topics.
+            # Otherwise, a forked child process that ends would unregister the services and topics of its
+            # parent.
             os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
         self._start_cleaner(master)
@@ -133,7 +139,7 @@ class _Kernel:
         self._end_cleaner()
 
     def _ensure_rospy(self, full: str, master: MasterClient) -> None:
-        """Start rospy as this node if necessary, and register the node if the master does not know it."""
+        """Start rospy with this node name if necessary. Register the node if the master does not know it."""
         if rospy.core.is_shutdown():
             begin_again()
         if not rospy.core.is_initialized():
@@ -148,7 +154,10 @@ class _Kernel:
         prepare_node()
 
     def _ensure_master(self) -> None:
-        """Find or start a master that answers; restart a lost private master at the same address."""
+        """Find or start a master that answers.
+
+        If this kernel's private master has ended, restart it at the same address.
+        """
         try:
             found = find_or_start_master()
         except MasterUnreachable:
@@ -160,7 +169,10 @@ class _Kernel:
             self._private = found
 
     def _start_cleaner(self, master: MasterClient) -> None:
-        """Start a process that unregisters the node if this kernel is killed; a private master needs none."""
+        """Start a process that unregisters the node if this kernel is killed.
+
+        A private master needs no such process, because it ends when the kernel ends.
+        """
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
         if registered != self._registered:
@@ -179,7 +191,9 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            manager.master_uri = None  # All is unregistered; rospy would try again, without a time limit.
+            # Everything is already unregistered. If rospy knew the master's address, rospy would unregister
+            # again, without a time limit.
+            manager.master_uri = None
         if self._private is not None:
             self._private.stop()
 
@@ -216,7 +230,10 @@ def _require_same_name(full: str) -> None:
 
 
 def _apply_environment() -> None:
-    """Set the workspace's variables if its setup file was not sourced, as in an editor or on Binder."""
+    """Set the workspace's environment variables if its setup file was not sourced.
+
+    This is the case in an editor or on Binder, for example.
+    """
     if "ROS_PACKAGE_PATH" not in os.environ:
         from course_pkg.setup import environment
 
@@ -231,7 +248,10 @@ def _apply_environment() -> None:
 
 
 def _free_name(full: str, master: MasterClient) -> None:
-    """Make sure that no running node has the name, and remove the registrations of a node that has ended."""
+    """Make sure that no running node uses this name.
+
+    If a node with this name has ended, remove its registrations.
+    """
     deadline = time.monotonic() + NAME_TIMEOUT
     while (uri := master.lookup_node(full)) is not None:
         probe = node_probe(uri)

@@ -1,4 +1,4 @@
-"""A notebook's kernel as a node; all methods allow that a cell runs again."""
+"""A notebook's kernel as a node; a cell that calls these methods may run again."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from course_pkg.ros.trace.recording import Recording
 
 
 class Node:
-    """This kernel as a node of the graph, created by join(). `leave` removes it from the graph."""
+    """This kernel as a node of the graph, created by join(). `leave` removes the node from the graph."""
 
     def __init__(self, leave: Callable[[Node], None], cells: Cells) -> None:
         self._leave = leave
@@ -49,7 +49,7 @@ class Node:
 
     @property
     def uri(self) -> str:
-        """The node's address: the master and other nodes send their requests there."""
+        """The node's address: the master and other nodes send their requests to this address."""
         return str(rospy.get_node_uri())
 
     @property
@@ -58,10 +58,11 @@ class Node:
         return master_uri()
 
     def serve(self, name: str, kind: ServiceKind, handler: Handler) -> Service:
-        """Serve `name` with `handler`; this replaces an earlier service of this kernel with that name.
+        """Serve `name` with `handler`; an earlier service of this kernel with the same name is replaced.
 
-        Raises UnknownType, NotAServiceType and NotJoined. Raises MasterUnreachable or MasterSilent when the
-        master does not answer; rospy.Service would wait for ever.
+        Raises UnknownType or NotAServiceType if `kind` is wrong, and NotJoined after leave(). Raises
+        MasterUnreachable or MasterSilent when the master does not answer; rospy.Service itself would wait for
+        ever.
         """
         self._require()
         service = Service(name, service_class(kind), handler, self._output)
@@ -73,7 +74,9 @@ class Node:
     def call(
         self, name: str, kind: ServiceKind, /, *args: object, timeout: float = 5.0, **fields: object
     ) -> Message:
-        """Call a service and return its response; give fields by position or name, or one request object.
+        """Call a service and return its response.
+
+        Pass the request's fields by position or by name, or pass one request object.
 
         Raises CallTimeout after `timeout` s, and the same errors as rospy.ServiceProxy.
         """
@@ -82,15 +85,15 @@ class Node:
     def caller(
         self, name: str, kind: ServiceKind, *, persistent: bool = False, timeout: float = 5.0
     ) -> BoundedProxy:
-        """Return a new proxy of a service; another thread can cancel its calls."""
+        """Return a new proxy for a service; another thread can cancel the calls of this proxy."""
         self._require()
         return BoundedProxy(name, kind, persistent=persistent, timeout=timeout, watchdog=self._watchdog)
 
     def subscribe(self, topic: str, kind: MessageKind, callback: Callback | None = None) -> Subscription:
-        """Subscribe to a topic, and end this kernel's earlier subscription to it.
+        """Subscribe to a topic, and end this kernel's earlier subscription to the same topic.
 
         `callback` runs on a thread of rospy. Raises MasterUnreachable or MasterSilent when the master does
-        not answer; rospy.Subscriber would wait for ever.
+        not answer; rospy.Subscriber itself would wait for ever.
         """
         self._require()
         self._client().pid()
@@ -105,10 +108,11 @@ class Node:
     def advertise(
         self, topic: str, kind: MessageKind, *, queue_size: int = 10, latch: bool = False
     ) -> Publisher:
-        """Return a new publisher of a topic, and stop this kernel's earlier publisher of it.
+        """Return a new publisher of a topic, and stop this kernel's earlier publisher of the same topic.
 
-        With `latch`, each later subscriber receives the last message. Raises MasterUnreachable or
-        MasterSilent when the master does not answer; rospy.Publisher would wait for ever.
+        If `latch` is true, each subscriber that connects later receives the last message. Raises
+        MasterUnreachable or MasterSilent when the master does not answer; rospy.Publisher itself would wait
+        for ever.
         """
         self._require()
         self._client().pid()
@@ -120,17 +124,20 @@ class Node:
         return self._publishers[full]
 
     def run(self, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
-        """Run a package's program as a process; this replaces a process that had the same name.
+        """Run a program of a package as a process, and stop this node's earlier process with the same name.
 
         `name` renames the node, so that one program can run several times. The arguments `__name:=…` and
-        `__ns:=…` have the same effect. Raises UnknownExecutable.
+        `__ns:=…` of a program also rename its node or set its namespace. Raises UnknownExecutable.
         """
         start = partial(NodeProcess.rosrun, package, executable, *args, name=name)
         renamed = [arg for arg in map(str, args) if arg.startswith(("__name:=", "__ns:="))]
         return self._started(" ".join([name or f"{package}/{executable}", *renamed]), start)
 
     def launch(self, package: str, file: str, *args: str) -> NodeProcess:
-        """Run a launch file with arguments such as "client:=true"; an earlier run of the file ends."""
+        """Run a launch file with arguments such as "client:=true".
+
+        An earlier run of the same file is stopped.
+        """
         return self._started(f"{package}/{file}", partial(NodeProcess.roslaunch, package, file, *args))
 
     def keep(self, process: NodeProcess) -> None:
@@ -140,19 +147,20 @@ class Node:
     def record(self) -> AbstractContextManager[Recording]:
         """Record what all nodes of the course do during the block of a `with` statement.
 
-        The recording is filled at the end of the block. That takes up to 1 s if a node does not answer.
+        The recording is empty until the block ends. At the end of the block, collecting the records takes up
+        to 1 s if a node does not answer.
         """
         self._require()
         return recorded(self.name, self.uri, self._client())
 
     def leave(self) -> None:
-        """End everything that this node has started, and remove the node from the graph until join()."""
+        """End everything that this node has started. Remove the node from the graph until the next join()."""
         self._leave(self)
 
     def renew(self) -> None:
-        """Serve, subscribe and publish again after a restart of rospy.
+        """Create the services, subscriptions and publishers again after a restart of rospy.
 
-        This does not restore objects that a cell created directly with rospy.
+        This method does not restore objects that a cell created directly with rospy.
         """
         if self._uri == rospy.get_node_uri():
             return
@@ -166,7 +174,8 @@ class Node:
 
     def close(self, *, with_master: bool = True) -> None:
         """End everything that this node has started; unregister it only if `with_master` is true."""
-        deadline = time.monotonic() + GRACE  # one deadline, because all are interrupted now
+        # one common deadline, because all processes are interrupted at the same time
+        deadline = time.monotonic() + GRACE
         for process in self._processes.values():
             process.interrupt()
         while self._processes:
@@ -199,7 +208,8 @@ class Node:
 
     def _proxy(self, name: str, kind: ServiceKind) -> BoundedProxy:
         cls = service_class(kind)
-        key = (str(rospy.resolve_name(name)), id(cls))  # the proxy keeps the class, so the id stays valid
+        # the stored proxy refers to the class, so no other class can get the same id
+        key = (str(rospy.resolve_name(name)), id(cls))
         if key not in self._proxies:
             self._proxies[key] = self.caller(name, cls)
         return self._proxies[key]

@@ -1,13 +1,13 @@
-"""Prepare a process after init_node(): it becomes a node of the course.
+"""Add the features of a course node to a process, after init_node().
 
-Idle connections: in rospy, one thread accepts all connections and also reads their headers. A client that
-connects and sends nothing therefore stops all services and topics of the node. In a prepared node, this
-thread reads a header only after it has arrived. A connection with a slow header waits on a separate thread,
-for a limited time.
+In rospy, one thread accepts all connections and also reads their headers. A client that connects and sends
+nothing therefore blocks new connections to all services and topics of the node. In a prepared node, this
+thread reads a header only after the whole header has arrived. If a header arrives slowly, a separate thread
+waits for it, for a limited time.
 
-The slave API (http://wiki.ros.org/ROS/Slave_API): the answer of `getBusStats` has a part for the statistics
-of services, which rospy leaves empty. `getCourseRecord` is an extra method of the course; a node without it
-answers that the method is unknown.
+In the slave API (http://wiki.ros.org/ROS/Slave_API), the answer of `getBusStats` has a part for the
+statistics of services. rospy leaves this part empty, and this module fills it. `getCourseRecord` is an
+additional method that the course defines; a node that was not prepared answers that the method is unknown.
 """
 
 from __future__ import annotations
@@ -36,10 +36,12 @@ from course_pkg.ros.trace.recording import GET_RECORD
 from course_pkg.ros.trace.service_hooks import hook_services
 from course_pkg.ros.trace.topic_hooks import hook_topics
 
-HEADER_TIMEOUT = 10.0  # s until a header must have arrived
-AT_ONCE = 2  # ms to wait for a header before a separate thread waits for it
-LONGEST = 65536  # bytes; a node does not wait for a longer header
-BACKLOG = 128  # connections; rospy's 5 are too few: in a burst, some clients wait 1 s for TCP's next attempt
+HEADER_TIMEOUT = 10.0  # maximum time in s until a header has arrived
+AT_ONCE = 2  # time in ms; if a header takes longer, a separate thread waits for it
+LONGEST = 65536  # maximum size of a header in bytes; a connection with a longer header is closed
+# maximum number of waiting connections; with rospy's limit of 5, some clients have to wait 1 s for a TCP
+# retransmission when many clients connect at once
+BACKLOG = 128
 STATISTICS = "getBusStats"
 UNSUPPORTED = "the callers of its services: this rospy reports its statistics in another way"
 HASTENED = "hastened_by_course"  # marks a registration manager that the shutdown has already woken up
@@ -48,7 +50,10 @@ Serve = Callable[[socket.socket, Any], None]
 
 
 def prepare_node() -> None:
-    """Prepare this process's node: idle connections do not block it, it is recorded, and it ends quickly.
+    """Prepare this process's node.
+
+    After this, idle connections do not block the node, its calls and messages are recorded, and it ends
+    quickly.
 
     Call this function directly after rospy.init_node(), before you create a service, publisher or proxy. A
     second call changes nothing.
@@ -62,10 +67,12 @@ def prepare_node() -> None:
 
 
 def guard_against_idle_connections() -> bool:
-    """Make this process's node wait for headers on separate threads; return whether that is possible.
+    """Make this process's node wait for headers on separate threads.
 
-    Call this function after init_node(). It changes rospy's internals. If this release of rospy is built
-    differently, it changes nothing and returns False.
+    Return whether this release of rospy allows this change.
+
+    Call this function after init_node(). This function changes rospy's internals. If the internals of this
+    release of rospy are different, the function changes nothing and returns False.
     """
     tcpros_base.start_tcpros_server()
     server = getattr(tcpros_base, "_tcpros_server", None)
@@ -82,7 +89,10 @@ def guard_against_idle_connections() -> bool:
 
 
 def hasten_shutdown() -> None:
-    """Make the process end up to 0.5 s earlier: a shutdown wakes rospy's registration thread at once."""
+    """Make a shutdown wake up rospy's registration thread at once.
+
+    The process then ends up to 0.5 s earlier.
+    """
     manager = registration_manager()
     if manager is None or getattr(manager, HASTENED, False):
         return
@@ -98,7 +108,8 @@ def hasten_shutdown() -> None:
 def extend_slave() -> None:
     """Make this process's node return its records through the slave API."""
     setattr(ROSHandler, GET_RECORD, _record)
-    # rospy wraps this method in a function with the parameters args and kwds, which checks the arguments.
+    # rospy wraps this method in a function that checks the arguments; this function has the parameters args
+    # and kwds.
     hook = Hook(ROSHandler, STATISTICS, ("args", "kwds"), _add_services)
     if hook.fits():
         hook.install()
@@ -133,7 +144,10 @@ def _header_arrives(sock: socket.socket, timeout: float) -> bool:
 
 
 def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
-    """Return whether `count` bytes arrive before the deadline; SO_RCVLOWAT makes poll() wait for all."""
+    """Return whether `count` bytes arrive before the deadline.
+
+    With SO_RCVLOWAT, poll() waits until all of them have arrived.
+    """
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVLOWAT, count)
     try:
         poll = select.poll()
@@ -144,7 +158,10 @@ def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
 
 
 def _record(_handler: ROSHandler, _caller_id: str, since: float) -> tuple[int, str, str]:
-    """Return the records after `since` (s of time.monotonic()) as JSON: XML would take ten times as long."""
+    """Return the record of this node from the time `since` (s of time.monotonic()), as JSON.
+
+    Encoding the record as XML would take ten times as long.
+    """
     return 1, "", json.dumps(recorder().since(float(since)))
 
 

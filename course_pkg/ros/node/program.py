@@ -1,4 +1,7 @@
-"""A program that is a node: it serves until a signal ends it, or makes one call and prints the response."""
+"""Functions for a program that is a node.
+
+The node serves until a signal ends it, or makes one call and prints the response.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ from course_pkg.ros.process.master import wait_for_master
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 
 END_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-TIMEOUT = 5.0  # s to wait for a server, and then the same time for its response
+TIMEOUT = 5.0  # maximum time in s to wait for a server, and again to wait for its response
 INTERVAL = 0.02  # s between polls
 
 Offered = tuple[type, Callable[[Message], Message]]  # a service's class and its handler
@@ -27,14 +30,15 @@ Offered = tuple[type, Callable[[Message], Message]]  # a service's class and its
 def start_node(name: str) -> bool:
     """Wait for a master and become the node `name`; return False if Ctrl-C ends the wait.
 
-    Raises MalformedMasterUri if ROS_MASTER_URI is invalid, and NotAMaster if another program answers there.
+    Raises MalformedMasterUri if ROS_MASTER_URI is invalid, and NotAMaster if a program that is not a master
+    answers at this address.
     """
     try:
         wait_for_master(rospy.logwarn)
     except KeyboardInterrupt:
         return False
-    # Ctrl-C is delayed, because rospy's start and its shutdown need the same locks. A signal mask is used
-    # because rospy installs its own signal handlers during the start.
+    # Ctrl-C is delayed, because a shutdown in the middle of rospy's start would need locks that the start
+    # holds. A signal mask is used because rospy installs its own signal handlers during the start.
     signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
     try:
         rospy.init_node(name)
@@ -45,7 +49,10 @@ def start_node(name: str) -> bool:
 
 
 def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
-    """Wait for a master, become the node `node`, and serve `services` (by name) until Ctrl-C."""
+    """Wait for a master, become the node `node`, and serve `services` until Ctrl-C.
+
+    The keys of `services` are the names of the services.
+    """
     if not start_node(node):
         return
     with undisturbed():
@@ -56,7 +63,10 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Delay Ctrl-C until the end of the block: a call to the master holds a lock that a shutdown needs."""
+    """Delay Ctrl-C until the end of the block.
+
+    A shutdown needs a lock, and a call to the master holds this lock.
+    """
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}
     try:
@@ -71,8 +81,9 @@ def undisturbed() -> Iterator[None]:
 def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Message:
     """Become the node `node`, wait up to 5 s for `service`, call it once, and return the response.
 
-    `kind` is a class, or a type made from text. Raises ROSException if no node serves `service` in time,
-    rospy's errors for a failed call, and CallTimeout. Raises MasterUnreachable at once.
+    `kind` is a service class, a ServiceType, or a name such as "std_srvs/Trigger". Raises ROSException if no
+    node serves `service` within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
+    for a failed call. Raises MasterUnreachable at once if no master answers.
     """
     MasterClient(master_uri()).pid()  # Without this check, init_node would wait for a master for ever.
     rospy.init_node(node)
@@ -97,7 +108,7 @@ def complain(message: str, status: int) -> int:
 
 
 def number_parameter(name: str, default: float, least: float, most: float) -> float:
-    """Return the number of a parameter such as `_rate:=5`; end the program if the value is not valid.
+    """Return the value of a parameter such as `_rate:=5`; end the program if the value is not valid.
 
     The value has to be a number from `least` to `most`, in the unit of the parameter.
     """

@@ -1,7 +1,8 @@
 """Call a service with a time limit.
 
 rospy's ServiceProxy has no time limit, and its sockets block. This module therefore creates the transport
-itself. A watchdog or another thread can then shut its socket down in every phase of the call.
+itself. A watchdog or another thread can then end the call at any time, by shutting down the transport's
+socket.
 """
 
 from __future__ import annotations
@@ -25,13 +26,16 @@ from course_pkg.ros.node.watchdog import Watchdog
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.trace.service_hooks import RecordedCall, RecordedLookup, service_transport
 
-KEEPALIVE = "_use_tcp_keepalive"  # rospy's variable for that parameter; None until it has asked the master
+# rospy's variable for the parameter /tcp_keepalive; None until rospy has read it from the master
+KEEPALIVE = "_use_tcp_keepalive"
 
 
 class BoundedProxy(rospy.ServiceProxy):
-    """A ServiceProxy whose calls always end: with a response, with rospy's own error, or at the deadline.
+    """A ServiceProxy with a time limit.
 
-    Threads may share a proxy. A persistent proxy connects again after its server has been replaced.
+    Each call ends with a response, with an error of rospy, or at the deadline.
+
+    Several threads may share a proxy. A persistent proxy connects again after its server has been replaced.
     """
 
     def __init__(
@@ -53,7 +57,9 @@ class BoundedProxy(rospy.ServiceProxy):
         self._lock = threading.Lock()  # a persistent connection carries one call at a time
 
     def call(self, *args: object, timeout: float | None = None, **fields: object) -> Message:
-        """Return the response; give the request's fields by position or by name, or one request object.
+        """Call the service and return the response.
+
+        Pass the request's fields by position or by name, or pass one request object.
 
         Raises CallTimeout after `timeout` s, CallCancelled after cancel(), and the errors of rospy.
         """
@@ -61,10 +67,10 @@ class BoundedProxy(rospy.ServiceProxy):
             return self._call(args, fields, self.timeout if timeout is None else timeout)
 
     def cancel(self) -> None:
-        """End all running calls; each of them raises CallCancelled in the thread that made the call."""
+        """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            if call.over:  # The call has ended meanwhile, perhaps before it could disarm this new action.
+            if call.over:  # The call has ended in the meantime, and may not have disarmed this new action.
                 self._disarm(call)
 
     def close(self) -> None:
@@ -78,7 +84,8 @@ class BoundedProxy(rospy.ServiceProxy):
     def _call(self, args: Sequence[object], fields: Mapping[str, object], timeout: float) -> Message:
         request = args_kwds_to_message(self.request_class, args, fields)
         if request._type != self.request_class._type:
-            text = "request object type [%s] does not match service type [%s]"  # the message of rospy
+            # the same error message as rospy
+            text = "request object type [%s] does not match service type [%s]"
             raise TypeError(text % (request.__class__, self.request_class))
         call = _Call(self.resolved_name, timeout)
         self._running.add(call)
@@ -89,7 +96,7 @@ class BoundedProxy(rospy.ServiceProxy):
             # If the socket is shut down while rospy uses it, rospy raises one of these errors.
             if call.error is None:
                 raise
-            raise call.error from None  # rospy's error about the closed socket explains nothing to a reader
+            raise call.error from None  # rospy's error says only that the socket is closed, not why
         finally:
             call.over = True
             self._running.discard(call)
@@ -120,7 +127,8 @@ class BoundedProxy(rospy.ServiceProxy):
                 response = self._exchanged(transport, request)
             except rospy.ServiceException as error:
                 if error.__cause__ is None and call.error is None:
-                    self._connection = transport  # The server has answered, so the connection still works.
+                    # The server has answered, so this connection can be used again.
+                    self._connection = transport
                 else:
                     transport.close()
                 raise
@@ -190,7 +198,7 @@ class BoundedProxy(rospy.ServiceProxy):
 
 
 class _Call:
-    """One running call: its deadline, its transport (None at first), and the error that ended it early."""
+    """One running call: its deadline, its transport (None at first), and the error that stopped it."""
 
     def __init__(self, name: str, timeout: float) -> None:
         self.deadline = time.monotonic() + timeout
@@ -206,7 +214,7 @@ class _Call:
         return max(self.deadline - time.monotonic(), 0.001)
 
     def too_late(self, why: str) -> CallTimeout:
-        """Return the error for a deadline that has passed; `why` is the reason in its message."""
+        """Return the CallTimeout for a deadline that has passed; its message contains the reason `why`."""
         return CallTimeout(f"service [{self._name}]: no answer within {self._timeout:g} s; {why}.")
 
     def expire(self) -> None:
@@ -214,7 +222,7 @@ class _Call:
         self._break_off(self.too_late(self._waiting_for()))
 
     def cancel(self) -> None:
-        """End the call because its caller cancelled it."""
+        """End the call early, because the caller has cancelled the call."""
         text = "the call was cancelled; the server may still work on it."
         self._break_off(CallCancelled(f"service [{self._name}]: {text}"))
 
@@ -231,18 +239,22 @@ class _Call:
         self.error = self.error or error
         sock = self.transport.socket if self.transport else None
         if sock is not None:
-            with suppress(OSError):  # The socket is not connected yet; the watchdog repeats this action.
+            # If the socket is not connected yet, shutdown() fails, and the watchdog repeats this action.
+            with suppress(OSError):
                 sock.shutdown(socket.SHUT_RDWR)
 
 
 def settle_keepalive(master: MasterClient) -> None:
-    """Read the keepalive parameter with a time limit, because rospy itself sets no limit."""
+    """Read the parameter /tcp_keepalive with a time limit; rospy itself would read it without a limit."""
     if getattr(tcpros_base, KEEPALIVE, True) is None:
         setattr(tcpros_base, KEEPALIVE, master.get_param("/tcp_keepalive", True))
 
 
 def _hung_up(transport: TCPROSTransport) -> bool:
-    """Return whether the server has closed an idle connection; an open one has no data to read."""
+    """Return whether the server has closed an idle connection.
+
+    An open idle connection has no data to read.
+    """
     sock = transport.socket
     if sock is None:
         return True

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 class Publisher:
     """A publisher that counts its messages.
 
-    `published` counts all messages, and `unheard` counts the messages without any connected subscriber.
-    With `latch`, each subscriber that connects later receives the last message. Up to `queue_size` messages
-    wait for each subscriber; 0 means no limit.
+    `published` counts all messages; `unheard` counts the messages that were published while no subscriber was
+    connected. If `latch` is true, each subscriber that connects later receives the last message. For each
+    subscriber, up to `queue_size` messages wait in a queue; 0 means no limit.
     """
 
     def __init__(self, topic: str, cls: MessageClass, *, queue_size: int = 10, latch: bool = False) -> None:
@@ -39,7 +39,7 @@ class Publisher:
         self._advertise()
 
     def publish(self, *args: object, **fields: object) -> None:
-        """Publish a message; give one message object, or its fields by position or by name.
+        """Publish a message; pass one message object, or its fields by position or by name.
 
         Raises PublisherStopped after stop().
         """
@@ -54,28 +54,28 @@ class Publisher:
 
     @property
     def advertised(self) -> bool:
-        """Whether this publisher can publish, because it was not stopped."""
+        """Whether this publisher can publish, which is false after stop()."""
         return self._publisher is not None
 
     @property
     def deliveries(self) -> tuple[Delivery, ...]:
-        """For each connected subscriber: how many messages were sent, are waiting, and were dropped."""
+        """The numbers of sent, waiting and dropped messages, for each connected subscriber."""
         return self._deliveries[-1].current()
 
     @property
     def sent(self) -> int:
-        """How many messages were sent, counted once for each subscriber."""
+        """The number of sent messages; a message that was sent to two subscribers counts twice."""
         return sum(each.sent for each in self._deliveries)
 
     @property
     def dropped(self) -> int:
-        """How many messages were dropped from full queues, counted once for each subscriber."""
+        """The number of messages that were dropped from full queues, summed over all subscribers."""
         return sum(each.dropped for each in self._deliveries)
 
     def wait(self, count: int = 1, timeout: float = 5.0) -> None:
         """Return as soon as `count` subscribers are connected.
 
-        Raises TooFewSubscribers when there are fewer after `timeout` s.
+        Raises TooFewSubscribers when fewer subscribers are connected after `timeout` s.
         """
         if not wait_until(lambda: len(self.deliveries) >= count, timeout, 0.005):
             raise TooFewSubscribers(
@@ -86,8 +86,8 @@ class Publisher:
     def stop(self, *, unregister: bool = True) -> None:
         """Stop publishing and unregister the topic; the counts are kept. A second stop changes nothing.
 
-        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy would wait for ever).
-        The publisher is stopped even if this error is raised.
+        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy itself would wait for
+        ever). The publisher is stopped even if this error is raised.
         """
         with self._lock:
             publisher, self._publisher = self._publisher, None

@@ -1,12 +1,13 @@
-"""Start rospy in a notebook's kernel, also a second time, and without changes to the kernel's logging.
+"""Start rospy in a notebook's kernel, even several times, without changing the kernel's logging.
 
-rospy can start only once in a process. signal_shutdown(), an interrupted rospy.spin(), or another node with
-the same name shuts it down. After that, init_node() does nothing and reports no error. The student would
-have to restart the kernel and would lose all variables. This module therefore sets rospy's variables to
-their values from before the first init_node().
+rospy can start only once in a process. It is shut down by signal_shutdown(), by an interrupted rospy.spin(),
+or by another node with the same name. After that, init_node() does nothing and reports no error. The student
+would have to restart the kernel and would lose all variables. This module therefore sets rospy's variables
+back to the values that they had before the first init_node().
 
-init_node() also closes and removes the root logger's handlers, and sends the messages of all libraries to
-the node's log file. It prints messages of all threads below the cell that is running at that moment.
+init_node() also closes and removes the root logger's handlers, and sends the messages of all libraries to the
+node's log file. After init_node(), the log messages of all threads would appear below the cell that is
+running at that moment.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from rospy import client, core
 from rospy.impl import rosout, tcpros_base
 from rospy.impl.registration import get_service_manager, get_topic_manager
 
-ARGUMENTS = "_init_node_args"  # rospy's variable for the arguments of the first call
+ARGUMENTS = "_init_node_args"  # rospy's variable for the arguments of the first init_node() call
 BEGINNING: tuple[tuple[ModuleType, str, object], ...] = (
     (core, "_shutdown_flag", False),
     (core, "_in_shutdown", False),
@@ -41,7 +42,10 @@ def can_begin_again() -> bool:
 
 
 def begin_again() -> None:
-    """Make rospy ready for init_node(), without registrations; the old node must be shut down before."""
+    """Make rospy ready for another init_node(), and clear its registrations.
+
+    The old node must already be shut down.
+    """
     assert rospy.core.is_shutdown()
     for module, name, value in BEGINNING:
         setattr(module, name, value)
@@ -54,9 +58,12 @@ def begin_again() -> None:
 
 
 def allow_init_node() -> None:
-    """Make every later rospy.init_node() do nothing: a cell may contain a whole program with its own call.
+    """Make every later rospy.init_node() do nothing.
 
-    rospy compares the arguments with the arguments of the first call, and raises ROSException if they differ.
+    A cell may contain a whole program that calls this function.
+
+    Without this function, rospy compares the arguments with those of the first call, and raises ROSException
+    if they differ.
     """
     setattr(client, ARGUMENTS, _AnyArguments())
 
@@ -73,7 +80,7 @@ class _AnyArguments:
 
 @contextmanager
 def logging_kept() -> Iterator[None]:
-    """Restore the root logger's handlers after the block; only ROS's loggers use the new handlers."""
+    """After the block, restore the root logger's handlers, and add the new handlers only to ROS's loggers."""
     root = logging.getLogger()
     handlers, level = root.handlers[:], root.level
     try:
@@ -87,7 +94,7 @@ def logging_kept() -> Iterator[None]:
 
 
 def _separate(logger: logging.Logger, files: list[logging.Handler]) -> None:
-    """Make a logger of ROS write to its file, and print only messages of the main thread."""
+    """Make a ROS logger write to the node's log file, and print only the messages of the main thread."""
     for handler in logger.handlers:
         if type(handler).__name__ == "RosStreamHandler":
             handler.addFilter(_from_main_thread)

@@ -1,4 +1,4 @@
-"""A service of this kernel's node; a cell may define it again each time it runs."""
+"""A service of this kernel's node; a cell may define the service again each time the cell runs."""
 
 from __future__ import annotations
 
@@ -27,7 +27,10 @@ CAPACITY = 1000  # calls
 
 @dataclass(frozen=True)
 class HandledCall:
-    """One call that the server handled: `time` in s since the epoch, and a response or an error message."""
+    """One call that the server handled.
+
+    It contains the `time` in s since the epoch, and either a response or an error message.
+    """
 
     time: float
     request: Message
@@ -37,7 +40,10 @@ class HandledCall:
 
 
 class Service:
-    """A service of this kernel. `calls` holds the last 1000 calls; `output` is the handler's printed text."""
+    """A service of this kernel. `calls` holds the last 1000 calls.
+
+    `output` is the text that the handler has printed.
+    """
 
     def __init__(self, name: str, cls: ServiceClass, handler: Handler, output: HandlerOutput) -> None:
         self.handler = handler
@@ -74,13 +80,16 @@ class Service:
 
     @property
     def stopped(self) -> bool:
-        """Whether this service is no longer served: it was stopped, or another service has its name."""
+        """Whether this service is no longer served.
+
+        A service is no longer served if it was stopped, or if another service now has the same name.
+        """
         return get_service_manager().get_service(self.name) is not self._impl
 
     def start(self, master: MasterClient) -> None:
-        """Register this service, in place of another service of this process with the same name.
+        """Register this service; it replaces another service of this process with the same name.
 
-        This method registers the service itself, because rospy would try for ever if the master has ended.
+        This method registers the service itself, because rospy would retry for ever if the master has ended.
         """
         manager = get_service_manager()
         with manager.lock:
@@ -127,8 +136,8 @@ class Service:
     def _replace(self, before: ServiceImpl) -> None:
         """Let this service also answer the clients that are still connected to the earlier service.
 
-        The earlier service gets an invalid address: its shutdown() unregisters the service at its address,
-        and both services have the same address.
+        Both services have the same address, and the shutdown() of the earlier service would unregister this
+        address. The earlier service therefore gets an invalid address.
         """
         before.uri = "rosrpc://replaced:0"
         same = before.service_class._md5sum == self._impl.service_class._md5sum
@@ -166,6 +175,7 @@ class Service:
         logging.getLogger("rospy.course").error("%s: %s", self.name, error, exc_info=error)
         last = self.calls[-1] if self.calls else None
         if last is not None and last.response is not None:
-            # The response has the right type, but rospy could not pack it: a field has a wrong value.
+            # The response has the right type, but rospy could not serialise it, because a field has an
+            # invalid value.
             message, trace = f"error processing request: {error}", "".join(traceback.format_exception(error))
             self.calls[-1] = HandledCall(last.time, last.request, None, message, trace)

@@ -1,4 +1,4 @@
-"""A subscription that stores its messages: a cell can wait for them and needs no callback to print them."""
+"""A subscription that stores its messages. A cell can wait for messages, and does not need a callback."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Subscription:
     def wait(self, count: int = 1, timeout: float = 5.0) -> list[Message]:
         """Wait until `count` messages are stored, and return the first `count` of them.
 
-        Raises NothingHeard when fewer messages are stored after `timeout` s.
+        Raises NothingHeard when fewer than `count` messages are stored after `timeout` s.
         """
         deadline = time.monotonic() + timeout
         with self._arrived:
@@ -58,8 +58,8 @@ class Subscription:
     def stop(self, *, unregister: bool = True) -> None:
         """Unsubscribe; the stored messages are kept. A second stop changes nothing.
 
-        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy would wait for ever).
-        No more messages are stored even if this error is raised.
+        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy itself would wait for
+        ever). Even if this error is raised, no further messages are stored.
         """
         self._active = False
         subscriber, self._subscriber = self._subscriber, None

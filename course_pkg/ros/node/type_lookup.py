@@ -1,4 +1,7 @@
-"""Find the generated class that rospy needs; a caller gives a class, a type of `types`, or a name."""
+"""Find the generated class that rospy needs.
+
+A caller gives a class, a type of the package `types`, or a name.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +14,14 @@ from course_pkg.errors import NotAMessageType, NotAServiceType
 if TYPE_CHECKING:
     from course_pkg.types import MessageClass, MessageType, ServiceClass, ServiceType
 
-Message: TypeAlias = Any  # an instance of a generated class: genmsg declares no types for its fields
+# an instance of a generated class; genmsg generates no type annotations for the fields
+Message: TypeAlias = Any
 ServiceKind = Union[type, "ServiceClass", "ServiceType", str]
 MessageKind = Union[type, "MessageClass", "MessageType", str]
 
 
 def service_class(kind: ServiceKind) -> ServiceClass:
-    """Return the service class for a class, a ServiceType or a name such as "std_srvs/Trigger".
+    """Return the generated class for a service class, a ServiceType or a name such as "std_srvs/Trigger".
 
     Raises UnknownType for an unknown name, and NotAServiceType for an object that is not a service type.
     """
@@ -32,7 +36,7 @@ def service_class(kind: ServiceKind) -> ServiceClass:
 
 
 def message_class(kind: MessageKind) -> MessageClass:
-    """Return the message class for a class, a MessageType or a name such as "std_msgs/UInt32".
+    """Return the generated class for a message class, a MessageType or a name such as "std_msgs/UInt32".
 
     Raises UnknownType for an unknown name, and NotAMessageType for an object that is not a message type.
     """

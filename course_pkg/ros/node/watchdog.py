@@ -1,4 +1,4 @@
-"""One thread watches the deadlines of all calls, so a call needs no extra thread for its deadline."""
+"""One thread checks the deadlines of all calls, so no call needs a thread for its own deadline."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ import threading
 import time
 from collections.abc import Callable
 
-LINGER = 5.0  # s between checks if any action is still armed
-REPEAT = 0.02  # s until an action is repeated
+LINGER = 5.0  # maximum time in s until the thread checks again whether any action is armed
+REPEAT = 0.02  # time in s after which an action runs again
 
 
 class Watchdog:
     """Runs an action after its deadline has passed, and again every 20 ms, until the action is disarmed.
 
-    The action is repeated because a socket cannot be shut down before it is created. The thread runs while
-    an action is armed. It runs some seconds longer because the next call often follows soon.
+    The action is repeated because the socket that it shuts down may not exist when the action runs first. The
+    thread runs while any action is armed. It ends some seconds after the last action was disarmed, because
+    the next call often follows soon.
     """
 
     def __init__(self) -> None:
@@ -35,7 +36,7 @@ class Watchdog:
         return number
 
     def disarm(self, number: int) -> None:
-        """Stop running the action; if it is running at this moment, it still finishes."""
+        """Remove the action; a run of the action that has already started is not interrupted."""
         self._armed.pop(number, None)
 
     def _wake_thread(self) -> None:
@@ -52,7 +53,8 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                # The next lines may miss an action that is armed now; with inf, arm() wakes this thread.
+                # Another thread may arm an action while the next lines run, and they may miss this action.
+                # With the value inf, arm() wakes up this thread.
                 self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)
@@ -62,6 +64,7 @@ class Watchdog:
         """Return whether this thread may end; if it may, the next arm() starts a new thread."""
         with self._changed:
             self._thread = None
-            if self._armed:  # Another thread armed an action while this thread was still registered.
+            # Another thread armed an action while this thread was about to end, so this thread continues.
+            if self._armed:
                 self._thread = threading.current_thread()
             return self._thread is None

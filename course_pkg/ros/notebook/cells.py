@@ -1,4 +1,6 @@
-"""The runs of a notebook's cells and the objects that each run created, so that a cell can run again.
+"""Record the runs of a notebook's cells and the objects that each run created.
+
+When a cell runs again, the objects of its last run are ended.
 
 A front end sends the cell's id with each execution. nbclient sends no id, but runs each cell only once. Each
 execution without an id therefore counts as a separate cell.
@@ -13,7 +15,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType
 
-CALLBACK = "rospy."  # modules whose names begin with this call handlers and callbacks
+CALLBACK = "rospy."  # a module whose name begins with this string calls handlers and callbacks
 
 Close = Callable[[], None]
 CloseAll = Callable[[list[Close]], None]
@@ -21,16 +23,20 @@ CloseAll = Callable[[list[Close]], None]
 
 @dataclass
 class CellRun:
-    """One run of a cell, or one check; `source` is IPython's file name for the code of the cell."""
+    """One run of a cell, or one check of an answer.
+
+    `source` is IPython's file name for the code of the cell.
+    """
 
     source: str = ""
-    temporary: bool = False  # True for a check: its objects end with it
-    error: str = ""  # the class of the exception that ended the run
-    created: dict[Hashable, Close] = field(default_factory=dict)  # by object, the oldest first
+    temporary: bool = False  # True for a check: the objects that it creates are ended when the check ends
+    error: str = ""  # the name of the class of the exception that ended the run
+    # the function that ends each created object; the oldest object is first
+    created: dict[Hashable, Close] = field(default_factory=dict)
     threads: frozenset[int] = frozenset()  # the threads that were running when the run began
 
     def owns_this_thread(self) -> bool:
-        """Return whether this thread belongs to the run, not to a handler or to an earlier cell."""
+        """Return whether the current thread belongs to this run, not to a handler or to an earlier cell."""
         thread = threading.current_thread()
         if thread is threading.main_thread():
             return True
@@ -38,7 +44,10 @@ class CellRun:
 
 
 class Cells:
-    """The last run of each cell of this kernel's notebook. `close_all` ends the objects of a run."""
+    """The last run of each cell of this kernel's notebook.
+
+    The function `close_all` ends the objects that a run created.
+    """
 
     def __init__(self, close_all: CloseAll) -> None:
         self._close_all = close_all
@@ -70,18 +79,21 @@ class Cells:
 
     @property
     def run(self) -> CellRun | None:
-        """The run to which this thread's new objects belong, or None."""
+        """The run to which new objects of the current thread belong, or None."""
         run = self._current
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 
     def created(self, thing: Hashable, close: Close) -> None:
-        """Record that the current run, if any, created `thing`; `close` is the function that ends it."""
+        """Record that the current run, if any, created `thing`; `close` is the function that ends `thing`."""
         if run := self.run:
             run.created[thing] = close
 
     @contextmanager
     def paused(self) -> Iterator[None]:
-        """Objects that the block creates belong to no cell, so a new run of the cell does not end them."""
+        """Do not assign the objects that the block creates to any cell.
+
+        A new run of the cell then does not end these objects.
+        """
         self._paused += 1
         try:
             yield
@@ -90,7 +102,10 @@ class Cells:
 
     @contextmanager
     def check(self) -> Iterator[None]:
-        """End all objects that the block creates, after the block; they do not replace services of cells."""
+        """After the block, end all objects that it created.
+
+        A service of the block does not replace a service that a cell created.
+        """
         before, self._current = self._current, CellRun(temporary=True, threads=_thread_ids())
         run = self._current
         try:
@@ -100,7 +115,10 @@ class Cells:
             self._close_all(list(run.created.values()))
 
     def later_run(self, source: str) -> CellRun | None:
-        """Return the last run of the cell with the earlier code `source`, or None if its code is the same."""
+        """Return the last run of the cell that once had the code `source`.
+
+        Return None if the cell still has this code.
+        """
         run = self._runs.get(self._cells.get(source, ""))
         return run if run is not None and run.source != source else None
 

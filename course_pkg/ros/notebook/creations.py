@@ -1,8 +1,8 @@
-"""Record the objects of rospy and actionlib that a cell creates, in `Cells`, and end these objects.
+"""Record in `Cells` which objects of rospy and actionlib a cell creates, and end these objects.
 
-rospy has no list of its Publisher and Subscriber objects, only of their topics. This module therefore
-replaces the methods that create these objects by methods that also record them. If a method of rospy differs
-from the expected one, it is not replaced.
+rospy has no list of its Publisher and Subscriber objects, but only a list of their topics. This module
+therefore replaces the methods that create these objects; the new methods also record the objects. If a method
+in this release of rospy differs from the expected method, it is not replaced.
 """
 
 from __future__ import annotations
@@ -29,17 +29,18 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.protocol.rospy_registrations import registration_manager
 from course_pkg.ros.trace.hooks import Hook, Method
 
-GOAL_TIMEOUT = 2.0  # s for a goal to end after it was cancelled
-# The errors if a topic is already closed, the node has been shut down, or the master does not answer.
+GOAL_TIMEOUT = 2.0  # maximum time in s until a goal ends after it was cancelled
+# The errors that are raised if a topic is already closed, the node has been shut down, or the master does not
+# answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
-# The address of a service that has ended. With its old address, its shutdown() would unregister a newer
-# service of this process with the same name.
+# The address that an ended service gets. With the old address, the shutdown() of this service would
+# unregister a newer service of this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
-LOOK = 0.5  # s between polls if an action server has ended
+LOOK = 0.5  # time in s between two checks whether an action server has ended
 
 
 def note_creations(cells: Cells) -> None:
-    """Start to record in `cells` what this process creates with rospy and actionlib.
+    """Start to record in `cells` which objects this process creates with rospy and actionlib.
 
     A second call changes nothing.
     """
@@ -63,7 +64,10 @@ def note_creations(cells: Cells) -> None:
 
 
 def close_all(closes: list[Close]) -> None:
-    """End the objects of a run, the newest first; but action servers end first, to publish their results."""
+    """End the objects of a run, from newest to oldest.
+
+    Action servers end before all other objects, because they publish their results.
+    """
     if not closes:
         return
     servers = [close for close in closes if _ends_goals(close)]
@@ -80,7 +84,7 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """Prevent rospy from unregistering if the master does not answer, because rospy sets no time limit."""
+    """If the master does not answer, prevent rospy from unregistering, because rospy would wait for ever."""
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:
@@ -96,7 +100,7 @@ def _unregistering_in_bounded_time() -> Iterator[None]:
 
 
 def _noting(cells: Cells, close: Callable[[Any], None]) -> Callable[[Method], Method]:
-    """Return a function that replaces an `__init__`; the new `__init__` also records the object."""
+    """Return a function that replaces an `__init__` method with a method that also records the object."""
 
     def replace(method: Method) -> Method:
         def __init__(self: Any, *args: Any, **kwds: Any) -> None:  # noqa: ANN401, N807 -- of rospy's classes
@@ -140,10 +144,11 @@ def _registering(cells: Cells) -> Callable[[Method], Method]:
 
 
 def _make_room(run: CellRun, before: ServiceImpl) -> bool:
-    """Shut down the service of another cell and return True; return False if that service must continue.
+    """Return whether a new service may replace the service `before`; if necessary, shut `before` down first.
 
-    It must continue during a check. A check may create a second object of a student's class, and the class
-    may create a service in its `__init__`. The service of the first object must still answer.
+    During a check, the service of a cell must continue. A check may create a second object of a student's
+    class, and the class may create a service in its `__init__`. The service of the first object must still
+    answer.
     """
     ours = _Identity(before) in run.created
     if run.temporary and not ours:
@@ -181,7 +186,10 @@ def _close_action(server: actionlib.ActionServer) -> None:
 
 
 def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
-    """End an action server and cancel a running goal; the goal may run longer if it ignores this."""
+    """End an action server and cancel a running goal.
+
+    The goal may run longer if its function ignores the cancellation.
+    """
     with server.terminate_mutex:
         server.need_to_terminate = True
     server.preempt_request = True
@@ -192,7 +200,10 @@ def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
 
 
 def _end_with_process(server: actionlib.SimpleActionServer) -> None:
-    """End an action server's thread when the main thread ends, because Python would wait for it for ever."""
+    """End an action server's thread when the main thread ends.
+
+    Otherwise, Python would wait for ever for this thread.
+    """
     main = threading.main_thread()
     while main.is_alive() and not server.need_to_terminate:
         main.join(LOOK)
@@ -201,7 +212,7 @@ def _end_with_process(server: actionlib.SimpleActionServer) -> None:
 
 
 class _Identity:
-    """A dict key for an object: two keys are equal only if both contain the identical object."""
+    """A dict key for an object: two keys are equal only if both contain the same object (`is`)."""
 
     def __init__(self, thing: object) -> None:
         self.thing = thing

@@ -16,10 +16,11 @@ if TYPE_CHECKING:
 
     from IPython.core.interactiveshell import InteractiveShell
 
-METHOD = "structured_traceback"  # the method of IPython's object that formats errors
-DEFAULT_MODE = "Context"  # the default of %xmode; another mode is the student's choice
-CALLS = 2  # the number of shown calls for a SyntaxError in an imported file
-TRACEBACK = "Traceback (most recent call last)"  # a log message of rospy about an exception contains this
+METHOD = "structured_traceback"  # the method with which IPython formats an error
+DEFAULT_MODE = "Context"  # the default of %xmode; errors are shortened only in this mode
+CALLS = 2  # maximum number of calls that are shown for a SyntaxError in an imported file
+# the messages that rospy logs about an exception contain this text
+TRACEBACK = "Traceback (most recent call last)"
 LOGGER = "rosout"
 
 
@@ -39,7 +40,7 @@ class ErrorDisplay:
         shell.magics_manager.register_function(self._show_all, "line", "tb")
 
     def begin_cell(self, source: str) -> None:
-        """Make the cell with IPython's file name `source` the current cell."""
+        """Record that the current cell is the cell with IPython's file name `source`."""
         self._source = source
         self._threads.forget()
 
@@ -81,11 +82,12 @@ class ErrorDisplay:
             self._all = False
 
     def _place(self, filename: str) -> str:
-        """Return a name for `filename` that the student knows: the cell, or the name of the file."""
+        """Return the name by which an error message shows `filename`: a cell, or the name of the file."""
         if filename == self._source:
             return "This cell"
         kind, name = self._shell.compile.format_code_name(filename) or ("", filename)
-        if name == f"In[{self._shell.execution_count}]":  # nbval does not count cells
+        # in nbval, the execution count does not change, so `In[…]` does not identify a cell
+        if name == f"In[{self._shell.execution_count}]":
             return "An earlier cell"
         return f"{kind} {name}".strip()
 
@@ -106,11 +108,11 @@ class ThreadErrors(logging.Handler):
         threading.excepthook = self._thread_ended
 
     def forget(self) -> None:
-        """Forget which errors were shown, so that each error is shown again."""
+        """Forget which errors were shown; each error is then shown again when it happens again."""
         self._shown.clear()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Show the exception that the thread of `record` is handling, if the record is about it."""
+        """Show the exception that the thread of `record` is handling, if `record` is about this exception."""
         error = sys.exc_info()[1]
         if error is not None and TRACEBACK in record.getMessage() and _in_background():
             self._show(error)
@@ -120,7 +122,10 @@ class ThreadErrors(logging.Handler):
             self._show(ended.exc_value)
 
     def _show(self, error: BaseException) -> None:
-        """Show an error only once below each cell, because a callback may raise it many times per second."""
+        """Show the same error only once below each cell.
+
+        A callback may raise the same error many times per second.
+        """
         text = "\n".join(readable_traceback(error, self._place_of, HANDLER_HEADER))
         if text not in self._shown:
             self._shown.add(text)

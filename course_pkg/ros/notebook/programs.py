@@ -44,14 +44,16 @@ class Program:
 
     @property
     def status(self) -> int | None:
-        """The exit status, negative for a signal, or None while the program is running."""
+        """The exit status (negative if a signal ended the program), or None while the program is running."""
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
-        """Wait for `line` in the output and for `service`, if given; without both, wait for its end.
+        """Wait until the output contains `line`, if given, and the program serves `service`, if given.
 
-        Returns the exit status, or None while the program is running. Raises NodeFailed, with the end of the
-        output, after `timeout` s, or if the program ends without the line or the service.
+        Without both arguments, wait until the program ends.
+
+        Returns the exit status, or None while the program is running. Raises NodeFailed after `timeout` s, or
+        if the program ends without the line or the service; the message contains the last output.
         """
         if line:
             self._process.wait_for_output(line, timeout)
@@ -71,7 +73,7 @@ class Program:
 
 
 class ProgramMagics:
-    """Adds the two magics to `shell`; they call `keep` with each process that they start."""
+    """Adds %rosrun and %roslaunch to `shell`; both call `keep` with each process that they start."""
 
     def __init__(self, shell: InteractiveShell, cells: Cells, keep: Keep) -> None:
         self._cells = cells
@@ -102,7 +104,10 @@ class ProgramMagics:
 
 
 def _words(line: str) -> list[str]:
-    """Return the parts of a command, without `&` at the end: a magic never waits for its program."""
+    """Return the words of a command, without a final `&`.
+
+    A magic always starts its program in the background, so a `&` is not necessary.
+    """
     words = shlex.split(line)
     return words[:-1] if words[-1:] == ["&"] else words
 
@@ -129,7 +134,7 @@ def _require_file(path: Path) -> None:
 
 
 def _require_launch_file(package: str, name: str) -> None:
-    """Raise UnknownExecutable, with similar names in its message, if roslaunch would not find the file."""
+    """Raise UnknownExecutable if roslaunch would not find the file; the message suggests similar names."""
     folder = package_folder(package)
     places = [folder, folder / "launch"]
     if any((place / name).is_file() for place in places) or any(folder.rglob(name)):

@@ -1,4 +1,4 @@
-"""The connection to IPython: it reports the start and end of each cell, and shows errors."""
+"""Connect to IPython: report the start and end of each cell run, and show errors."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def current_shell() -> InteractiveShell | None:
 
 
 class NotebookShell:
-    """Follows the cells of `shell`, and reports each run to `cells`."""
+    """Observes the cell runs of `shell`, and reports each run to `cells`."""
 
     def __init__(self, shell: InteractiveShell, cells: Cells) -> None:
         self._shell = shell
@@ -28,7 +28,8 @@ class NotebookShell:
         self.errors = ErrorDisplay(shell)
         shell.events.register("pre_run_cell", self._begin)
         shell.events.register("post_run_cell", self._end)
-        if request := _execute_request(shell):  # the cell that calls join() has already begun
+        # the cell that calls join() is already running, so its start is reported now
+        if request := _execute_request(shell):
             self._begin_run(request["metadata"].get("cellId"), request["content"]["code"])
 
     def add_programs(self, keep: Keep) -> None:

@@ -1,4 +1,7 @@
-"""A traceback in at most 12 lines: the student's own lines and the message, without frames of libraries."""
+"""Show a traceback in at most 12 lines.
+
+The lines show the message and the student's own code, without frames of libraries.
+"""
 
 from __future__ import annotations
 
@@ -12,20 +15,21 @@ from types import TracebackType
 
 import course_pkg
 
-LINES = 12  # the largest length of a traceback
-WIDTH = 100  # characters; front ends wrap longer lines
-MESSAGE_LINES = 6  # the largest length of a message, which leaves space for two calls
+LINES = 12  # maximum number of lines of a traceback
+WIDTH = 100  # maximum number of characters in a line; front ends wrap longer lines
+MESSAGE_LINES = 6  # maximum number of lines of a message; this leaves space for two calls
 MORE = " … (%tb shows the rest)"
-INSTALLED = ("site-packages", "dist-packages")  # the folders of installed libraries, also of ROS
+# names of folders that contain installed libraries, including those of ROS
+INSTALLED = ("site-packages", "dist-packages")
 HEADER = "Traceback (most recent call last; %tb shows all of it):"
 HANDLER_HEADER = "Traceback of a handler or callback (most recent call last):"
 MAGIC = re.compile(r"get_ipython\(\)\.run_line_magic\('(\w+)', '(.*)'\)")
 
-PlaceOf = Callable[[str], str]  # returns the text that names a file in a message
+PlaceOf = Callable[[str], str]  # returns the name that a message shows for a file
 
 
 def readable_traceback(error: BaseException, place_of: PlaceOf = str, header: str = HEADER) -> list[str]:
-    """Return the lines that show `error`: its message and the student's own calls, at most 12 lines."""
+    """Return at most 12 lines that show `error`: its message and the calls in the student's own code."""
     before = [f"  {line}" for line in _before(error, place_of)]
     message = _message(error)
     calls = [_call(frame, place_of) for frame in students_frames(error.__traceback__)]
@@ -55,7 +59,7 @@ def _standard_library() -> set[str]:
 
 
 def _call(frame: traceback.FrameSummary, place_of: PlaceOf) -> list[str]:
-    """Return a frame as two lines: its place, and its line of code."""
+    """Return two lines for a frame: its file and line number, and its line of code."""
     inside = "" if frame.name == "<module>" else f", in {frame.name}"
     code = MAGIC.sub(r"%\1 \2", frame.line or "")
     place = f"  {place_of(frame.filename)}, line {frame.lineno}{inside}"
@@ -72,7 +76,7 @@ def _shortened(calls: list[list[str]], room: int) -> list[str]:
 
 
 def _before(error: BaseException, place_of: PlaceOf) -> list[str]:
-    """Return a line about the earlier exception that the student's code was handling, if there was one."""
+    """Return a line about the exception that was being handled when `error` was raised, if any."""
     former = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
     frames = list(students_frames(former.__traceback__)) if former is not None else []
     if former is None or not frames:

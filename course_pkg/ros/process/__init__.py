@@ -1,1 +1,1 @@
-"""Start, supervise and end processes; no process or file remains after the end."""
+"""Start, supervise and end processes; after the end, no process and no temporary file remains."""

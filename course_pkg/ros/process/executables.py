@@ -1,4 +1,7 @@
-"""Find the path of a node's program with rosrun's rules, without the 0.1 s that rosrun needs."""
+"""Find the path of a node's program by the rules of rosrun.
+
+This module does not run rosrun, because rosrun takes 0.1 s.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +40,10 @@ def package_folder(package: str) -> Path:
 
 
 def _programs(package: str) -> Iterator[Path]:
-    """Yield the executable files of a package: first built or installed files, then files in its source."""
+    """Yield the executable files of a package.
+
+    First come the built or installed files, then the files in its source folder.
+    """
     for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep):
         yield from _executables(Path(prefix) / "lib" / package)
     source = package_folder(package)

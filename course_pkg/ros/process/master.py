@@ -17,10 +17,10 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.waiting import wait_until
 
-READY = 15.0  # s; the start takes 0.15 s, but much longer on a busy machine
+READY = 15.0  # maximum time in s until the master answers; usually 0.15 s, but much longer on a busy machine
 ATTEMPTS = 5
-ENDED = -1  # used instead of a process id
-OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # these variables make ROS bind to other addresses
+ENDED = -1  # used in place of the master's process id if its process has ended
+OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # if they are set, ROS binds to addresses other than 127.0.0.1
 
 
 class PrivateMaster:
@@ -65,7 +65,8 @@ class PrivateMaster:
         """Start the master, wait until it answers, and return this object.
 
         Raises PortBusy if the given port is in use, SetupError if rosmaster is missing, and GraphError if the
-        master does not answer. If another program takes a free port first, start() tries other ports.
+        master does not answer. If another program takes the chosen free port first, start() tries other
+        ports.
         """
         for _ in range(1 if self._port_wanted else ATTEMPTS):
             self.port = _free_port(self._port_wanted)
@@ -98,7 +99,10 @@ class PrivateMaster:
         return ready
 
     def _wait(self, process: SupervisedProcess) -> bool:
-        """Return whether the program that answers on the port is this master."""
+        """Wait until a master answers on the port, or until `process` has ended.
+
+        Return whether `process` is the master that answered.
+        """
         client = MasterClient(self.uri, timeout=1.0)
         pid = wait_until(lambda: _pid(client) or (process.returncode is not None and ENDED), READY, 0.005)
         if not pid:
@@ -107,10 +111,12 @@ class PrivateMaster:
 
 
 def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> None:
-    """Return as soon as the master at ROS_MASTER_URI answers; Ctrl-C ends the wait, as init_node() cannot.
+    """Return as soon as the master at ROS_MASTER_URI answers. Ctrl-C interrupts this wait.
 
-    It polls every `interval` s, and calls `warn` once if no master answers. It raises MalformedMasterUri and
-    NotAMaster at once, because waiting does not help there.
+    Ctrl-C does not interrupt the wait in init_node().
+
+    This function polls the master every `interval` s, and calls `warn` once if no master answers. This
+    function raises MalformedMasterUri and NotAMaster at once, because waiting would not correct these errors.
     """
     client, warned = MasterClient(master_uri()), False
     while True:

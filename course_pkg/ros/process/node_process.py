@@ -19,15 +19,16 @@ from course_pkg.ros.protocol.registrations import registered_at, withdraw
 from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
-TAIL = 2000  # characters of output in an error message
-INTERVAL = 0.05  # s between polls; each poll takes milliseconds, here and in the master
-GRACE = 3.0  # s for a node to end after SIGINT; rospy takes 0.6 s
+TAIL = 2000  # maximum number of characters of the output in an error message
+# time in s between two polls; each poll takes some milliseconds in this process and in the master
+INTERVAL = 0.05
+GRACE = 3.0  # maximum time in s until a node ends after SIGINT; a node with rospy takes 0.6 s
 
 
 class NodeProcess:
     """A command that runs one or more nodes; it ends when this process ends, or earlier.
 
-    Its output goes to a temporary file, which is deleted with this object; see output().
+    Its output goes to a temporary file, which is deleted with this object; output() returns the text.
     """
 
     def __init__(self, command: Sequence[str], *, label: str = "") -> None:
@@ -48,12 +49,15 @@ class NodeProcess:
 
     @classmethod
     def roslaunch(cls, package: str, file: str, *args: str) -> NodeProcess:
-        """Run a launch file with `args` such as name:=value; all its nodes end with the process."""
+        """Run a launch file with `args` such as name:=value.
+
+        All its nodes end when the roslaunch process ends.
+        """
         return cls(["roslaunch", package, file, *args], label=f"{package}/{file}")
 
     @property
     def returncode(self) -> int | None:
-        """The exit status, negative for a signal, or None while the process is running."""
+        """The exit status (negative if a signal ended the process), or None while the process is running."""
         return self._process.returncode
 
     @property
@@ -71,9 +75,10 @@ class NodeProcess:
         return os.pread(file, os.fstat(file).st_size, 0).decode("utf-8", "replace")
 
     def wait_for_service(self, name: str, timeout: float = 30.0) -> None:
-        """Return as soon as this process serves `name` and accepts connections there.
+        """Return as soon as this process serves `name` and accepts connections to this service.
 
-        Raises NodeFailed, with the end of the output, if the process ends before, or after `timeout` s.
+        Raises NodeFailed if the process ends first, or after `timeout` s; the message contains
+        the last output.
         """
         full, master = "/" + name.lstrip("/"), MasterClient(master_uri())
         self._wait_until(
@@ -83,7 +88,8 @@ class NodeProcess:
     def wait_for_output(self, text: str, timeout: float = 30.0) -> None:
         """Return as soon as the process has printed `text`.
 
-        Raises NodeFailed, with the end of the output, if the process ends before, or after `timeout` s.
+        Raises NodeFailed if the process ends first, or after `timeout` s; the message contains
+        the last output.
         """
         self._wait_until(
             lambda: text in self.output(), timeout, f"never printed {text!r}", f"has not printed {text!r}"
@@ -103,18 +109,24 @@ class NodeProcess:
         self._process.signal(signal.SIGINT)
 
     def stop(self, grace: float = GRACE, *, unregister: bool = True) -> None:
-        """End the process, with SIGKILL after `grace` s, and remove its registrations from the master."""
+        """End the process with SIGINT, or with SIGKILL after `grace` s.
+
+        Remove its registrations from the master.
+        """
         if not self.running:
             return
         ports = self._process.listening_ports() if unregister else frozenset()
         self._process.end(grace)
-        # A node that was killed, or that ended while it registered, could not unregister itself.
+        # A node that was killed, or that ended during its registration, could not unregister itself.
         if registered := registered_at(ports):
             with suppress(GraphError):
                 withdraw(MasterClient(master_uri()), registered)
 
     def kill(self) -> None:
-        """End the process with SIGKILL: it cannot unregister, so stale registrations stay at the master."""
+        """End the process with SIGKILL.
+
+        The process cannot unregister, so its registrations remain at the master.
+        """
         self._process.signal(signal.SIGKILL)
         self._process.wait(GRACE)
 
@@ -140,7 +152,8 @@ class NodeProcess:
 
     def _wait_until(self, condition: Callable[[], bool], timeout: float, never: str, not_yet: str) -> None:
         def settled() -> str:
-            ended = not self.running  # Checked first: the last output before the end may meet the condition.
+            # Read this before the output: a process may print the expected output just before it ends.
+            ended = not self.running
             return "met" if condition() else "ended" if ended else ""
 
         outcome = wait_until(settled, timeout, INTERVAL)

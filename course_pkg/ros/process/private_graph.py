@@ -13,14 +13,15 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
-READY = 15.0  # s for a node to be on the graph
+READY = 15.0  # maximum time in s until a node is on the graph
 INTERVAL = 0.02  # s between polls
 
 
 class PrivateGraph:
-    """A private master and the programs of this graph; no other node connects to this master.
+    """A private master and the programs of this graph; no other node uses this master.
 
-    The master and the programs end with close(), with the block of a `with` statement, or with this object.
+    The master and the programs end when close() is called, at the end of a `with` block, or when this object
+    is deleted.
     """
 
     def __init__(self) -> None:
@@ -51,7 +52,7 @@ class PrivateGraph:
 
     def start(self, *command: str) -> NodeProcess:
         """Start a command on this graph, such as ("rostopic", "echo", "/pulse"), and return at once."""
-        # `env` replaces itself with the command, so the command keeps this process id.
+        # `env` executes the command in the same process, so the process id does not change.
         line = ["env", f"ROS_MASTER_URI={self.uri}", "ROS_HOSTNAME=localhost", *map(str, command)]
         self._processes.append(NodeProcess(line, label=command[0].rpartition("/")[2]))
         return self._processes[-1]
@@ -78,7 +79,7 @@ class PrivateGraph:
         return f"<a private graph with {master} and {alive} programs>"
 
     def _knows(self, process: NodeProcess) -> bool:
-        """Return whether a node of this process is registered; the process listens on the node's port."""
+        """Return whether a registered node belongs to `process`: the process listens on the node's port."""
         master = MasterClient(self.uri)
         try:
             nodes, _ = master.lookup_all(master.system_state().nodes, ())
@@ -89,7 +90,10 @@ class PrivateGraph:
 
 
 def _end(master: PrivateMaster, processes: list[NodeProcess]) -> None:
-    """End all programs at the same time, and then the master, which has all their registrations."""
+    """End all programs at the same time, and then the master.
+
+    The programs' registrations end with the master.
+    """
     for process in processes:
         process.interrupt()
     while processes:

@@ -1,4 +1,4 @@
-"""Start the same as `roscore`: a master, its parameters, and the node /rosout."""
+"""Start what `roscore` starts: a master, its parameters, and the node /rosout."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
 ROSOUT = "/rosout"  # the name of the node, and also of its topic
-READY = 15.0  # s; the start takes 0.05 s, but much longer on a busy machine
+# maximum time in s until /rosout is registered; usually 0.05 s, but much longer on a busy machine
+READY = 15.0
 INTERVAL = 0.005  # s between polls
 VERSION = re.compile(r"<version[^>]*>\s*([^<\s]+)")
 
@@ -23,8 +24,8 @@ VERSION = re.compile(r"<version[^>]*>\s*([^<\s]+)")
 class Roscore(PrivateMaster):
     """A private master with the same node and parameters as `roscore`, for a graph that a student inspects.
 
-    It also runs the node /rosout and sets the parameters /rosdistro, /rosversion and /run_id. If only a
-    program uses the graph, use a PrivateMaster: it starts faster and is only one process.
+    It also runs the node /rosout and sets the parameters /rosdistro, /rosversion and /run_id. If no student
+    inspects the graph, use a PrivateMaster: it starts faster and is only one process.
     """
 
     def __init__(self, port: int | None = None) -> None:
@@ -49,7 +50,7 @@ class Roscore(PrivateMaster):
         """End /rosout and the master; a second stop changes nothing."""
         rosout, self._rosout = self._rosout, None
         if rosout is not None:
-            rosout.end(grace=0)  # its registrations end with the master
+            rosout.end(grace=0)  # the node need not unregister, because its registrations end with the master
         super().stop()
 
     def _start_rosout(self) -> None:
@@ -109,5 +110,8 @@ def _parameters(prefix: Path) -> dict[str, str]:
 
 
 def _receives(client: MasterClient) -> bool:
-    """Return whether /rosout subscribes to the log messages, which is the last step of its start."""
+    """Return whether /rosout subscribes to the log messages.
+
+    This subscription is the last step in the start of /rosout.
+    """
     return ROSOUT in client.system_state().subscribers.get(ROSOUT, ())

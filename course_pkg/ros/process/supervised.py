@@ -1,7 +1,8 @@
 """Start a command that ends, with all its descendants, when its owner process ends.
 
-The command is a child of `supervisor.py`, a small process that watches the owner. After the owner's end, the
-supervisor cleans up and ends. This also works if SIGKILL ended the owner.
+The command is a child of `supervisor.py`, a small process that watches the owner. When the owner has ended,
+the supervisor ends the command, cleans up, and then ends. This also works if the owner was killed with
+SIGKILL.
 """
 
 from __future__ import annotations
@@ -26,10 +27,11 @@ class SupervisedProcess:
     When the command ends, its background processes also get SIGTERM, and SIGKILL after 2 s. The command runs
     in the folder `cwd` and inherits the descriptors `inherit`. At the end, the supervisor deletes the folder
     `remove`, and unregisters the node `withdraw` (the master's URI, the node's name, the node's URI). If
-    `command` is empty, the supervisor only does this clean-up after this process has ended.
+    `command` is empty, the supervisor does nothing except this clean-up after this process has ended.
 
-    A command in the `foreground` uses the standard input and the terminal of this process: it receives
-    Ctrl-C, and prints there if `output` is None. Raises GraphError if the command cannot be started.
+    If `foreground` is true, the command uses the standard input and the terminal of this process: it receives
+    Ctrl-C, and if `output` is None, it prints to the terminal. Raises GraphError if the command cannot be
+    started.
     """
 
     def __init__(
@@ -57,7 +59,8 @@ class SupervisedProcess:
                 env=env,
                 cwd=cwd,
                 pass_fds=[writer, *inherit],
-                start_new_session=not foreground,  # else an interrupt of the kernel would reach the command
+                # otherwise, an interrupt of the kernel would also interrupt the command
+                start_new_session=not foreground,
             )
         finally:
             os.close(writer)
@@ -65,7 +68,10 @@ class SupervisedProcess:
 
     @property
     def returncode(self) -> int | None:
-        """The command's exit status, negative for a signal; None while any of its processes is running."""
+        """The command's exit status, or None while any of its processes is running.
+
+        The exit status is negative if a signal ended the command.
+        """
         status = self._process.poll()
         return 128 - status if status is not None and status > 128 else status
 
@@ -90,7 +96,7 @@ class SupervisedProcess:
     def end(self, grace: float = 2.0) -> None:
         """End the command and all its descendants with SIGINT, and kill them after `grace` s.
 
-        In a forked child this does nothing, because the command belongs to the parent.
+        In a forked child, this method does nothing, because the command belongs to the parent.
         """
         if os.getpid() != self._owner:
             return
@@ -104,7 +110,7 @@ class SupervisedProcess:
 
 def listening_ports(pid: int) -> frozenset[int]:
     """Return the TCP ports on which this process and its descendants listen."""
-    import psutil  # imported here because it takes 15 ms, and most programs never need it
+    import psutil  # imported here because the import takes 15 ms, and most programs never need it
 
     ports: set[int] = set()
     with suppress(psutil.Error):  # the process may have ended in the meantime
@@ -120,7 +126,8 @@ def _program(
     report: int, remove: Path | None, withdraw: tuple[str, str, str] | None, foreground: bool
 ) -> list[str]:
     cleaning = [str(remove or ""), *(withdraw or ("", "", ""))]
-    # -I and -S: the supervisor starts in 20 ms, and modules on the student's import path cannot break it.
+    # With -I and -S, the supervisor starts in 20 ms, and modules on the student's import path cannot break
+    # it.
     start = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), str(report)]
     return [*start, "foreground" if foreground else "", *cleaning]
 

@@ -17,13 +17,14 @@ import time
 from contextlib import suppress
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # linux/prctl.h
-FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)  # a terminal sends these to a process group
+# a terminal sends these signals to a process group
+FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)
 FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 # This program or Python itself changes the handlers of these signals; a command expects the default handlers.
 CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
-GRACE = 2.0  # s between SIGTERM and SIGKILL for the descendants
+GRACE = 2.0  # time in s between SIGTERM and SIGKILL when the descendants are ended
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-INTERVAL = 200  # ms between polls of the parent's process id on a system without pidfd
+INTERVAL = 200  # time in ms between two polls of the parent's process id, on a system without pidfd
 
 
 class Supervisor:
@@ -46,7 +47,8 @@ class Supervisor:
         for number in (signal.SIGCHLD, *FORWARDED, signal.SIGUSR1):
             signal.signal(number, self._handle)
         for number in FROM_TERMINAL if foreground else ():
-            signal.signal(number, signal.SIG_IGN)  # the command also receives this signal from the terminal
+            # the command receives this signal directly from the terminal
+            signal.signal(number, signal.SIG_IGN)
         signal.pthread_sigmask(signal.SIG_SETMASK, ())  # the owner may have blocked some signals
         os.set_inheritable(report, False)
         self.child = self._start(command, report) if command else None
@@ -67,7 +69,7 @@ class Supervisor:
         return os.getppid() == self.owner
 
     def _start(self, command: list[str], report: int) -> int:
-        failed, fail = os.pipe()  # the system closes it when the command is running
+        failed, fail = os.pipe()  # the system closes `fail` as soon as the command is running
         child = os.fork()
         if child == 0:
             _become(command, fail)
@@ -156,13 +158,17 @@ def _signal_all(numbers: tuple[int, ...], child: int | None) -> None:
 
 
 def descendants(root: int) -> list[int]:
-    """Return the descendants of the process `root`, parents before children; empty without /proc."""
+    """Return the descendants of the process `root`, parents before children.
+
+    Without /proc, the list is empty.
+    """
     children: dict[int, list[int]] = {}
     for entry in os.listdir("/proc") if os.path.isdir("/proc") else []:
         if entry.isdigit():
             try:
                 with open(f"/proc/{entry}/stat", "rb") as stat:
-                    parent = int(stat.read().rpartition(b")")[2].split()[1])  # the name may contain brackets
+                    # the name of the process may contain brackets
+                    parent = int(stat.read().rpartition(b")")[2].split()[1])
             except OSError:
                 continue
             children.setdefault(parent, []).append(int(entry))
@@ -175,7 +181,10 @@ def descendants(root: int) -> list[int]:
 
 
 def _import_libraries() -> None:
-    """Add the course and its libraries to the import path, which this interpreter starts without."""
+    """Add the folders of the course and of its libraries to the import path.
+
+    The interpreter's options -I and -S leave these folders out.
+    """
     import site
 
     site.main()
@@ -203,7 +212,10 @@ def _withdraw_registered(ports: frozenset[int]) -> None:
 
 
 def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
-    """Unregister the owner's node, and delete the folder; "" means no master or no folder."""
+    """Unregister the owner's node, and delete the folder.
+
+    An empty string means that there is no master, or no folder.
+    """
     if master_uri:
         with suppress(ImportError):
             sys.path.insert(0, COURSE)

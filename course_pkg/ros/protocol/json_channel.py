@@ -1,4 +1,4 @@
-"""Send and receive JSON objects on a stream socket, one per line in UTF-8, with limits of size and time."""
+"""Send and receive JSON objects on a stream socket, one per line in UTF-8, with limits for size and time."""
 
 from __future__ import annotations
 
@@ -14,29 +14,34 @@ from course_pkg.errors import ChannelBroken, ChannelClosed, ChannelTimeout
 from course_pkg.waiting import Deadline
 
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
-LIMIT = 1 << 26  # bytes of a line, the default for channels
-CHUNK = 65536  # bytes read or written at once
+LIMIT = 1 << 26  # default maximum length of a line, in bytes
+CHUNK = 65536  # maximum number of bytes that are read or written at once
 
 
 class JsonChannel:
-    """One end of a connection. One thread may send while another receives."""
+    """One of the two ends of a connection that carries JSON objects.
+
+    One thread may send while another thread receives.
+    """
 
     def __init__(self, sock: socket.socket, limit: int = LIMIT) -> None:
         self._socket = sock
         self._limit = limit
         self._received = bytearray()
-        self._searched = 0  # bytes at the start of _received without an end of line
+        # number of bytes at the start of _received that were searched and contain no end of line
+        self._searched = 0
         self._sending = threading.Lock()
 
     def fileno(self) -> int:
-        """Return the socket's descriptor, so that it can be polled."""
+        """Return the socket's file descriptor, for example for poll()."""
         return self._socket.fileno()
 
     def send(self, message: Mapping[str, object], timeout: float | None = None) -> None:
-        """Send one object; wait up to `timeout` s while the buffer is full of data that was not yet read.
+        """Send one object; if the send buffer is full, wait up to `timeout` s until the other end reads data.
 
         Raises ChannelBroken if the message is too long, ChannelClosed if the other end is closed, and
-        ChannelTimeout. After a timeout, close the channel, because a part of the line may have been sent.
+        ChannelTimeout after `timeout` s. After a timeout, close the channel, because a part of the line may
+        have been sent.
         """
         line = memoryview(json.dumps(message).encode() + b"\n")
         if len(line) > self._limit:
@@ -46,7 +51,9 @@ class JsonChannel:
             while line:
                 try:
                     sent = self._socket.send(line[:CHUNK], socket.MSG_DONTWAIT)
-                except BlockingIOError:  # Poll only now: it waits until most of a socket's buffer is free.
+                # poll() is called only after send() has failed, because poll() waits until most of a socket's
+                # buffer is free.
+                except BlockingIOError:
                     self._wait_for(select.POLLOUT, deadline)
                     continue
                 except OSError as error:
@@ -54,10 +61,10 @@ class JsonChannel:
                 line = line[sent:]
 
     def receive(self, timeout: float | None = None) -> dict[str, Json]:
-        """Wait up to `timeout` s for a whole line, and return its object.
+        """Wait up to `timeout` s for a whole line, and return the JSON object in it.
 
-        Raises ChannelTimeout, ChannelClosed if the other end is closed, and ChannelBroken if the line is too
-        long or is not a JSON object.
+        Raises ChannelTimeout after `timeout` s, ChannelClosed if the other end is closed, and ChannelBroken
+        if the line is too long or is not a JSON object.
         """
         deadline = Deadline(timeout)
         while (end := self._received.find(b"\n", self._searched)) < 0:

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from course_pkg.errors import GraphError, MasterSilent, MasterUnreachable, NotAMaster
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient, items
 
-Addresses = dict[str, str]  # the addresses of nodes or services, by name
+Addresses = dict[str, str]  # the address of each node or service, by name
 REMAP = "__master:="  # http://wiki.ros.org/Remapping%20Arguments
-Registered = Mapping[str, tuple[str, ...]]  # a topic or service -> the nodes that have it
+Registered = Mapping[str, tuple[str, ...]]  # a topic or service -> its publishers, subscribers or servers
 
 
 def master_uri() -> str:
@@ -37,7 +37,7 @@ class SystemState:
 
 
 class MasterClient(XmlRpcClient):
-    """Calls the master at `uri`; each call takes at most `timeout` s. Threads may share it.
+    """Calls the master at `uri`; each call takes at most `timeout` s. Several threads may share one client.
 
     Every method may raise MasterUnreachable, MasterSilent and NotAMaster, and GraphError if the master
     refuses the call. The constructor raises MalformedMasterUri if `uri` is invalid.
@@ -48,7 +48,7 @@ class MasterClient(XmlRpcClient):
         self.caller = caller
 
     def ask(self, method: str, *args: RpcValue, timeout: float | None = None) -> RpcValue:
-        """Return the master's answer; it has to come within `timeout` s."""
+        """Call a method of the master and return its answer; the time limit is `timeout` s."""
         try:
             return super().ask(method, *args, timeout=timeout)
         except TimeoutError as error:
@@ -136,11 +136,11 @@ class MasterClient(XmlRpcClient):
         return [str(uri) for uri in publishers]
 
     def unregister_service(self, node: str, name: str, uri: str) -> bool:
-        """Unregister a service if it is registered with this address; return whether it was."""
+        """Unregister a service if it is registered with this address; return whether it was registered."""
         return bool(self._value("unregisterService", name, uri, caller=node))
 
     def unregister_publisher(self, node: str, topic: str, node_uri: str) -> bool:
-        """Unregister a publisher if it is registered for this node; return whether it was."""
+        """Unregister a publisher if it is registered for this node; return whether it was registered."""
         return bool(self._value("unregisterPublisher", topic, node_uri, caller=node))
 
     def _found(self, method: str, name: str, timeout: float | None) -> str | None:

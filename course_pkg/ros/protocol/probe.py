@@ -1,4 +1,4 @@
-"""Send one request each to many addresses at the same time, with a time limit and on one thread."""
+"""Send one request to each of many addresses at the same time, on one thread and with a time limit."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Reach(Enum):
 
     ANSWERED = "answered"
     REFUSED = "refused"  # no process listens at the address, so the node has ended
-    SILENT = "silent"  # a process listens but does not answer: it is stopped, or busy
+    SILENT = "silent"  # a process listens but does not answer: it is suspended, or busy
     LOST = "lost"  # the host cannot be reached, or the connection was closed before the answer was complete
 
 
@@ -48,7 +48,7 @@ class Probe:
 
 
 def ask_all(probes: Sequence[Probe], timeout: float) -> None:
-    """Set the answer and the reach of all probes; return when all have a result, or after `timeout` s."""
+    """Set `answer` and `reach` of all probes; return when all probes have a result, or after `timeout` s."""
     deadline = time.monotonic() + timeout
     resolved = {host: _resolved(host) for host in {probe.address[0] for probe in probes}}
     with selectors.DefaultSelector() as selector:
@@ -75,14 +75,14 @@ def node_probe(uri: str) -> Probe:
 
 
 def rpc_probe(uri: str, method: str, *args: RpcValue) -> Probe:
-    """Return a probe that calls a method of a node; http://wiki.ros.org/ROS/Slave_API."""
+    """Return a probe that calls a method of a node (http://wiki.ros.org/ROS/Slave_API)."""
     body = encode(method, "/course", *args)
     request = HTTP_HEAD.format(len(body)).encode() + body
     return Probe(_address(uri), request, lambda answer: END in answer[-2 * len(END) :])
 
 
 def rpc_answer(probe: Probe) -> RpcValue:
-    """Return the value in a node's answer; None without an answer, or if the node has no such method."""
+    """Return the value in a node's answer, or None without an answer or if the node has no such method."""
     if not probe.answered:
         return None
     try:
@@ -93,13 +93,16 @@ def rpc_answer(probe: Probe) -> RpcValue:
 
 
 def encode_header(fields: dict[str, str]) -> bytes:
-    """Return a connection header with its length; http://wiki.ros.org/ROS/Connection Header."""
+    """Return a connection header, preceded by its length (http://wiki.ros.org/ROS/Connection Header)."""
     header: bytes = encode_ros_handshake_header(fields)
     return header
 
 
 def header_fields(answer: bytes) -> dict[str, str]:
-    """Return the fields of the connection header at the start of `answer`; empty without a header."""
+    """Return the fields of the connection header at the start of `answer`.
+
+    Without a header, return an empty dict.
+    """
     try:
         fields: dict[str, str] = decode_ros_handshake_header(answer)
     except (ROSHandshakeException, struct.error, UnicodeDecodeError):

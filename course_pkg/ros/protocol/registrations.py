@@ -1,8 +1,8 @@
-"""List the registrations at the master, and remove those of nodes that cannot unregister themselves.
+"""List the registrations at the master, and remove the registrations of nodes that have ended.
 
-This is similar to `rosnode cleanup`, but it has a time limit and does not ask the user. It removes only the
-registrations of nodes that have ended: their addresses refuse connections. A stopped node still accepts
-connections, so it keeps its registrations.
+This clean-up is similar to `rosnode cleanup`, but it has a time limit and does not ask for confirmation. It
+removes only the registrations of nodes that have ended: their addresses refuse connections. A suspended node
+(SIGSTOP) still accepts connections, so it keeps its registrations.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from course_pkg.errors import GraphError
 from course_pkg.ros.protocol.master_api import MasterClient, SystemState, master_uri
 from course_pkg.ros.protocol.xmlrpc import port_of
 
-TIMEOUT = 0.5  # s for all nodes to answer
+TIMEOUT = 0.5  # maximum time in s until all nodes have answered
 METHODS = {
     "publisher": "unregisterPublisher",
     "subscriber": "unregisterSubscriber",
@@ -25,7 +25,10 @@ METHODS = {
 
 @dataclass(frozen=True, order=True)
 class Registration:
-    """One registration; `kind` is "publisher", "subscriber" or "service", and `uri` is its address."""
+    """One registration.
+
+    `kind` is "publisher", "subscriber" or "service", and `uri` is the registered address.
+    """
 
     node: str
     kind: str
@@ -53,7 +56,8 @@ def registrations(master: MasterClient, nodes: Collection[str] | None = None) ->
 def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Registration]:
     """Unregister these entries with one request, and return the entries that were registered.
 
-    The master compares the address, so it keeps an entry that now belongs to another process.
+    The master removes an entry only if its address matches, so an entry that now belongs to another process
+    is kept.
     """
     listed = list(entries)
     answers = master.multicall([(METHODS[each.kind], each.node, each.name, each.uri) for each in listed])
@@ -61,10 +65,11 @@ def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Regi
 
 
 def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Registration]:
-    """Unregister the node if it still has this address; keep the entries of a newer node with its name.
+    """Unregister the node if it still has this address; keep the entries of a newer node with the same name.
 
     If a second process registers with the same node name, the master deletes the entries of the first process
-    (rosmaster/registrations.py). All entries of a name therefore belong to the process with its address.
+    (rosmaster/registrations.py). All entries of a node name therefore belong to the process whose address is
+    registered.
     """
     if master.lookup_node(node) != node_uri:
         return []
@@ -72,18 +77,21 @@ def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Regist
 
 
 def withdraw_below(master: MasterClient, prefix: str) -> list[Registration]:
-    """Unregister all nodes whose names begin with `prefix`, also nodes that are still running."""
+    """Unregister all nodes whose names begin with `prefix`, even if they are still running."""
     nodes = [node for node in master.system_state().nodes if node.startswith(prefix)]
     return withdraw(master, registrations(master, nodes)) if nodes else []
 
 
 def registered_at(ports: Collection[int]) -> list[Registration]:
-    """Return the registrations with these ports at the master of ROS_MASTER_URI; empty without a master.
+    """Return the registrations with these ports at the master of ROS_MASTER_URI.
 
-    A process listens on the ports of its registrations. Read its ports while it is running.
+    Without a master, the result is empty.
+
+    A process listens on the ports of its registrations. Read the ports of a process while it is running,
+    because an ended process listens on no port.
     """
     if ports:
-        with suppress(GraphError):  # without a master, there are no registrations
+        with suppress(GraphError):  # if no master answers, there are no registrations
             return [
                 entry for entry in registrations(MasterClient(master_uri())) if port_of(entry.uri) in ports
             ]
@@ -112,7 +120,7 @@ def _stale(master: MasterClient, nodes: Collection[str] | None, timeout: float) 
 
 
 def _entries(state: SystemState) -> list[tuple[str, str, str]]:
-    """Return (node, kind, name) of each entry."""
+    """Return (node, kind, name) for each registration."""
     kinds = {"publisher": state.publishers, "subscriber": state.subscribers, "service": state.services}
     return [
         (node, kind, name)

@@ -1,4 +1,7 @@
-"""The registrations of this process, from rospy's own lists; a restarted master does not know them."""
+"""The registrations of this process, from rospy's own lists.
+
+A restarted master has lost these registrations.
+"""
 
 from __future__ import annotations
 
@@ -19,10 +22,10 @@ def node_known(master: MasterClient) -> bool:
 
 
 def register_all(master: MasterClient) -> None:
-    """Register everything in rospy's lists again, because a restarted master has lost it."""
+    """Register all entries of rospy's lists again, because a restarted master has lost them."""
     node, uri = rospy.get_name(), rospy.get_node_uri()
     if (manager := registration_manager()) is not None:
-        manager.master_uri = manager.handler.masterUri = master.uri  # it may be a new master
+        manager.master_uri = manager.handler.masterUri = master.uri  # the master may have a new address
     for service, service_uri in get_service_manager().get_services():
         master.register_service(node, service, service_uri, uri)
     for topic, kind in get_topic_manager().get_publications():

@@ -12,12 +12,13 @@ from course_pkg.ros.protocol.probe import Probe, Reach, ask_all, header_fields, 
 if TYPE_CHECKING:
     from course_pkg.types import Plain
 
-TIMEOUT = 0.5  # s for a node to answer; on the same machine, an answer takes a few milliseconds
+# maximum time in s until a node answers; on the same machine, an answer takes a few milliseconds
+TIMEOUT = 0.5
 
 
 @dataclass(frozen=True, order=True)
 class NodeSeen:
-    """A registered node; `reach` is "answered", "refused" (ended), "silent" (stopped or busy) or "lost"."""
+    """A registered node; `reach` is "answered", "refused" (ended), "silent" (suspended or busy) or "lost"."""
 
     name: str
     uri: str
@@ -57,7 +58,7 @@ class ServiceSeen:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """All nodes, topics and services, sorted by name. Two equal snapshots show the same graph."""
+    """All nodes, topics and services, sorted by name. Two snapshots are equal if they show the same graph."""
 
     master: str
     nodes: tuple[NodeSeen, ...]
@@ -80,8 +81,9 @@ class Snapshot:
 def look(uri: str | None = None, timeout: float = 2.0) -> Snapshot:
     """Return the graph of the master at `uri`; the default is the master at ROS_MASTER_URI.
 
-    Each request to the master takes at most `timeout` s. The probes of all services take at most 0.5 s, and
-    so do the probes of all nodes. Raises MasterUnreachable, MasterSilent, MalformedMasterUri, NotAMaster.
+    Each request to the master takes at most `timeout` s. The probes of all services together take at most 0.5
+    s; after this, the probes of all nodes together take at most 0.5 s. Raises MasterUnreachable,
+    MasterSilent, MalformedMasterUri, NotAMaster.
     """
     master = MasterClient(uri or master_uri(), timeout)
     state, types = master.system_state(), master.topic_types()
@@ -100,7 +102,7 @@ def _service(name: str, state: SystemState, uris: dict[str, str], probe: Probe) 
 
 
 def _nodes(uris: dict[str, str], services: Iterable[ServiceSeen], timeout: float) -> tuple[NodeSeen, ...]:
-    """Return all nodes; a node that has answered for a service needs no second probe."""
+    """Return all nodes; a node that has already answered the probe of its service is not probed again."""
     answered = {service.node for service in services if service.reachable}
     probes = {name: node_probe(uri) for name, uri in uris.items() if name not in answered}
     ask_all(list(probes.values()), timeout)

@@ -23,16 +23,16 @@ if TYPE_CHECKING:
 
 RpcValue = Union[bool, int, float, str, bytes, None, "list[RpcValue]", "dict[str, RpcValue]"]
 
-# The errors of an idle connection that the server has closed.
+# The errors that are raised if the server has closed an idle connection.
 STALE = (ConnectionResetError, ConnectionAbortedError, BrokenPipeError, HTTPException)
-# The errors that an answer raises if it is not valid XML-RPC, or if it is a fault.
+# The errors that are raised if an answer is not valid XML-RPC, or if it is a fault.
 NO_ANSWER = (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueError)
 
 
 class XmlRpcClient:
     """Calls the methods of the XML-RPC server at `uri`; each call takes at most `timeout` s.
 
-    Threads may share a client. The constructor raises MalformedMasterUri if `uri` is invalid.
+    Several threads may share one client. The constructor raises MalformedMasterUri if `uri` is invalid.
     """
 
     def __init__(self, uri: str, timeout: float = 2.0) -> None:
@@ -43,10 +43,12 @@ class XmlRpcClient:
         weakref.finalize(self, _close, self._idle)
 
     def ask(self, method: str, *args: RpcValue, timeout: float | None = None) -> RpcValue:
-        """Return the answer of `method`, within `timeout` s or the client's own timeout if it is shorter.
+        """Call `method` and return its answer.
 
-        Raises TimeoutError, another OSError if no program accepts the connection, and one of NO_ANSWER if the
-        answer is not valid XML-RPC, or is a fault.
+        The time limit is the shorter of `timeout` s and the client's own timeout.
+
+        Raises TimeoutError at the time limit, and another OSError if no program accepts the connection.
+        Raises one of NO_ANSWER if the answer is not valid XML-RPC or is a fault.
         """
         deadline = time.monotonic() + self.limit(timeout)
         return decode(self._exchange(encode(method, *args), deadline))
@@ -64,7 +66,7 @@ class XmlRpcClient:
         while self._idle:
             connection = self._idle.pop()
             if connection.pid != os.getpid():
-                continue  # This process is a fork, and its parent still uses the connection.
+                continue  # This process was forked, and its parent still uses the connection.
             try:
                 return self._over(connection, body, deadline)
             except STALE:
@@ -108,7 +110,7 @@ def number(value: RpcValue) -> float:
 
 
 def address_of(uri: str) -> tuple[str, int]:
-    """Return host and port of a master's URI; raises MalformedMasterUri if the URI is invalid."""
+    """Return the host and port of a master's URI; raises MalformedMasterUri if the URI is invalid."""
     try:
         parts = urlsplit(uri)
         if parts.scheme == "http" and parts.hostname and parts.port:
@@ -122,7 +124,7 @@ def address_of(uri: str) -> tuple[str, int]:
 
 
 def port_of(uri: str) -> int:
-    """Return the port of http://HOST:PORT/ or rosrpc://HOST:PORT, or 0 without a port."""
+    """Return the port of http://HOST:PORT/ or rosrpc://HOST:PORT, or 0 if the address has no port."""
     digits = uri.rstrip("/").rpartition(":")[2]
     return int(digits) if digits.isdigit() else 0
 
@@ -133,7 +135,7 @@ def _close(connections: deque[_Connection]) -> None:
 
 
 class _Connection(HTTPConnection):
-    """An HTTP connection whose deadline applies to a request and its whole answer, not to each byte."""
+    """An HTTP connection with one deadline for a request and its whole answer, not for each read."""
 
     sock: _DeadlineSocket | None
 
@@ -165,7 +167,7 @@ class _Connection(HTTPConnection):
 
 
 class _DeadlineSocket(socket.socket):
-    """A socket whose operations all end at `deadline`, a time of time.monotonic()."""
+    """A socket with one deadline for all operations; `deadline` is a time of time.monotonic()."""
 
     deadline = 0.0
 

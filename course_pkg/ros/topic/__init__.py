@@ -1,5 +1,9 @@
-"""A separate node for a panel, which publishes and subscribes on one topic: a process with a channel.
+"""A separate node for a panel. The node is a separate process.
 
-It is a separate process because rospy has only one publisher and one subscriber of a topic in each process.
-In the kernel, the panel and the student would share them, with the same latch, queue size and type.
+It publishes and subscribes on one topic, and exchanges commands and reports with the kernel through a
+channel.
+
+The process is separate because rospy has only one publisher and one subscriber for each topic in a process.
+In the kernel, the panel and the student's code would share this publisher and subscriber, including the
+latch, queue size and type.
 """

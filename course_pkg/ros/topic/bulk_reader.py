@@ -1,4 +1,4 @@
-"""Read many topics on one thread, many messages at a time, for a panel that draws them.
+"""Read many topics on one thread, many messages at a time, for a panel that draws the messages.
 
 A subscriber of rospy wakes up for each message. With hundreds of messages per second, this takes more
 computing time than the drawing. The reader therefore uses TCPROS itself (http://wiki.ros.org/ROS/TCPROS), and
@@ -20,10 +20,11 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.protocol.probe import ask_all, encode_header, rpc_answer, rpc_probe
 from course_pkg.ros.protocol.xmlrpc import number
 
-INTERVAL = 0.05  # s between two reads
-SEARCH = 1.0  # s between two requests to the master
-TIMEOUT = 0.5  # s for a node to answer
-LONGEST = 1 << 20  # bytes; the reader closes the connection if a message is longer
+INTERVAL = 0.05  # time in s between two reads
+SEARCH = 1.0  # time in s between two requests to the master
+TIMEOUT = 0.5  # maximum time in s until a node answers
+# maximum size of a message in bytes; if a message is longer, the reader closes the connection
+LONGEST = 1 << 20
 CHUNK = 1 << 16  # bytes
 CALLER = "/course"
 
@@ -35,8 +36,8 @@ class BulkReader:
     """Reads all topics of the given types, from start() to stop().
 
     The reader calls `received` with a topic and its new messages (serialised, in order). It calls `missing`
-    with a topic that no longer has a publisher, and `done` after each read. All three run on the reader's
-    thread.
+    with a topic that no longer has a publisher, and `done` after each read. The reader calls all three
+    functions on its own thread.
     """
 
     def __init__(
@@ -81,7 +82,7 @@ class BulkReader:
                 stream.close()
 
     def _drain(self, streams: Streams) -> bool:
-        """Pass on all new messages; return whether all streams are still open."""
+        """Pass all new messages to `received`; return whether all streams are still open."""
         ended = []
         for place, stream in streams.items():
             messages, goes_on = stream.read()
@@ -153,7 +154,10 @@ class _Stream:
         self._sock.close()
 
     def _blocks(self) -> list[bytes]:
-        """Remove the complete blocks from the received bytes; return them without the first, the header."""
+        """Remove the complete blocks from the received bytes.
+
+        Return them without the first block, which is the connection header.
+        """
         blocks, at = [], 0
         while len(self._rest) >= at + 4:
             (length,) = struct.unpack_from("<I", self._rest, at)

@@ -1,7 +1,7 @@
 """The current publishers and subscribers of a topic, with the type that each of these nodes uses.
 
-The master knows only one type of a topic, the type of the first node. Each node answers with its own type:
-getPublications and getSubscriptions, http://wiki.ros.org/ROS/Slave_API.
+The master stores only one type for each topic, the type that the first node registered. Each node returns its
+own type in its answer to getPublications or getSubscriptions: http://wiki.ros.org/ROS/Slave_API.
 """
 
 from __future__ import annotations
@@ -11,12 +11,15 @@ from course_pkg.ros.protocol.probe import ask_all, rpc_answer, rpc_probe
 from course_pkg.ros.protocol.xmlrpc import RpcValue
 from course_pkg.ros.topic.reports import Connections, Peer
 
-TIMEOUT = 0.5  # s for the nodes to answer
+TIMEOUT = 0.5  # maximum time in s until all nodes have answered
 ANY = "*"  # the type of a subscriber that accepts all types, such as `rostopic echo`
 
 
 def find_connections(master: MasterClient, topic: str) -> Connections:
-    """Return the nodes on the topic, without sources; raises GraphError if a request to the master fails."""
+    """Return the nodes on the topic, without the key "sources".
+
+    Raises GraphError if a request to the master fails.
+    """
     state = master.system_state()
     kind = master.topic_types().get(topic, "")
     publishers, subscribers = state.publishers.get(topic, ()), state.subscribers.get(topic, ())

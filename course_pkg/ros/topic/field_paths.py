@@ -12,17 +12,17 @@ import genpy
 from course_pkg.ros.node.type_lookup import Message
 from course_pkg.types import Field, Kind, MessageType
 
-ELEMENTS = 8  # only the first elements of an array are listed
-MOST = 200  # only the first numbers of a message are listed; arrays of arrays may contain thousands
+ELEMENTS = 8  # maximum number of elements that are listed for an array
+MOST = 200  # maximum number of numbers that are listed for a message; arrays of arrays may contain thousands
 
-_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # the most probable measurement first
+_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # a float is most probably a measurement, so it is first
 # Parts of messages that are not measurements: the time and frame of a measurement, and the sensor's limits.
 _HEADER = "std_msgs/Header"
 _SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")
 
 
 def numbers(message: MessageType) -> list[str]:
-    """Return the paths of all numbers in a message; of an array, only the first elements."""
+    """Return the paths of all numbers in a message; for an array, only the paths of the first elements."""
     return [path for path, _ in _first_numbers(message)]
 
 
@@ -30,8 +30,8 @@ def measurement(message: MessageType) -> str:
     """Return the path of the number that is most probably the measurement, or "" without any number.
 
     Fields in a std_msgs/Header and settings of the sensor, such as `range_min`, are not measurements. Among
-    the other fields, the function selects the first float, else the first integer, else the first bool. If
-    there are no other fields, it returns the message's first number.
+    the other fields, the function selects the first float. Without a float, it selects the first integer, and
+    without an integer, the first bool. If there are no other fields, it returns the message's first number.
     """
     measured = [found for found in _first_numbers(message, _HEADER) if not _SETTING.search(found[0])]
     by_kind = [path for wanted in _NUMBERS for path, kind in measured if kind is wanted]
@@ -39,7 +39,9 @@ def measurement(message: MessageType) -> str:
 
 
 def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
-    """Return a function that reads the number at a path from a message's bytes, or NaN if it is missing.
+    """Return a function that reads the number at a path from a message's bytes.
+
+    The returned function gives NaN if the message does not contain the number.
 
     Raises ValueError if the type does not have this path.
     """
@@ -64,7 +66,7 @@ def _walk(value: Message, steps: Sequence[int | str]) -> Message:
 
 
 def _first_numbers(message: MessageType, without: str = "") -> Iterator[tuple[str, Kind]]:
-    """Yield path and kind of the first MOST numbers; skip fields of the message type `without`."""
+    """Yield the path and the kind of the first MOST numbers; skip fields of the message type `without`."""
     every = (found for field in message.fields for found in _paths(field, field.name, without))
     return islice(every, MOST)
 

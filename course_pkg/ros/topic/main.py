@@ -38,9 +38,9 @@ from course_pkg.ros.topic.reports import Connections, Curve, MessageReport, Repo
 from course_pkg.ros.topic.subscription import ReceivedMessage, TopicSubscription
 from course_pkg.types import MessageType, StringTree, compile_message, message_type
 
-REPORT_INTERVAL = 0.1  # s between two reports
+REPORT_INTERVAL = 0.1  # minimum time in s between two reports
 SELDOM = 3  # every third report also contains the parts that take long to compute or to send
-GRAPH_INTERVAL = 1.0  # s between two requests to the master
+GRAPH_INTERVAL = 1.0  # time in s between two requests to the master
 
 
 class TopicNode:
@@ -78,7 +78,10 @@ class TopicNode:
                 rospy.signal_shutdown("the panel is no longer shown")
 
     def _join(self) -> None:
-        """Become a node; until there is a master, report the error, because rospy would only wait."""
+        """Become a node. While no master answers, report the error.
+
+        Without this code, rospy would wait and report nothing.
+        """
         while True:
             try:
                 self._master.pid()
@@ -125,7 +128,7 @@ class TopicNode:
         """Find the nodes on the topic, and register again if the master was restarted."""
         try:
             with self._registering:
-                # After leave(), the master does not know the node, but the node must not register again.
+                # After leave(), the node is not registered at the master, but it must not register again.
                 if not rospy.is_shutdown() and not node_known(self._master):
                     register_all(self._master)
             self._connections = find_connections(self._master, self._topic)
@@ -181,7 +184,7 @@ class TopicNode:
             strings = kind.format(kind.to_values(kind.cls().deserialize(message.body)))
         except (genpy.DeserializationError, FieldError):
             return None
-        assert isinstance(strings, dict)  # a message has fields
+        assert isinstance(strings, dict)  # a message is shown as a dict of its fields
         return strings
 
     def _sender_kind(self, name: str) -> MessageType | None:
@@ -199,7 +202,7 @@ def main(argv: list[str]) -> None:
     node = TopicNode(JsonChannel(socket.socket(fileno=int(argv[1]))), argv[2])
     node.run()
     node.leave()
-    os._exit(0)  # ends without waiting for rospy's threads
+    os._exit(0)  # end the process without waiting for rospy's threads
 
 
 if __name__ == "__main__":

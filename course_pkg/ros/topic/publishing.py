@@ -15,8 +15,9 @@ from course_pkg.ros.topic.reports import DeliveryReport, PublisherReport
 from course_pkg.ros.topic.statistics import RateStatistics
 from course_pkg.types import MessageType, StringTree
 
-BURST = 1000  # the largest number of messages
-CATCH_UP = 0.25  # s; a tick that is later than this is skipped, and any other late tick follows at once
+BURST = 1000  # maximum number of messages in a burst
+# s; a tick with a longer delay is skipped, and a tick with a shorter delay is executed at once
+CATCH_UP = 0.25
 
 
 class Timer:
@@ -37,7 +38,7 @@ class Timer:
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop the timer; after the return, there are no more ticks."""
+        """Stop the timer; after this method has returned, there are no more ticks."""
         self._stop.set()
         if threading.current_thread() is not self._thread:
             self._thread.join()
@@ -55,7 +56,7 @@ class Timer:
 
 
 class Commands:
-    """Publishes on `topic` by command; the first message creates the publisher.
+    """Publishes on `topic` when a command arrives; the first message creates the publisher.
 
     A message with a different latch, queue size or type creates a new publisher.
     """
@@ -73,7 +74,7 @@ class Commands:
     def publish(self, texts: dict[str, StringTree], *, latch: bool, queue: int, count: int = 1) -> None:
         """Publish the message with these values `count` times, without a pause.
 
-        Like repeat(), it raises PublisherStopped if the type is not known yet, FieldError if a value is
+        publish() and repeat() raise PublisherStopped if the type is not known yet, FieldError if a value is
         wrong, and GraphError without a master.
         """
         message = self._message(texts)
@@ -82,7 +83,7 @@ class Commands:
             self._publish(message)
 
     def repeat(self, texts: dict[str, StringTree], *, latch: bool, queue: int, rate: float) -> None:
-        """Publish the message `rate` times per second, until stop() or another repetition begins."""
+        """Publish the message `rate` times per second, until another command ends the repetition."""
         message = self._message(texts)
         self.stop()
         self._advertise(latch, queue)
@@ -141,7 +142,7 @@ class Commands:
         has = publisher and (publisher.advertised, publisher.type, publisher.latch, publisher.queue_size)
         if has == wanted:
             return
-        MasterClient(master_uri()).pid()  # rospy.Publisher would wait for ever
+        MasterClient(master_uri()).pid()  # without a master, rospy.Publisher would wait for ever
         if publisher is not None:
             publisher.stop()
         self._publisher = Publisher(self._topic, self.kind.cls, latch=latch, queue_size=queue)

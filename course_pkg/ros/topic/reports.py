@@ -16,13 +16,16 @@ class Peer(TypedDict):
 
 
 class Source(Peer):
-    """A publisher that is connected to the topic process, with the type and MD5 sum from its header."""
+    """A publisher that is connected to the topic process.
+
+    The type and the MD5 sum are from the publisher's connection header.
+    """
 
     md5: str
 
 
 class Connections(TypedDict, total=False):
-    """The type at the master ("" for no type), the nodes on the topic, and the connected publishers."""
+    """The type that the master stores ("" if none), the nodes on the topic, and the connected publishers."""
 
     type: str
     publishers: list[Peer]
@@ -31,7 +34,10 @@ class Connections(TypedDict, total=False):
 
 
 class Figures(TypedDict, total=False):
-    """The rate (1/s), the jitter (s) and the longest gap (s), measured over `gaps` gaps between messages."""
+    """The rate (1/s), the jitter (s) and the longest gap (s).
+
+    `gaps` is the number of measured gaps between messages.
+    """
 
     rate: float
     jitter: float
@@ -49,10 +55,10 @@ class DeliveryReport(TypedDict):
 
 
 class PublisherReport(TypedDict, total=False):
-    """The state of the publisher. `rate` is the wanted rate in 1/s, or 0 without a timer.
+    """The state of the publisher. `rate` is the requested rate in 1/s, or 0 without a timer.
 
     `statistics` is the measured rate. `reached` is the number of subscribers to which the latest message was
-    sent. The other counts are those of the class Publisher.
+    sent. The other counts have the same meaning as in the class Publisher.
     """
 
     problem: str
@@ -93,8 +99,9 @@ class Curve(TypedDict):
 class Report(TypedDict, total=False):
     """The parts of a report that have changed.
 
-    `trouble` is the error if the process cannot reach the master, else "". `node` is the name of its node.
-    `count` is the number of received messages, `statistics` their rate, and `messages` the new messages.
+    `trouble` is the error if the process cannot reach the master, else "". `node` is the name of the
+    process's node. `count` is the number of received messages, `statistics` contains their rate, and
+    `messages` contains the new messages.
     """
 
     trouble: str

@@ -9,18 +9,18 @@ from itertools import pairwise
 
 from course_pkg.ros.topic.reports import Figures
 
-WINDOW = 3.0  # s; a rate is measured over this time
-FEW = 5  # the last messages are used even if they are older than the window
-MOST = 5000  # the largest number of messages for one rate
-SILENCE = 3.0  # mean gaps; after this time without a message, the messages have stopped
-SPAN = 20.0  # s; the length of a series
-STEP = 0.1  # s; at most four values are stored for each step
+WINDOW = 3.0  # length in s of the time over which a rate is measured
+FEW = 5  # number of messages that are used even if they are older than WINDOW
+MOST = 5000  # maximum number of messages for one rate
+SILENCE = 3.0  # number of mean gaps; after this time without a message, no statistics are returned
+SPAN = 20.0  # length of a series in s
+STEP = 0.1  # length of a step in s; at most four values are stored for each step
 
 Point = tuple[float, float]
 
 
 class RateStatistics:
-    """The times of a repeated event; threads may share this object."""
+    """Measures the rate of a repeated event; several threads may share this object."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -54,7 +54,10 @@ class RateStatistics:
 
 
 class DownsampledSeries:
-    """Values by time (s); each step of 0.1 s stores its first, smallest, largest and last value."""
+    """Stores values with their times (s).
+
+    For each step of 0.1 s, only the first, smallest, largest and last value are stored.
+    """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()

@@ -1,6 +1,9 @@
-"""A subscription to a topic of any type: it counts and times messages, and stores the last ones as bytes.
+"""A subscription to a topic of any type.
 
-A message is deserialised only if a panel shows its values, because a fast topic would need too much time.
+It counts the messages, stores their times, and stores the last messages as bytes.
+
+A message is deserialised only if a panel shows its values, because this would take too much time on a fast
+topic.
 """
 
 from __future__ import annotations
@@ -18,7 +21,7 @@ from course_pkg.ros.topic.reports import Source
 from course_pkg.ros.topic.statistics import DownsampledSeries, RateStatistics
 
 CAPACITY = 10  # messages
-LONGEST = 16_384  # bytes; a longer message is not stored
+LONGEST = 16_384  # maximum length in bytes of a stored message
 
 Extract = Callable[[bytes], float]
 
@@ -40,7 +43,7 @@ class ReceivedMessage:
 
 
 class TopicSubscription:
-    """Receives and counts the messages of `topic`, and stores the last ones."""
+    """Receives and counts the messages of `topic`, and stores the last messages."""
 
     def __init__(self, topic: str) -> None:
         self.count = 0

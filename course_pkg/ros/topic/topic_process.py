@@ -1,4 +1,4 @@
-"""The owner's end of a topic process: it starts the process, sends commands, and receives reports."""
+"""The owner's side of a topic process: it starts the process, sends commands, and receives reports."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ from course_pkg.types import Plain
 
 Report: TypeAlias = dict[str, Json]
 
-TAIL = 600  # characters of the process's output that an error message shows
-GRACE = 6.0  # s to shut down; on a slow machine, the process may still be importing rospy
+TAIL = 600  # maximum number of characters of the process's output in an error message
+GRACE = 6.0  # maximum time in s until the process ends; on a slow machine, it may still be importing rospy
 # A busy master may register a node after the node was killed. The owner therefore unregisters it repeatedly.
-PAUSES = (0.0, 0.5, 2.0)  # s before each attempt
+PAUSES = (0.0, 0.5, 2.0)  # waiting times in s before the attempts to unregister the node
 
 
 class TopicProcess:
-    """A separate node on `topic`, which ends with end(), or when this process ends.
+    """A separate node on `topic`; it ends when end() is called, or when this process ends.
 
     `reported` is called with this object and each report. `lost` is called with this object and an error
-    message if the node ends without end(). Both run on another thread. `main.py` lists the commands, and
-    `reports.py` lists the parts of a report.
+    message if the node ends without end(). Both functions are called on another thread. `main.py` lists the
+    commands, and `reports.py` lists the parts of a report.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class TopicProcess:
             self._channel.send({"do": do, **what})
 
     def end(self, *, wait: bool = False) -> None:
-        """Make the process unregister and end; with `wait`, return after its end."""
+        """Make the process unregister and end; if `wait` is true, return only after the process has ended."""
         if not self._ended.is_set():
             self._ended.set()
             self._channel.close()
@@ -107,7 +107,9 @@ class TopicProcess:
 
 
 def _environment() -> dict[str, str]:
-    """Return an environment in which Python imports from the course and the workspace, but not from here.
+    """Return an environment for the process.
+
+    In it, Python imports from the course and the workspace, but not from the current folder.
 
     Otherwise, a file in the notebook's folder could replace a module of the course.
     """

@@ -1,8 +1,10 @@
-"""The activity on the graph: how many messages each connection has carried, and which nodes called a service.
+"""The activity on the graph.
 
-No subscriber is necessary for this. Every node counts the messages that it sends, and answers the slave API's
-methods getBusStats and getBusInfo (http://wiki.ros.org/ROS/Slave_API). The course's nodes also count the
-calls of their services by each caller.
+It contains the number of messages on each connection, and the nodes that called each service.
+
+No additional subscriber is necessary to get these numbers. Every node counts the messages that it sends, and
+answers the slave API's methods getBusStats and getBusInfo (http://wiki.ros.org/ROS/Slave_API). The course's
+nodes also count the calls of their services by each caller.
 """
 
 from __future__ import annotations
@@ -19,10 +21,11 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
 TIMEOUT = 0.5  # s
-STATISTICS = "getBusStats"  # the third part of the answer is for services; rospy leaves it empty
+STATISTICS = "getBusStats"  # the third part of its answer is for services; rospy leaves this part empty
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
-INVALID = (ExpatError, Fault, LookupError, TypeError, ValueError)  # errors from an answer of another form
+# errors that are raised if an answer has an unexpected structure
+INVALID = (ExpatError, Fault, LookupError, TypeError, ValueError)
 
 
 @dataclass(frozen=True)
@@ -30,8 +33,8 @@ class ServiceCaller:
     """A node that has called a service since the server started.
 
     `calls` counts the requests that reached the server, and `last` is the time of the latest request (s since
-    the epoch). `running` counts the requests that a handler is working on. While it is not 0, the caller
-    waits.
+    the epoch). `running` counts the requests that a handler is working on. While `running` is not 0, the
+    caller waits for a response.
     """
 
     node: str
@@ -42,7 +45,7 @@ class ServiceCaller:
 
 @dataclass(frozen=True, order=True)
 class Traffic:
-    """A connection of a topic, and how many `messages` it has carried since it was opened."""
+    """A connection of a topic; `messages` is the number of messages on it since it was opened."""
 
     topic: str
     publisher: str
@@ -53,10 +56,11 @@ class Traffic:
 
 @dataclass(frozen=True)
 class Activity:
-    """All counts at one time.
+    """All counts of one poll.
 
-    `at` is a time of time.monotonic() (s). `silent` are the nodes without a usable answer. `callers` has the
-    services whose servers count their callers, the latest caller first.
+    `at` is a time of time.monotonic() (s). `silent` contains the nodes that gave no usable answer. `callers`
+    maps each service to its callers, the latest first; services whose servers do not count callers are
+    missing.
     """
 
     at: float
@@ -66,13 +70,16 @@ class Activity:
 
 
 class ActivityPoller:
-    """Polls the nodes of a graph. It requests the subscriber of each connection only once."""
+    """Polls the nodes of a graph. For each connection, it requests the name of the subscriber only once."""
 
     def __init__(self) -> None:
-        self._peers: dict[str, dict[int, str]] = {}  # by the address of a node: connection -> subscriber
+        self._peers: dict[str, dict[int, str]] = {}  # for the address of each node: connection -> subscriber
 
     def poll(self, snapshot: Snapshot, timeout: float = TIMEOUT) -> Activity:
-        """Return the counts of all reachable nodes; takes up to `timeout` s, or twice that the first time."""
+        """Return the counts of all reachable nodes.
+
+        The poll takes up to `timeout` s, or twice as long if there are new connections.
+        """
         uris = {node.name: node.uri for node in snapshot.nodes if node.reachable}
         probes = {name: callers_probe(uri) for name, uri in uris.items()}
         ask_all(list(probes.values()), timeout)
@@ -87,13 +94,13 @@ class ActivityPoller:
             if (peer := self._peers[uris[name]].get(each.connection))
         ]
         callers = {name: found for probe in probes.values() for name, found in _callers(probe).items()}
-        # A count is useless if the subscriber at the end of its connection is unknown.
+        # The count of a connection is useless if its subscriber is unknown.
         known = {name for name, found in counts.items() if self._peers[uris[name]] or not found}
         silent = frozenset(node.name for node in snapshot.nodes if node.name not in known)
         return Activity(time.monotonic(), tuple(sorted(traffic)), silent, callers)
 
     def _update_peers(self, connections: Mapping[str, Iterable[int]], timeout: float) -> None:
-        """Request the subscribers from nodes with new connections; forget nodes that have ended."""
+        """Ask all nodes with new connections for the subscribers; forget nodes that have ended."""
         self._peers = {uri: self._peers.get(uri, {}) for uri in connections}
         new = [uri for uri, numbers in connections.items() if not self._peers[uri].keys() >= set(numbers)]
         probes = {uri: rpc_probe(uri, "getBusInfo") for uri in new}
@@ -102,12 +109,12 @@ class ActivityPoller:
 
 
 def callers_probe(uri: str) -> Probe:
-    """Return a probe for ask_all(), which requests the statistics of the node at `uri`."""
+    """Return a probe for ask_all() that requests the statistics of the node at `uri`."""
     return rpc_probe(uri, STATISTICS)
 
 
 def answered_callers(probe: Probe) -> Callers:
-    """Return the callers in a node's answer, by service; empty without an answer."""
+    """Return the callers in a node's answer, by service, or an empty dict without an answer."""
     stats = rpc_answer(probe)
     if not (isinstance(stats, list) and len(stats) == 3 and isinstance(stats[2], list)):
         return {}
@@ -148,7 +155,7 @@ def _counts(probe: Probe) -> list[_Count] | None:
 
 
 def _callers(probe: Probe) -> Callers:
-    """Return the callers of a node's services; empty if the answer has another form."""
+    """Return the callers of a node's services, or an empty dict if the answer has an unexpected structure."""
     try:
         return answered_callers(probe)
     except INVALID:
@@ -156,7 +163,10 @@ def _callers(probe: Probe) -> Callers:
 
 
 def _subscribers(info: RpcValue) -> dict[int, str]:
-    """Return the subscribers of a node's outgoing connections; empty if the answer has another form."""
+    """Return the subscribers of a node's outgoing connections.
+
+    If the answer has an unexpected structure, return an empty dict.
+    """
     try:
         rows = map(items, items(info))
         return {int(number(row[0])): str(row[1]) for row in rows if row[2] == "o"}
@@ -165,6 +175,6 @@ def _subscribers(info: RpcValue) -> dict[int, str]:
 
 
 def _statistics(probe: Probe) -> Any:  # noqa: ANN401 -- any node may answer with any value
-    """Return the value of an answer; roscpp's answer to getBusStats is the value without a status."""
+    """Return the value of an answer. roscpp answers getBusStats with the value alone, without a status."""
     value: Any = loads(probe.answer.partition(b"\r\n\r\n")[2])[0][0]
     return value[2] if value[0] == 1 else value

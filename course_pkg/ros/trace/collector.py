@@ -16,8 +16,8 @@ from course_pkg.ros.trace.matching import NodeRecord, match_events
 from course_pkg.ros.trace.recorder import recorder
 from course_pkg.ros.trace.recording import GET_RECORD, MASTER, PUBLISH, ProcessRecord, Recording
 
-TIMEOUT = 1.0  # s for all nodes together; 20,000 spans take 0.3 s
-LEFT_OUT = ("/rosout",)  # the node that receives the log messages, which are not recorded
+TIMEOUT = 1.0  # maximum time in s until all nodes have answered; 20,000 spans take 0.3 s
+LEFT_OUT = ("/rosout",)  # the node that receives log messages; log messages are not recorded
 REASONS = {
     Reach.REFUSED: "its process is gone",
     Reach.SILENT: f"it did not answer within {TIMEOUT:g} s: it is stopped, or busy",
@@ -37,7 +37,10 @@ class _Collected:
 
 @contextmanager
 def recorded(node: str, uri: str, master: MasterClient) -> Iterator[Recording]:
-    """Record the block for the kernel's `node` at `uri`; the recording is filled when the block ends."""
+    """Record all nodes during the block, for the kernel's `node` at `uri`.
+
+    The recording is empty until the block ends.
+    """
     recording = Recording(node=node)
     with handovers(node, uri, master):
         start = time.monotonic()

@@ -1,9 +1,9 @@
 """Count the messages of a publisher that were sent, are waiting, or were dropped, for each subscriber.
 
-With a queue_size, rospy puts each message into a queue for each subscriber, and a thread writes the queue to
-the connection. A full queue drops its oldest message without an error message, so this module replaces the
-queue by a counting queue. A message counts as sent when it is written to the connection. The publisher cannot
-know if a slow subscriber drops it later.
+If a publisher has a queue_size, rospy puts each message into one queue per subscriber, and a thread sends the
+messages of the queue. When a queue is full, rospy drops its oldest message without an error message, so this
+module replaces the queue with a queue that counts. A message counts as sent when it is written to the
+connection. The publisher cannot know if a slow subscriber drops the message later.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Delivery:
 
 
 class Deliveries(rospy.SubscribeListener):
-    """The deliveries of one publisher, including those to subscribers that have disconnected."""
+    """The deliveries of one publisher, including deliveries to subscribers that have disconnected."""
 
     def __init__(self, publisher: rospy.Publisher) -> None:
         super().__init__()
@@ -40,7 +40,7 @@ class Deliveries(rospy.SubscribeListener):
         self.update()
 
     def update(self) -> None:
-        """Start to count on new connections, and add the counts of closed connections to a sum."""
+        """Start counting the messages of new connections. Add the counts of closed connections to a sum."""
         with self._lock:
             connected = list(self._impl.connections or ())
             for connection in connected:
@@ -60,16 +60,16 @@ class Deliveries(rospy.SubscribeListener):
 
     @property
     def dropped(self) -> int:
-        """How many messages were dropped from full queues, counted once for each subscriber."""
+        """The number of messages that were dropped from full queues, summed over all subscribers."""
         return sum(each.dropped for each in self._all())
 
     @property
     def sent(self) -> int:
-        """How many messages were sent, counted once for each subscriber."""
+        """The number of sent messages; a message that was sent to two subscribers counts twice."""
         return sum(each.sent for each in self._all())
 
     def peer_subscribe(self, _topic: str, _publish: object, _publish_to_one: object) -> None:
-        """Start to count for a new subscriber, before rospy sends a latched message to it."""
+        """Start counting the messages for a new subscriber, before rospy sends a latched message to it."""
         self.update()
 
     def _all(self) -> tuple[Delivery, ...]:
@@ -80,7 +80,7 @@ class Deliveries(rospy.SubscribeListener):
 
 
 class _CountedQueue(list[bytes]):
-    """A queue of messages for one connection; rospy drops the oldest message with `del queue[0]`."""
+    """A queue of messages for one connection; it counts the messages that rospy drops with `del queue[0]`."""
 
     def __init__(self, messages: list[bytes], connection: _CountedConnection) -> None:
         super().__init__(messages)
@@ -96,7 +96,10 @@ class _CountedQueue(list[bytes]):
 
 
 class _CountedConnection(QueuedConnection):
-    """A connection with a counting queue; rospy replaces `_queue` when it takes the messages from it."""
+    """A connection with a counting queue. When rospy takes the messages, it assigns a new list to `_queue`.
+
+    This list also becomes a counting queue.
+    """
 
     queued = 0
     dropped = 0
@@ -112,7 +115,10 @@ class _CountedConnection(QueuedConnection):
 
 
 def _count(connection: TCPROSTransport | QueuedConnection) -> None:
-    """Replace the queue of a connection; a connection without a queue_size has no queue to replace."""
+    """Replace the queue of a connection with a counting queue.
+
+    Without a queue_size, a connection has no queue.
+    """
     if type(connection) is not QueuedConnection:
         return
     with connection._lock:

@@ -1,7 +1,9 @@
-"""A node sends its record to other nodes before it ends: a recording then includes nodes that run briefly.
+"""Send the record of a node to other nodes before the node ends.
 
-A node that makes a recording stores its address in a parameter of the master during this time. A node that
-ends sends its record to this address by XML-RPC. A node that is killed cannot send its record.
+A recording then includes nodes that run only briefly.
+
+While a node makes a recording, it stores its address in a parameter of the master. A node that ends sends its
+record to this address by XML-RPC. A node that is killed cannot send its record.
 """
 
 from __future__ import annotations
@@ -22,9 +24,10 @@ from course_pkg.ros.trace.recorder import recorder
 
 KEEP = "keepCourseRecord"
 PARAMETER = "/course_recorders"
-TIMEOUT = 0.5  # s for each call; a longer timeout would delay the end of a node
-LONGEST = 600.0  # s; a node sends its record of the last 600 s before its end
-PREPARED = "prepared_for_handover_by_course"  # an attribute of a manager whose node sends its record
+TIMEOUT = 0.5  # maximum time in s for each call; a longer timeout would delay the end of a node
+LONGEST = 600.0  # s; before its end, a node sends its record of the last 600 s
+# marks the registration manager of a node that already sends its record at its end
+PREPARED = "prepared_for_handover_by_course"
 
 
 def hand_over_at_exit() -> None:
@@ -68,7 +71,7 @@ def hand_over() -> None:
 
 def _hand_over(uri: str) -> None:
     record = json.dumps(recorder().since(time.monotonic() - LONGEST))
-    # The recording node may have ended, and another program may use its port.
+    # The recording node may have ended, and another program may now use its port.
     with suppress(OSError, *NO_ANSWER):
         XmlRpcClient(uri, TIMEOUT).ask(KEEP, "/course", rospy.get_name(), record)
 

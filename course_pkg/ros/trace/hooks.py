@@ -1,4 +1,4 @@
-"""Replace a method of rospy by a method that also records what happens, because rospy has no hooks."""
+"""Replace a method of rospy with a method that also records what happens, because rospy has no hooks."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from typing import Any
 from rospy.impl.tcpros_base import TCPROSTransport
 
 HOOKED = "hooked_by_course"  # an attribute of a method that has been replaced
-TRANSPORT = "TCPROSTransport"  # the name by which rospy's modules create their connections
+TRANSPORT = "TCPROSTransport"  # the name of the class with which rospy's modules create their connections
 
-Method = Callable[..., Any]  # rospy has no types
+Method = Callable[..., Any]  # rospy has no type annotations
 
 
 class Hook:
     """A method of `owner` and the function that returns its replacement.
 
-    `uses` are global names that the method's code must contain. The hook does not fit if the method has other
-    parameters, or if its code does not contain these names.
+    `uses` lists global names that the method's code must contain. The hook does not fit if the method has
+    other parameters, or if its code does not contain these names.
     """
 
     def __init__(
@@ -57,10 +57,12 @@ class Hook:
 def install_all(
     hooks: Sequence[Hook], module: ModuleType, transport: type, required: Sequence[Hook] = ()
 ) -> bool:
-    """Install all `hooks`, and make `transport` the class of the module's connections; return if it worked.
+    """Install all `hooks`, and make `transport` the class of the module's connections.
 
-    The hooks in `required` are only checked. If any hook does not fit, the function changes nothing and
-    returns False.
+    Return whether this was possible.
+
+    The hooks in `required` are only checked, not installed. If any hook does not fit, the function changes
+    nothing and returns False.
     """
     current = getattr(module, TRANSPORT, None)
     known = isinstance(current, type) and issubclass(current, TCPROSTransport)

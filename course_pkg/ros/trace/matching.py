@@ -1,8 +1,8 @@
 """Combine the records of several nodes: match each handler with its request, each callback with its message.
 
-Nothing is guessed. Both ends of a connection number the messages on it. The same connection, name and number
-therefore mean the same message. But a later connection may use the same ports again. If more than one match
-is possible, or if the times contradict each other, the records of the two ends are not matched.
+Nothing is guessed. Both ends of a connection count its messages. Records with the same connection, name and
+number therefore describe the same message. But a later connection may use the same ports again. If more than
+one match is possible, or if the times contradict each other, the records of the two ends are not matched.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class Exchange:
 
     @property
     def finished(self) -> float | None:
-        """Return the time when the caller received the response or an error, or None before that."""
+        """Return the time when the caller received the response or an error, or None before this time."""
         ends = (self.started(kind) for kind in (RESPONSE, ERROR))
         return next((end for end in ends if end is not None), None)
 
@@ -148,7 +148,7 @@ def _keys(spans: Iterable[Span]) -> dict[Exchange, str]:
 
 
 def _thread_names(spans: Iterable[Span]) -> dict[tuple[str, int, str], str]:
-    """Name each thread of each node; threads of the same name, such as those of one topic, get a number."""
+    """Name each thread of each node; threads with the same name, such as those of one topic, get a number."""
     named: dict[tuple[str, str], list[int]] = defaultdict(list)
     threads: dict[tuple[str, int, str], str] = {}
     for each in spans:
@@ -186,7 +186,7 @@ def _event(
 
 
 def _note(data: SpanData, ended: bool) -> str:
-    """Return the note on a span; before the end of the span, its result is not known."""
+    """Return the note on a span; if the span has not ended, its result is not known."""
     if data["kind"] != PUBLISH:
         return data["note"] if ended else ""
     if not ended:

@@ -29,10 +29,11 @@ from course_pkg.ros.trace.recording import (
     Thread,
 )
 
-SIZE = 20_000  # spans; about 6 MB when full
-HANDED_OVER = 50  # stored records of nodes that have ended
-LONGEST = 300  # characters; a longer error message is cut
-CALLERS = 100  # callers of a service; each run of a command-line tool is a caller with a new name
+SIZE = 20_000  # maximum number of stored spans; they need about 6 MB
+HANDED_OVER = 50  # maximum number of stored records of nodes that have ended
+LONGEST = 300  # maximum number of characters of an error message; a longer message is cut
+# maximum number of callers of a service; each run of a command-line tool is a caller with a new name
+CALLERS = 100
 
 EXCHANGED = (REQUEST, WAIT, RESPONSE)  # the parts of a call that use the connection
 
@@ -47,8 +48,8 @@ CallerCount = tuple[str, int, float, int]
 class Span:
     """One action of a node; `end` is None until the action has ended.
 
-    `transfers` are the action's messages on connections. `connections` is the number of connections to which
-    a published message should be sent.
+    `transfers` contains the messages of the action, each with its connection and number. `connections` is the
+    number of connections to which a published message should be sent.
     """
 
     __slots__ = ("connections", "end", "kind", "name", "note", "peer", "start", "thread", "transfers")
@@ -96,7 +97,8 @@ class CallPart:
 class CallSpan:
     """A call with all its parts, stored in one object because recording must not make calls slower.
 
-    `result` is RESPONSE or ERROR, and empty until the call has ended. `transfer` is the request's message.
+    `result` is RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number
+    of the request.
     """
 
     __slots__ = (
@@ -133,7 +135,7 @@ class CallSpan:
         return part
 
     def finish(self, result: str, note: str = "", *, answered: bool = True) -> None:
-        """Record the call's result now; `answered` is false for an error that the server did not send."""
+        """Record the call's result now; `answered` is false if the server did not send this result."""
         part = self.begin(result)
         part.end = part.start
         self.result = result
@@ -175,7 +177,7 @@ class _Count:
 
 
 class CallCounter:
-    """Counts the requests of each service by caller; threads may share it."""
+    """Counts the requests of each service by caller; several threads may share the counter."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -207,15 +209,18 @@ class CallCounter:
             return [(name, each.calls, each.last, each.running) for name, each in reversed(callers.items())]
 
     def _forget_one(self, callers: dict[str, _Count]) -> None:
-        """Forget the caller whose last call is the oldest; skip waiting callers if not all are waiting."""
+        """Forget the caller with the oldest call.
+
+        A caller that is waiting is forgotten only if all callers are waiting.
+        """
         idle = (name for name, each in callers.items() if not each.running)
         callers.pop(next(idle, next(iter(callers))))
 
 
 class Recorder:
-    """The spans of this process: the last 20,000 that have ended, and all that have not ended.
+    """The spans of this process: the last 20,000 ended spans, and all spans that have not ended.
 
-    Threads may share a recorder, because each step is one atomic operation of a set or a deque.
+    Several threads may share a recorder, because each step is one atomic operation of a set or a deque.
     """
 
     def __init__(self, size: int = SIZE) -> None:
@@ -247,12 +252,16 @@ class Recorder:
             span.end = time.monotonic()
             if note:
                 span.note = note[:LONGEST]
-            # This order lets a reader find the span in both collections for a moment, but never in none.
+            # With this order, a reader may briefly find the span in both collections, but always finds it in
+            # at least one.
             self._ended.append(span)
             self._lasting.discard(span)
 
     def since(self, start: float) -> ProcessRecord:
-        """Return the record of all actions that had not ended before `start` (s of time.monotonic())."""
+        """Return the record of all actions that were running at `start`, or that began later.
+
+        `start` is a time of time.monotonic() in s.
+        """
         recent = [span for span in self._spans() if span.end is None or span.end >= start]
         return {
             "clock": time.monotonic(),
@@ -268,7 +277,7 @@ class Recorder:
                 return list(
                     {id(span): span for span in (*self._lasting.copy(), *self._ended.copy())}.values()
                 )
-            except RuntimeError:  # Garbage collection let another thread run, which changed the collections.
+            except RuntimeError:  # During garbage collection, another thread ran and changed the collections.
                 continue
 
     def _complete_from(self) -> float:
@@ -282,7 +291,8 @@ def _transfer_data(transfer: Transfer) -> tuple[str, int, str]:
 
 
 def _thread() -> Thread:
-    # The span stores only the name and the number: a server makes a new thread for each call.
+    # The span stores the name and the number of the thread, not the thread object, because a server creates a
+    # new thread for each call.
     thread = threading.current_thread()
     return thread.name, thread.ident or 0
 

@@ -11,7 +11,8 @@ CONNECT = "connect"  # the caller connects to the server, and both exchange head
 REQUEST = "request"  # the caller sends the request
 WAIT = "wait"  # the caller is blocked until the response arrives
 RESPONSE = "response"  # the moment when the caller has the response
-ERROR = "error"  # the moment when the call fails; `note` is the error message, `peer` its sender, if any
+# the moment when the call fails; `note` is the error message, and `peer` is its sender, if any
+ERROR = "error"
 HANDLER = "handler"  # the server handles a request
 PUBLISH = "publish"  # a message is published
 CALLBACK = "callback"  # a subscriber's callback runs
@@ -82,10 +83,10 @@ class Event:
 
 @dataclass
 class Recording:
-    """The events of all nodes on the graph during a block; empty until the block has ended.
+    """The events of all nodes on the graph during a block; the recording is empty until the block has ended.
 
     `events` are sorted by their start. `nodes` are the nodes with a record. `unrecorded` gives the reason for
-    each node without a record. `notes` are sentences about all other missing data. `length` is in s, and
+    each node without a record. `notes` contains sentences about all other missing data. `length` is in s, and
     `node` is the kernel's node.
     """
 
@@ -97,7 +98,7 @@ class Recording:
     length: float = 0.0
 
     def of(self, *kinds: str, name: str = "", node: str = "") -> tuple[Event, ...]:
-        """Return the events of these kinds, such as "wait"; without kinds, events of all kinds.
+        """Return the events of these kinds, such as "wait"; if no kind is given, return events of all kinds.
 
         `name` and `node` select the events of one service or topic, and of one node.
         """

@@ -1,9 +1,9 @@
 """The recorder's hooks for service calls, in rospy's clients and servers.
 
 A call is identified by its connection (the TCP ports) and by its number on this connection. Client and server
-count the calls in the same order, because TCP does not lose or reorder data. rospy has no hooks for this, so
-this module replaces a few methods of rospy. It changes nothing in a release of rospy in which these methods
-differ.
+count the calls in the same order, because TCP does not lose or reorder data. rospy has no hooks for calls, so
+this module replaces a few methods of rospy. If these methods differ in a release of rospy, this module
+changes nothing.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ R = TypeVar("R")
 
 
 def hook_services() -> bool:
-    """Start to record this process's calls and handlers; return whether it is possible."""
+    """Start to record this process's calls and handlers; return whether this is possible."""
     hooks = (
         Hook(ServiceProxy, "call", ("self", "args", "kwds"), _recording_call, uses=[TRANSPORT]),
         Hook(ServiceProxy, "_get_service_uri", ("self", "request"), _recording_lookup),
@@ -46,7 +46,10 @@ def hook_services() -> bool:
 
 
 def service_transport(protocol: TCPROSTransportProtocol, name: str) -> TCPROSTransport:
-    """Return a connection of a client, of rospy's current class; with the hooks, it is recorded."""
+    """Return a new client connection of rospy's current class.
+
+    If the hooks are installed, this class records the calls.
+    """
     made: TCPROSTransport = getattr(tcpros_service, TRANSPORT)(protocol, name)
     return made
 
@@ -194,13 +197,13 @@ def _recording_handler(
 
 
 def _begin_part(call: CallSpan | None, kind: str) -> CallPart:
-    """Return a part that begins now; without a call, no record contains it."""
+    """Return a part that begins now; if `call` is None, the part is not stored in a record."""
     return CallPart(kind) if call is None else call.begin(kind)
 
 
 def _error_message(data: bytes) -> str:
     """Return the error message in a server's answer: a byte 0, the length (4 bytes), and then the message.
 
-    Without the byte 0, return "". Source: http://wiki.ros.org/ROS/TCPROS
+    Return "" if the answer does not start with the byte 0. Source: http://wiki.ros.org/ROS/TCPROS
     """
     return data[5:].decode("utf-8", "replace") if data[:1] == b"\0" else ""

@@ -3,8 +3,8 @@
 A message is identified by its connection (the TCP ports) and by its number on this connection. A publisher's
 queue may drop messages before they are sent. The publisher therefore counts the messages that it sends. A
 subscriber may drop messages after they have arrived, so it counts the messages that arrive. rospy has no
-hooks for this, so this module replaces a few methods of rospy. It changes nothing in a release of rospy in
-which these methods differ.
+hooks for messages, so this module replaces a few methods of rospy. If these methods differ in a release of
+rospy, this module changes nothing.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ R = TypeVar("R")
 
 
 def hook_topics() -> bool:
-    """Start to record this process's published and received messages; return whether it is possible."""
+    """Start to record this process's published and received messages; return whether this is possible."""
     hooks = (
         Hook(TCPROSSub, "read_messages", ("self", "b", "msg_queue", "sock"), _counting_messages),
         Hook(
@@ -104,7 +104,11 @@ class RecordedTopicTransport(TCPROSTransport):
         self.connection = (self.local_endpoint, dest_port)
 
     def write_data(self, data: bytes) -> bool:
-        """Send a message. The transfer is recorded first, because a subscriber may receive it immediately."""
+        """Send a message.
+
+        The transfer is recorded before the message is sent, because a subscriber may receive the message
+        immediately.
+        """
         if not isinstance(data, TaggedBytes) or self.connection is None:
             return bool(TCPROSTransport.write_data(self, data))
         self.written += 1
@@ -136,7 +140,9 @@ class Batch:
             if self._msgs[index] is msg and self._connection is not None:
                 self._index = index
                 return [(self._connection, self._first + index, self._peer)]
-        return []  # The callback also subscribes to a second topic, and the message is latched there.
+        # This callback is also subscribed to a second topic, and the message is a latched message of that
+        # topic.
+        return []
 
 
 class _Current(threading.local):

@@ -21,7 +21,7 @@ from course_pkg.ros.protocol.xmlrpc import address_of
 from course_pkg.ros.wire.relay import Relay, RelayedConnection
 from course_pkg.types import Plain, ServiceClass, ServiceType, service_type
 
-TYPE_TIMEOUT = 2.0  # s for a server to answer with its type
+TYPE_TIMEOUT = 2.0  # maximum time in s until a server answers with its type
 
 
 @dataclass
@@ -54,9 +54,9 @@ def record_call(
 ) -> Wire:
     """Call a service as rospy does, on a new connection, and return the recorded bytes.
 
-    Without `kind`, the call uses the server's type. A failed call is also recorded, with its error message.
-    `timeout` is in s. Raises FieldError if a value in `fields` is wrong, and UnknownType if the type is
-    unknown.
+    If `kind` is not given, the call uses the type that the server reports. A failed call is also recorded,
+    with its error message. `timeout` is in s. Raises FieldError if a value in `fields` is wrong, and
+    UnknownType if the type is unknown.
     """
     full = str(rospy.resolve_name(name))
     found = service_type(kind) if kind is not None else _type_of_server(full)
@@ -102,7 +102,7 @@ class _Relayed(BoundedProxy):
         return f"rosrpc://localhost:{self._relay.port}"
 
     def end(self) -> None:
-        """Close the connections, and store their bytes in the Wire."""
+        """Close the connections, and store their bytes in the Wire object."""
         self.close()
         if self._relay is not None:
             self._relay.wait()

@@ -13,11 +13,13 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from types import TracebackType
 
-MOST = 4 << 20  # bytes stored for each direction of a connection; more bytes are only forwarded and counted
-CONNECTIONS = 50  # stored connections; more connections are only forwarded and counted
+# maximum number of bytes stored for each direction of a connection; further bytes are only forwarded and
+# counted
+MOST = 4 << 20
+CONNECTIONS = 50  # maximum number of stored connections; further connections are only forwarded and counted
 CONNECT_TIMEOUT = 5.0  # s
-CLOSE_TIMEOUT = 2.0  # s for open connections to end
-CHUNK = 65536  # bytes; the largest amount that is forwarded at a time
+CLOSE_TIMEOUT = 2.0  # maximum time in s until open connections have ended
+CHUNK = 65536  # bytes; the maximum amount that is forwarded at a time
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,7 @@ class RelayedConnection:
 
     opened: float  # a time of time.monotonic()
     chunks: list[Chunk] = field(default_factory=list)
-    closed_by: str = ""  # "client" or "server", whichever closed first; empty while the connection is open
+    closed_by: str = ""  # the end that closed first, "client" or "server"; empty while the connection is open
     refused: str = ""  # the reason if the server could not be reached
     lost: int = 0  # the number of bytes that were forwarded but not stored
 
@@ -55,7 +57,7 @@ class RelayedConnection:
 
 
 class Relay:
-    """Listens on a new `port` and forwards each connection to the target, until it is closed."""
+    """Listens on a new `port` and forwards each connection to the target, until close() is called."""
 
     def __init__(self, host: str, port: int) -> None:
         self.target = (host, port)
@@ -156,7 +158,8 @@ def _copy(
 ) -> None:
     """Forward the bytes from `source` to `sink`, and then the end of the stream."""
     kept = 0
-    with suppress(OSError):  # A reset, or a close() of the relay, also ends the connection normally.
+    # After a reset of the connection, or a close() of the relay, the connection ends without an error.
+    with suppress(OSError):
         while data := source.recv(CHUNK):
             kept += len(data)
             if kept <= MOST:

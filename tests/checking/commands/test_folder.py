@@ -1,4 +1,7 @@
-"""A check waits for the nodes of a launch file, and finds the line with the error in roslaunch's output."""
+"""A check waits for the nodes of a launch file.
+
+It finds the line with the error in the output of roslaunch.
+"""
 
 from __future__ import annotations
 
@@ -22,16 +25,16 @@ from course_pkg.ros import PrivateMaster
     ],
 )
 def test_line_with_the_error_is_found(printed: str, told: str) -> None:
-    """The line contains no terminal colours and no folder of this machine."""
+    """The line contains neither terminal colours nor paths of this machine."""
     assert telling_line(printed) == told
 
 
 def test_wait_for_a_graph_ends(master: PrivateMaster) -> None:
-    """The wait ends when the condition holds for the graph of that master, or after the timeout."""
+    """The wait ends when the graph of this master meets the condition, or after the timeout."""
     assert becomes(master.uri, lambda actual: actual.services is not None, within=10.0)
     assert not becomes(master.uri, lambda actual: actual.service("/nobody"), within=0.2)
 
 
 def test_master_may_start_during_the_wait() -> None:
-    """A missing master is not an error, because roslaunch starts one."""
+    """If there is no master yet, this is not an error, because roslaunch starts one."""
     assert not becomes(f"http://localhost:{closed_port()}", lambda _: True, within=0.2)

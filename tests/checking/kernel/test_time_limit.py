@@ -15,7 +15,7 @@ import pytest
 from course_pkg.checking.kernel.time_limit import TimeLimit, TimesUp
 
 LIMIT = 0.2
-SOON = 3.0  # additional s that a busy machine may need
+SOON = 3.0  # additional s for a busy machine
 LOCK = threading.Lock()
 
 
@@ -30,7 +30,7 @@ def busy() -> None:
 
 
 def prints() -> None:
-    """Print in the except block."""
+    """Print in the `except` block."""
     while True:
         try:
             time.sleep(0.01)
@@ -39,7 +39,7 @@ def prints() -> None:
 
 
 def waits() -> None:
-    """Wait in a library that has a clean-up block."""
+    """Wait in a library that has code for a clean-up."""
     while True:
         try:
             threading.Event().wait()
@@ -69,7 +69,7 @@ def goes_on() -> None:
 
 
 def locks() -> None:
-    """Hold a lock during the interruption."""
+    """Hold a lock while it is interrupted."""
     while True:
         try:
             with LOCK:
@@ -92,7 +92,7 @@ STUBBORN = pytest.mark.parametrize(
 
 @STUBBORN
 def test_limit_ends_it(function: Callable[[], None]) -> None:
-    """The function ends when its time is over, and it releases its lock."""
+    """The function ends at its time limit, and it releases its lock."""
     started = time.monotonic()
     with pytest.raises(TimesUp):
         TimeLimit(LIMIT).call(function)
@@ -111,7 +111,7 @@ def test_stop_button_ends_it(function: Callable[[], None]) -> None:
 
 
 def test_function_that_ends_in_time() -> None:
-    """The function's value or error is passed on, and the signal handlers are restored."""
+    """The function's value or error is returned, and the signal handlers are restored."""
     before = signal.getsignal(signal.SIGALRM), signal.getsignal(signal.SIGINT)
     assert TimeLimit(LIMIT).call(lambda: 7) == 7
     with pytest.raises(ZeroDivisionError):
@@ -121,7 +121,7 @@ def test_function_that_ends_in_time() -> None:
 
 
 def test_stop_button_is_not_swallowed() -> None:
-    """A function that catches the interrupt and returns also ends with KeyboardInterrupt."""
+    """If a function catches the interrupt and returns, the call still ends with KeyboardInterrupt."""
 
     def swallows() -> int:
         with contextlib.suppress(KeyboardInterrupt):

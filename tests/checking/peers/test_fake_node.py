@@ -1,4 +1,4 @@
-"""A fake node is registered like a running or a killed node, and is unregistered afterwards."""
+"""A fake node is registered like a running node or like a killed node, and is unregistered at the end."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from course_pkg.ros import MasterClient, NodeProcess, PrivateMaster, look
 
 
 def test_fake_node_is_running_or_killed(master: PrivateMaster) -> None:
-    """The address of the running node answers; the port of the killed node is closed."""
+    """The address of the running node responds; the port of the killed node is closed."""
     client = MasterClient(master.uri)
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")

@@ -52,7 +52,7 @@ def connected(publisher, count=1):
 
 @pytest.fixture
 def student(master: PrivateMaster) -> Iterator[Kernel]:
-    """A kernel that has joined the graph."""
+    """Return a kernel that is a node."""
     with Kernel() as kernel:
         kernel.run(STUDENT)
         yield kernel
@@ -60,7 +60,7 @@ def student(master: PrivateMaster) -> Iterator[Kernel]:
 
 @pytest.fixture
 def check(master: PrivateMaster) -> Iterator[Kernel]:
-    """A process with the check's functions for topics: `subscribe`, `publish` and `broken`."""
+    """Return a process with the check's functions for topics: `subscribe`, `publish` and `broken`."""
     with Kernel() as kernel:
         kernel.run(CHECK_RUNNER)
         yield kernel
@@ -69,7 +69,7 @@ def check(master: PrivateMaster) -> Iterator[Kernel]:
 
 
 def test_messages_come_with_their_time_and_their_publisher(check: Kernel, student: Kernel) -> None:
-    """All messages arrive as plain data, in the order in which they were published."""
+    """All messages arrive as plain data, in the order of publication."""
     check.run("subscription = subscribe('/count')")
     student.run("p = rospy.Publisher('/count', UInt32, queue_size=100); connected(p)")
     student.run("for number in range(50): p.publish(number)")
@@ -83,7 +83,7 @@ def test_messages_come_with_their_time_and_their_publisher(check: Kernel, studen
 
 
 def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
-    """A wait for a message that is never published ends after its time limit."""
+    """A wait for a message that is never published ends at its time limit."""
     reply = check.ask(
         "subscription = subscribe('/nothing'); result = [subscription.wait(1, 0.3), subscription.during(0.2)]"
     )
@@ -92,7 +92,7 @@ def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
 
 
 def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
-    """The report contains that the topic has no publisher, and the name of a similar topic."""
+    """The report says that the topic has no publisher, and contains the name of a similar topic."""
     assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
         "/joint_states is published as std_msgs/UInt32",
         "no publisher",
@@ -115,7 +115,7 @@ def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) ->
 
 
 def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
-    """A type with the right name but another definition is reported as such."""
+    """If a type has the right name but another definition, the report says so."""
     student.run(
         "from course_pkg.types import message_type\n"
         "class Other(Float64): _type, _md5sum = 'std_msgs/UInt32', '0' * 32\n"
@@ -125,7 +125,7 @@ def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
 
 
 def test_published_waits_for_the_connection(check: Kernel, student: Kernel) -> None:
-    """`published` returns after the connection is made, so that the next message is not lost."""
+    """`published` returns when the connection is made, so that the next message is not lost."""
     student.run("p = rospy.Publisher('/late', UInt32, queue_size=10)")
     check.run("subscription = subscribe('/late'); subscription.published()")
     student.run("connected(p); p.publish(7)")
@@ -133,7 +133,7 @@ def test_published_waits_for_the_connection(check: Kernel, student: Kernel) -> N
 
 
 def test_late_subscription_gets_only_the_latched_message(check: Kernel, student: Kernel) -> None:
-    """A late subscription receives the latched message, but not the other message."""
+    """A late subscription receives the latched message, but no other message."""
     student.run(
         "p = rospy.Publisher('/kept', UInt32, queue_size=10, latch=True); p.publish(1); p.publish(2)\n"
         "q = rospy.Publisher('/lost', UInt32, queue_size=10); q.publish(1)"
@@ -146,7 +146,7 @@ def test_late_subscription_gets_only_the_latched_message(check: Kernel, student:
 
 
 def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) -> None:
-    """Only the first KEPT messages are stored, but all messages are counted."""
+    """Only the first KEPT messages are stored, but all of them are counted."""
     check.run("import course_pkg.checking.peers.subscription as module; module.KEPT = 5")
     check.run("subscription = subscribe('/flood')")
     student.run("p = rospy.Publisher('/flood', UInt32, queue_size=0); connected(p)")
@@ -168,7 +168,7 @@ def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: K
 
 
 def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """A subscriber of another type does not count as a subscriber; the hint names the right type."""
+    """A subscriber of another type does not count; the hint contains the right type."""
     student.run("subscription = node.subscribe('/few', Float64)")
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
         "somebody listens to /few",
@@ -181,7 +181,7 @@ def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
 
 
 def test_a_message_in_a_message_is_a_dict(check: Kernel) -> None:
-    """A check receives the same values that were published, including a header with its time."""
+    """A check receives the same values that were published; they include a header with a time."""
     check.run("from sensor_msgs.msg import JointState; subscription = subscribe('/joints', JointState)")
     check.run(
         "said = {'header': {'stamp': {'secs': 5, 'nsecs': 6}}, 'name': ['a'], 'position': [0.5]}\n"
@@ -193,7 +193,7 @@ def test_a_message_in_a_message_is_a_dict(check: Kernel) -> None:
 
 
 def test_the_rate_of_arrivals() -> None:
-    """The rate is the number of intervals per second, and 0 for fewer than two messages."""
+    """The rate is the number of intervals per second; it is 0 for fewer than two messages."""
 
     def at(*times: float) -> list[Arrival]:
         return [Arrival({}, time, "/student", latched=False) for time in times]

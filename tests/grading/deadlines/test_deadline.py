@@ -47,7 +47,7 @@ def _deadlines(*given: str, grace: float = 0.0, extensions: Extensions | None = 
     ],
 )
 def test_days_late(submitted: str, grace: float, days: float) -> None:
-    """Times in different zones are compared correctly; late days begin at the end of the grace period."""
+    """Times with different zones are compared correctly; a late day begins at the end of the grace period."""
     assert _deadlines(grace=grace).days_late("s01", "05", _at(submitted)) == pytest.approx(days)
 
 
@@ -66,7 +66,7 @@ def test_a_deadline_for_a_chapter() -> None:
 
 
 def test_an_extension_ends_at_the_same_time_of_day() -> None:
-    """The clocks are put back on 25 October 2026; the deadline stays at 23:59."""
+    """On 25 October 2026, the clocks are put back, but the deadline stays at 23:59."""
     extensions = Extensions({"s01": 2.0})
     made = deadlines(["2026-10-24T23:59"], 0.0, zone_of("Europe/Berlin"), extensions)
     assert made.days_late("s01", "05", _at("2026-10-26T22:59Z")) == 0.0
@@ -92,7 +92,7 @@ def test_a_deadline_that_makes_no_sense(given: list[str], grace: float, said: st
 
 
 def test_extensions_of_a_roster(tmp_path: Path) -> None:
-    """A student's deadline is later by the column extension_days; an empty cell means no extension."""
+    """The column extension_days makes a student's deadline later; an empty cell means no extension."""
     path = tmp_path / "roster.csv"
     path.write_text("name;id;username;extension_days\nA One;17;aone;1,5\nA Two;18;atwo;\n", "utf-8")
     students = {name: [f"{name}/{FILE}"] for name in ("aone", "A Two", "other")}
@@ -102,7 +102,7 @@ def test_extensions_of_a_roster(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("written", ["two", "-1", "nan"])
 def test_a_broken_extension(written: str) -> None:
-    """The message names the line, and not the student."""
+    """The message contains the number of the line, but not the student's name."""
     person = Person("secret", line=3, more={"extension days": written})
     with pytest.raises(GradingError, match="Line 3 of the roster: extension_days is not") as caught:
         extensions_of({"secret": person})
@@ -119,7 +119,7 @@ def _submission(student: str, origin: str = "") -> Submission:
 
 
 def test_the_note_says_when() -> None:
-    """The note of a late submission contains both times and the extension; other submissions have no note."""
+    """The note of a late submission contains both times and the extension; other submissions get no note."""
     due = _deadlines(extensions=Extensions({"s01": 1.0}))
     lateness = _lateness({"s01": "2026-11-03T23:59+01:00", "s02": "2026-11-01T10:00Z"}, due=due)
     late, early = lateness.applied([_submission("s01"), _submission("s02")])
@@ -143,13 +143,13 @@ def test_a_time_that_is_not_known() -> None:
 
 
 def test_without_a_deadline_nothing_is_late() -> None:
-    """Without a deadline, no times are needed, and submissions get no notes."""
+    """If there is no deadline, times are not needed, and submissions get no notes."""
     given = [_submission("s01")]
     assert Lateness(_deadlines("06=" + DUE), lambda _: None).applied(given) == given
 
 
 def test_the_last_attempt_by_time(tmp_path: Path) -> None:
-    """The last attempt is found by its time, or else by the newest file; a note names the other attempt."""
+    """The last attempt is found by its time, or by the newest file; a note contains the other attempt."""
     content = raw(handed_out())
     source = folder(tmp_path, {f"s01/a/{FILE}": content, f"s01/b/{FILE}": content})
     (given,) = submissions(source)
@@ -163,7 +163,7 @@ def test_the_last_attempt_by_time(tmp_path: Path) -> None:
 
 
 def test_the_best_attempt_counts_after_lateness(tmp_path: Path) -> None:
-    """All attempts are graded, and the attempt with the most points counts, with a note."""
+    """All attempts are graded, and the one with the most points counts; it gets a note."""
     content = raw(handed_out())
     names = [f"s01/{FILE.replace('.ipynb', f'{end}.ipynb')}" for end in ("", "-1", "-2")]
     (given,) = submissions(folder(tmp_path, dict.fromkeys(names, content)))

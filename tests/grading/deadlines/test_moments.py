@@ -28,11 +28,11 @@ BERLIN = zone_of("Europe/Berlin")
         ("Sunday, 1 November 2026, 23:59", "2026-11-01T22:59"),
         ("Sunday, 1 November 2026, 12:05\u202fAM", "2026-10-31T23:05"),
         ("1 Nov 2026, 12:05 p.m.", "2026-11-01T11:05"),
-        ("2026-10-25 02:30", "2026-10-25T00:30"),  # it occurs twice; the first time is used
+        ("2026-10-25 02:30", "2026-10-25T00:30"),  # this time occurs twice; the first one is used
     ],
 )
 def test_the_forms(written: str, utc: str) -> None:
-    """A time that contains no zone is in the given zone."""
+    """If a time contains no zone, it is in the given zone."""
     moment = moment_of(written, BERLIN)
     assert moment is not None
     assert moment.astimezone(timezone.utc) == datetime.fromisoformat(utc).replace(tzinfo=timezone.utc)
@@ -42,12 +42,12 @@ def test_the_forms(written: str, utc: str) -> None:
     "written", ["", "-", "tomorrow", "2026-11-01", "2026-13-01 10:00", "1 Foo 2026, 10:00"]
 )
 def test_no_time(written: str) -> None:
-    """The result for a text that is not a time is None."""
+    """If a text is not a time, the result is None."""
     assert moment_of(written, BERLIN) is None
 
 
 def test_a_time_without_any_zone() -> None:
-    """A time without a zone is None if no zone is given."""
+    """If neither the text nor the argument contains a zone, the result is None."""
     assert moment_of("2026-11-01 23:59", None) is None
     assert moment_of("2026-11-01 23:59 Z", None) is not None
 

@@ -55,7 +55,7 @@ def _utc(moment: datetime | None) -> str:
 
 
 def test_the_worksheet_of_moodle(tmp_path: Path) -> None:
-    """The number in the folder's name finds the row; the zone has to be given."""
+    """The row is found by the number in the folder's name; the instructor has to give the time zone."""
     names = [f"{name}_assignsubmission_file_/{FILE}" for name in ("A One_17", "A Two_18", "A Three_19")]
     source = folder(tmp_path / "in", dict.fromkeys(names, NOTEBOOK))
     table = tmp_path / "worksheet.csv"
@@ -68,7 +68,7 @@ def test_the_worksheet_of_moodle(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("pack", [False, True])
 def test_gradescope(tmp_path: Path, pack: bool) -> None:
-    """Gradescope's metadata are read without an option; all members of a group have the same time."""
+    """Gradescope's metadata are used without an option; all members of a group get the same time."""
     files = {
         f"assignment_9_export/submission_456/{FILE}": NOTEBOOK,
         f"assignment_9_export/submission_457/{FILE}": NOTEBOOK,
@@ -101,7 +101,7 @@ def test_nbgrader(tmp_path: Path, outer: str) -> None:
 
 
 def test_a_table_of_the_instructor(tmp_path: Path) -> None:
-    """A row for a file is used before a row for a chapter, and this before a row for a student."""
+    """A row for a file comes before a row for a chapter, and this one comes before a row for a student."""
     source = folder(tmp_path / "in", {f"{name}/{FILE}": NOTEBOOK for name in ("s01", "s02", "s03", "s04")})
     table = tmp_path / "times.csv"
     table.write_text(
@@ -115,7 +115,7 @@ def test_a_table_of_the_instructor(tmp_path: Path) -> None:
 
 
 def test_the_table_of_collected_files(tmp_path: Path) -> None:
-    """times.csv next to the students' folders is read; the latest file of a submission counts."""
+    """times.csv in the folder of the students' folders is used; the latest file of a submission counts."""
     source = folder(
         tmp_path, {"s01/07_build_a_package.ipynb": raw(handed_out("07")), f"s02/{FILE}": NOTEBOOK}
     )
@@ -145,7 +145,7 @@ def test_the_table_of_collected_files(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table_of_times(tmp_path: Path, text: str, said: str) -> None:
-    """The message names the line, and not the student."""
+    """The message contains the number of the line, but not the student's name."""
     table = tmp_path / "times.csv"
     table.write_text(text, "utf-8")
     with pytest.raises(GradingError, match=said) as caught:

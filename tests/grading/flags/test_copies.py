@@ -1,4 +1,7 @@
-"""Copies are found although names, comments and the order were changed; what a class shares is no copy."""
+"""Copies are found even if names, comments and the order were changed.
+
+Code that a class shares is not a copy.
+"""
 
 from __future__ import annotations
 
@@ -144,23 +147,23 @@ int main(int count, char** words)
 
 
 def _class(**answers: str) -> dict[str, tuple[str, ...]]:
-    """Return the similar students, by student; each of them answered only 05.4."""
+    """Return the similar students of each student; each student has answered only 05.4."""
     handed_in = [submission(student, {"05.4": source}) for student, source in answers.items()]
     return {student: flags[0].others for student, flags in flags_of(["copies"], *handed_in).items()}
 
 
 def test_identical_answers() -> None:
-    """Both students have the flag, with the name of the other; a third student has none."""
+    """Both students get the flag, with the name of the other student; a third student gets none."""
     assert _class(s01=SWITCH, s02=OTHER, s03=SWITCH) == {"s01": ("s03",), "s03": ("s01",)}
 
 
 def test_a_disguised_copy() -> None:
-    """Other names, comments, types of variables and another order hide nothing."""
+    """A copy with other names, comments, types of variables and another order is found."""
     assert _class(s01=SWITCH, s02=OTHER, s03=DISGUISED) == {"s01": ("s03",), "s03": ("s01",)}
 
 
 def test_the_words_of_a_flag() -> None:
-    """They distinguish identical answers from disguised ones, and a line is the evidence."""
+    """A flag says whether the copy is identical or disguised, and contains a line as evidence."""
     first = flags_of(
         ["copies"], submission("s01", {"05.4": SWITCH}), submission("s02", {"05.4": SWITCH + "\n"})
     )
@@ -172,31 +175,34 @@ def test_the_words_of_a_flag() -> None:
 
 
 def test_a_disguised_copy_in_cpp() -> None:
-    """Programs in C++ are compared, too."""
+    """Programs in C++ are also compared."""
     first = submission("s01", {"14.1": CPP}, "14")
     copy = submission("s02", {"14.1": CPP_DISGUISED}, "14")
     assert set(flags_of(["copies"], first, copy)) == {"s01", "s02"}
 
 
 def test_short_answers_do_not_count() -> None:
-    """An answer of fewer than ten statements is never a copy."""
+    """An answer with fewer than ten statements is never flagged as a copy."""
     short = solutions("05")["05.3"]
     assert flags_of(["copies"], *(submission(f"s{n}", {"05.3": short}) for n in range(2))) == {}
 
 
 def test_code_that_the_class_shares_does_not_count() -> None:
-    """If more than a tenth of a class has the same code, nobody is flagged for it."""
+    """If more than a tenth of a class has the same code, this code does not lead to a flag."""
     assert _class(**{f"s{number:02}": SWITCH for number in range(4)}) == {}
     assert len(_class(**{f"s{number:02}": SWITCH for number in range(3)})) == 3
 
 
 def test_handed_out_code_does_not_count() -> None:
-    """Cells that were not changed are no copies of each other."""
+    """Unchanged cells are not flagged as copies of each other."""
     assert flags_of(["copies"], *(submission(f"s{number}", {}) for number in range(3))) == {}
 
 
 def test_students_who_handed_in_together() -> None:
-    """The members of a group have the same file; they are no copies of each other, but of others."""
+    """The members of a group, who handed in the same file, are not flagged as copies of each other.
+
+    They can be flagged as copies of other students.
+    """
     team = [submission(name, {"05.4": SWITCH}, origin="submission_1/05.ipynb") for name in ("s01", "s02")]
     assert flags_of(["copies"], *team) == {}
     flags = flags_of(["copies"], *team, submission("s03", {"05.4": SWITCH}))
@@ -208,7 +214,7 @@ def test_students_who_handed_in_together() -> None:
 
 
 def test_the_same_program_in_a_cell_and_in_a_package() -> None:
-    """A file that a cell writes is compared with the same file of a package."""
+    """A file that a cell writes is compared with the same file in a package."""
     from course_pkg.grading.grade import Package
     from course_pkg.sandbox.job import work_file
 

@@ -1,4 +1,4 @@
-"""Answers that look into other code, change modules or read files are flagged; ordinary answers are not."""
+"""Flags mark answers that inspect other code, change modules or read files, but no ordinary answers."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ ORDINARY = [
 
 @pytest.fixture(scope="module")
 def found() -> dict[str, set[str]]:
-    """The kinds of flags of an answer to 05.1 that begins with a line, by this line; each has one student."""
+    """Return the kinds of flags for each line; the line is at the beginning of an answer to 05.1."""
     lines = [*(line for line, _ in LINES), *ORDINARY]
     handed_in = [submission(line, {"05.1": ANSWER.format(line=line)}) for line in lines]
     flags = flags_of(SEARCHED, *handed_in)
@@ -84,18 +84,18 @@ def found() -> dict[str, set[str]]:
 
 @pytest.mark.parametrize(("line", "kind"), LINES)
 def test_a_line_and_its_kind(found: dict[str, set[str]], line: str, kind: str) -> None:
-    """The kind that the line belongs to has a flag."""
+    """The line leads to a flag of the expected kind."""
     assert kind in found[line]
 
 
 @pytest.mark.parametrize("line", ORDINARY)
 def test_an_ordinary_line(found: dict[str, set[str]], line: str) -> None:
-    """It has no flag."""
+    """An ordinary line leads to no flag."""
     assert found[line] == set()
 
 
 def test_a_flag_shows_the_line() -> None:
-    """It has the part, the number of the line, and the line itself."""
+    """The flag contains the part, the number of the line, and the line."""
     answer = ANSWER.format(line="\nimport inspect  # why?")
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": answer}))["s01"]
     assert (flag.where, flag.line, flag.evidence) == ("05.1", 2, "import inspect  # why?")
@@ -103,15 +103,16 @@ def test_a_flag_shows_the_line() -> None:
 
 
 def test_the_solutions_have_no_flags() -> None:
-    """Neither the solution of a chapter nor the handed-out notebook is flagged by a search."""
+    """Neither a chapter's solution nor the handed-out notebook gets a flag."""
     for chapter in chapters():
         handed_in = submission("s01", solutions(chapter), chapter), submission("s02", {}, chapter)
         assert flags_of(SEARCHED, *handed_in) == {}, chapter
 
 
 def test_right_example_answers() -> None:
-    """Of all right example answers, only one is flagged: it runs the command `rosservice find`."""
-    students: dict[tuple[str, int], dict[str, str]] = {}  # by the chapter; each has one answer to a part
+    """Of all right example answers, only one gets a flag; it runs the command `rosservice find`."""
+    # the keys are chapters; each student has one answer to a part
+    students: dict[tuple[str, int], dict[str, str]] = {}
     for answer in every_answer():
         if answer.right:
             chapter = answer.check.partition(".")[0]
@@ -127,7 +128,7 @@ def test_right_example_answers() -> None:
 
 
 def test_a_program_in_a_package() -> None:
-    """The Python files of a package are searched, too; a line of a file is the evidence."""
+    """The Python files in a package are also searched; the flag contains a line of the file."""
     script = work_file("scripts/spawn_turtle.py", b"#!/usr/bin/env python3\nimport ctypes\n", executable=True)
     packages = (Package("my_turtles", (script,), "s01/my_turtles"),)
     handed_in = Submission("s01", "09", b"", "s01/my_turtles", problem="No notebook.", packages=packages)
@@ -136,7 +137,7 @@ def test_a_program_in_a_package() -> None:
 
 
 def test_programs_that_are_hard_to_read() -> None:
-    """Deep nesting, long chains and text that is not Python stop no run."""
+    """Deep nesting, long chains and text that is not Python do not end the run."""
     sources = [
         "x = " + "(" * 90 + ")" * 90,
         "x = " + "-" * 5000 + "1",
@@ -150,6 +151,6 @@ def test_programs_that_are_hard_to_read() -> None:
 
 
 def test_a_program_that_is_too_long() -> None:
-    """An instructor learns that it was not searched."""
+    """The instructor is told that the program was not searched."""
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": "x = 1\n" * 5000}))["s01"]
     assert flag.words == "It is too long, so its code was not searched."

@@ -26,20 +26,20 @@ def _with_folders(root: Path, files: dict[str, bytes], *names: str) -> Path:
 
 
 def test_an_empty_folder_is_listed(tmp_path: Path) -> None:
-    """A folder without files, or with only a system's files, is a student who has handed in nothing."""
+    """If a folder has no files, or only those of an operating system, the student has handed in nothing."""
     files = {f"s01/{FILE}": NOTEBOOK, "s02/.DS_Store": b"x"}
     found = _found(_with_folders(tmp_path, files, "s03", "s04/chapter 05/more"))
     assert found == {"s01": "", **dict.fromkeys(("s02", "s03", "s04"), "The student handed in nothing:")}
 
 
 def test_a_folder_of_a_platform_is_no_student(tmp_path: Path) -> None:
-    """A folder around all students' folders is not listed as an empty folder."""
+    """If a folder contains all students' folders, it does not count as an empty folder."""
     found = _found(_with_folders(tmp_path, {f"submitted/s01/ps1/{FILE}": NOTEBOOK}, "submitted/s02/ps1"))
     assert list(found) == ["s01", "s02"]
 
 
 def test_the_folders_of_moodle(tmp_path: Path) -> None:
-    """A student with two folders has handed in nothing only if both are empty."""
+    """If a student has two folders, nothing was handed in only if both are empty."""
     files = {f"A One_17_assignsubmission_file_/{FILE}": NOTEBOOK}
     names = ["A One_17_assignsubmission_onlinetext_", "A Two_18_assignsubmission_file_"]
     assert [*_found(_with_folders(tmp_path, files, *names))] == ["A One_17", "A Two_18"]
@@ -47,13 +47,13 @@ def test_the_folders_of_moodle(tmp_path: Path) -> None:
 
 
 def test_a_zip(tmp_path: Path) -> None:
-    """A zip lists empty folders as members that end with a slash."""
+    """In a zip, empty folders are members whose names end with a slash."""
     path = zipped(tmp_path / "class.zip", {f"class/s01/{FILE}": NOTEBOOK, "class/s02/": b"", "../s03/": b""})
     assert list(_found(path)) == ["s01", "s02"]
 
 
 def test_a_link_to_a_folder_is_not_followed(tmp_path: Path) -> None:
-    """A link to a folder counts as a file, and not as an empty folder."""
+    """A link to a folder counts as a file, so the folder is not empty."""
     source = _with_folders(tmp_path / "in", {f"s01/{FILE}": NOTEBOOK})
     (tmp_path / "empty").mkdir()
     (source / "s02").symlink_to(tmp_path / "empty")
@@ -69,7 +69,7 @@ def test_the_reports_are_not_submissions(tmp_path: Path) -> None:
 
 
 def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A folder with the reports of an earlier run is not a student's folder, and a message names it."""
+    """A folder with reports of an earlier run is not a student's folder; a message contains its name."""
     reports = dict.fromkeys(("old/.grading/secret", "old/class.html", "old/grades.csv"), b"x")
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, **reports})
     assert list(_found(source, tmp_path / "new")) == ["s01"]
@@ -79,7 +79,7 @@ def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_reports_do_not_go_into_a_students_folder(tmp_path: Path) -> None:
-    """A folder for the reports that contains files of submissions is refused."""
+    """A folder for reports is refused if it contains files of submissions."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "old/.grading/secret": b"x"}, "new")
     for wrong in (source, source / "s01"):
         with pytest.raises(GradingError, match=r"--out .* already contains files of the submissions"):

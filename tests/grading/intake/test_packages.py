@@ -1,4 +1,4 @@
-"""The packages in submissions: which packages are examined, and the messages about all other files."""
+"""Packages in submissions: which of them are examined, and the messages about all other files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SEVEN = "07_build_a_package.ipynb"
 
 @pytest.fixture(scope="module")
 def seven() -> bytes:
-    """The students' notebook of chapter 07."""
+    """Return the students' notebook of chapter 07."""
     return raw(handed_out("07"))
 
 
@@ -35,7 +35,10 @@ def _package(submission: Submission) -> Package:
 
 
 def test_package_next_to_a_notebook(tmp_path: Path, seven: bytes) -> None:
-    """A notebook and a package are one submission with the package's files; its programs are executable."""
+    """A notebook and a package are one submission, which contains the package's files.
+
+    Its programs are executable.
+    """
     folder(tmp_path, {f"s01/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     found = _only(tmp_path)
@@ -47,7 +50,10 @@ def test_package_next_to_a_notebook(tmp_path: Path, seven: bytes) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path) -> None:
-    """The package is a submission for each chapter that needs one of its files, and for no other chapter."""
+    """The package becomes a submission for each chapter that needs one of its files.
+
+    Other chapters get no submission.
+    """
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     found = _only(tmp_path)
     assert (found.student, found.chapter, found.content) == ("s01", "07", b"")
@@ -59,20 +65,20 @@ def test_a_package_and_no_notebook(tmp_path: Path) -> None:
 
 
 def test_notebook_without_a_package(tmp_path: Path, seven: bytes) -> None:
-    """Without a package, the cells of the notebook are the answers."""
+    """If there is no package, the cells of the notebook are the answers."""
     assert _only(folder(tmp_path, {f"s01/{SEVEN}": seven})).packages == ()
 
 
 @pytest.mark.parametrize("place", ["workspace/src/my_geometry", "my_geometry-main", "07/my_geometry (2)"])
 def test_a_package_is_known_by_its_name(tmp_path: Path, place: str) -> None:
-    """The package may be in a workspace, or in a folder whose name comes from a platform or from git."""
+    """The package may be in a workspace, or in a folder with a name from a platform or from git."""
     write_package(tmp_path, f"s01/{place}", my_geometry())
     found = _only(tmp_path)
     assert (_package(found).name, found.notes) == ("my_geometry", ())
 
 
 def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
-    """Folders that catkin_make has written are not packages, and they lead to no problem."""
+    """Folders that catkin_make has written are not packages, and they cause no problem."""
     write_package(tmp_path, "s01/workspace/src/my_geometry", my_geometry())
     for place in ("build/my_geometry/x.make", "devel/setup.bash", "install/share/my_geometry/package.xml"):
         folder(tmp_path, {f"s01/workspace/{place}": b"<name>my_geometry</name>"})
@@ -80,7 +86,7 @@ def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
 
 
 def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
-    """If no part needs the name in package.xml, the name of the folder is used, with a note."""
+    """If no part needs the package's name in package.xml, the name of its folder is used, with a note."""
     manifest = my_geometry()["package.xml"].decode().replace("<name>my_geometry<", "<name>my_geometri<")
     write_package(tmp_path, "s01/my_geometry", my_geometry({"package.xml": manifest}))
     found = _only(tmp_path)
@@ -89,7 +95,7 @@ def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
 
 
 def test_package_that_no_part_needs(tmp_path: Path) -> None:
-    """The submission has a problem whose text contains the names of the needed packages."""
+    """The submission gets a problem; its text contains the names of the packages that are needed."""
     write_package(tmp_path, "s01/robot", {"package.xml": b"<package><name>robot</name></package>"})
     found = _only(tmp_path)
     assert (found.chapter, found.packages) == ("", ())
@@ -98,7 +104,7 @@ def test_package_that_no_part_needs(tmp_path: Path) -> None:
 
 
 def test_newest_of_two_packages_with_one_name_is_used(tmp_path: Path) -> None:
-    """The newest package is used, as with notebooks, and a note names the other package."""
+    """The newest package is used, as for notebooks; a note contains the other package."""
     write_package(tmp_path, "s01/a", my_geometry())
     for path in write_package(tmp_path, "s01/b", my_geometry()).rglob("*"):
         os.utime(path, (1, 1))
@@ -123,7 +129,7 @@ def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
 
 
 def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
-    """The package is not examined, and the problem contains the reason."""
+    """The package is not examined, and the text of the problem contains the reason."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     (package / "package.xml").unlink()
     (package / "package.xml").symlink_to("/etc/passwd")
@@ -141,7 +147,7 @@ def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
     ids=["bytes", "files"],
 )
 def test_a_huge_package(tmp_path: Path, seven: bytes, files: dict[str, bytes], words: str) -> None:
-    """The package is not examined, with the reason, but the notebook in the same folder is examined."""
+    """The package is not examined, for the stated reason, but the notebook in the same folder is examined."""
     folder(tmp_path, {f"s01/{SEVEN}": seven, f"s02/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry() | files)
     huge, other = submissions(tmp_path)
@@ -151,7 +157,10 @@ def test_a_huge_package(tmp_path: Path, seven: bytes, files: dict[str, bytes], w
 
 
 def test_permissions_that_were_lost(tmp_path: Path) -> None:
-    """If no file is executable, the bits were lost, and a file with a shebang counts as executable."""
+    """If no file is executable, the permissions were lost.
+
+    Then a file with a shebang counts as executable.
+    """
     files = {f"s01/my_geometry/{path}": content for path, content in my_geometry().items()}
     executable = {SERVER, "scripts/client.py"}
     for source in (folder(tmp_path / "a", files), zipped(tmp_path / "a.zip", files)):
@@ -162,7 +171,7 @@ def test_permissions_that_were_lost(tmp_path: Path) -> None:
 
 
 def test_packages_in_a_zip(tmp_path: Path, seven: bytes) -> None:
-    """A zip has packages of one or two students; a path that leads out of the zip is left out."""
+    """A zip can contain packages of one or two students; paths that lead out of the zip are ignored."""
     one = {f"s01/my_geometry/{path}": content for path, content in my_geometry().items()}
     second = {"s01/service_example/package.xml": b"<name>service_example</name>"}
     source = zipped(tmp_path / "a.zip", {f"s01/{SEVEN}": seven, **one, **second})
@@ -184,6 +193,6 @@ def test_grade_one_uses_the_package_next_to_the_notebook(tmp_path: Path, seven: 
 
 
 def test_a_package_without_a_folder_of_its_own(tmp_path: Path) -> None:
-    """A package.xml directly in the student's folder is a problem that says where to put the file."""
+    """If package.xml is directly in the student's folder, the problem says where the file has to be."""
     folder(tmp_path, {"s01/package.xml": b"<name>my_geometry</name>"})
     assert "STUDENT/PACKAGE/package.xml" in _only(tmp_path).problem

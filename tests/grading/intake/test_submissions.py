@@ -1,4 +1,4 @@
-"""All layouts of submissions, and all kinds of unusable files."""
+"""All layouts of submissions, and all kinds of files that cannot be used."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def six() -> bytes:
 
 
 def _kept(found: list[Submission]) -> list[tuple[str, str]]:
-    """Return student and chapter of each submission, and assert that each can be graded."""
+    """Return the student and the chapter of each submission; assert that each can be graded."""
     assert [each.problem for each in found] == [""] * len(found)
     return [(each.student, each.chapter) for each in found]
 
@@ -60,7 +60,10 @@ submission_12:
 
 
 def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
-    """Each layout is read as a folder and as a zip: by hand, Moodle, Canvas, Gradescope and nbgrader."""
+    """Each layout can be read from a folder and from a zip.
+
+    The layouts are those made by hand, and those of Moodle, Canvas, Gradescope and nbgrader.
+    """
     layouts = {
         "hand": (
             {f"s02/{FIVE}": five, f"s01/{FIVE}": five, f"s01/{SIX}": six},
@@ -106,7 +109,7 @@ def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
 
 @pytest.mark.parametrize("name", ["class.zip", "other.zip"])
 def test_a_zip_of_the_folder(tmp_path: Path, five: bytes, name: str) -> None:
-    """A zip may contain the folder around the students' folders, under any name."""
+    """A zip may contain a folder that contains the students' folders; its name does not matter."""
     files = {f"class/{student}/{FIVE}": five for student in ("s01", "s02")}
     assert _kept(submissions(zipped(tmp_path / name, files))) == [("s01", "05"), ("s02", "05")]
 
@@ -137,7 +140,7 @@ def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> N
 
 
 def test_notebook_without_exercises(tmp_path: Path) -> None:
-    """Without exercises, the ids of the other cells identify the chapter."""
+    """If there are no exercises, the chapter is found by the ids of the other cells."""
     notebook = handed_out("05")
     notebook["cells"] = [cell for cell in notebook["cells"] if "course" not in cell["metadata"]]
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(notebook)}))
@@ -145,7 +148,7 @@ def test_notebook_without_exercises(tmp_path: Path) -> None:
 
 
 def _of_first_edition(chapter: RenumberedChapter) -> Notebook:
-    """Return a chapter with its number and title of the first edition."""
+    """Return a chapter with the number and the title that it has in the first edition."""
     text = json.dumps(handed_out(chapter.now))
     notebook: Notebook = json.loads(re.sub(rf"(?<![0-9]){chapter.now}(?=[.-][0-9a-z])", chapter.number, text))
     notebook["cells"][0]["source"] = f"# {chapter.title}\n\nA first paragraph."
@@ -154,7 +157,7 @@ def _of_first_edition(chapter: RenumberedChapter) -> Notebook:
 
 @pytest.mark.parametrize("chapter", RENUMBERED, ids=[each.name for each in RENUMBERED])
 def test_a_notebook_of_the_first_edition(tmp_path: Path, chapter: RenumberedChapter) -> None:
-    """One sentence names the file, the edition and the chapter's new number, and nothing is graded."""
+    """One sentence contains the file, the edition and the chapter's new number; nothing is graded."""
     notebook = _of_first_edition(chapter)
     without_title = {**notebook, "cells": notebook["cells"][1:]}
     without_ids = {
@@ -178,7 +181,10 @@ def test_a_notebook_of_the_first_edition(tmp_path: Path, chapter: RenumberedChap
 
 
 def test_a_chapter_whose_exercises_were_renumbered(tmp_path: Path) -> None:
-    """Chapter 03 kept its number. Its old title, or an exercise 03.5, shows the first edition."""
+    """Chapter 03 has the same number in both editions.
+
+    Its old title, or an exercise 03.5, shows that the notebook belongs to the first edition.
+    """
     notebook = handed_out("03")
     titled = {
         **notebook,
@@ -195,7 +201,10 @@ def test_a_chapter_whose_exercises_were_renumbered(tmp_path: Path) -> None:
 
 
 def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
-    """The message about the first edition's chapter 10 names the two exercises that moved."""
+    """The message about chapter 10 of the first edition contains two exercises.
+
+    They are in another chapter now.
+    """
     chapter = next(each for each in RENUMBERED if each.number == "10")
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(_of_first_edition(chapter))}))
     assert (
@@ -207,14 +216,17 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
 def test_a_notebook_of_this_edition_under_a_name_of_the_first(
     tmp_path: Path, chapter: RenumberedChapter
 ) -> None:
-    """The exercises in it belong to this edition, so the notebook is graded."""
+    """Its exercises belong to this edition, so the notebook is graded."""
     content = raw(handed_out(chapter.now))
     source = folder(tmp_path, {f"s01/{chapter.name}.ipynb": content, "s02/mine.ipynb": content})
     assert _kept(submissions(source)) == [("s01", chapter.now), ("s02", chapter.now)]
 
 
 def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
-    """The file with the platform's highest number, or the newest file, is used; a note names the other."""
+    """The file with the platform's highest number, or the newest file, is used.
+
+    A note contains the other file.
+    """
     source = folder(
         tmp_path,
         {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},
@@ -230,7 +242,7 @@ def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
 
 
 def test_readable_notebook_is_used_instead_of_a_broken_one(tmp_path: Path, five: bytes) -> None:
-    """If only one of two files for a chapter can be read, this file is used, even if it is older."""
+    """If only one of two files for a chapter can be read, it is used, even if it is the older one."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, "s01/05_write_a_server (2).ipynb": b"{"})
     [found] = submissions(source)
     assert (found.origin, found.problem) == (f"s01/{FIVE}", "")
@@ -274,7 +286,10 @@ BAD = {
 
 @pytest.mark.parametrize(("content", "words"), BAD.values(), ids=BAD)
 def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None:
-    """An unreadable file becomes a submission, whose problem contains the file and the next step."""
+    """An unreadable file becomes a submission with a problem.
+
+    The text contains the file and what to do next.
+    """
     for source in (
         folder(tmp_path / "a", {f"s01/{FIVE}": content}),
         zipped(tmp_path / "a.zip", {f"s01/{FIVE}": content}),
@@ -314,7 +329,7 @@ def test_many_other_files_are_one_problem(tmp_path: Path, five: bytes) -> None:
 
 
 def test_links_are_not_followed(tmp_path: Path, five: bytes) -> None:
-    """Links to files and folders are not followed, and their targets are not read."""
+    """Links to files and folders are not followed, so their targets are not read."""
     secret = folder(tmp_path / "secret", {f"s09/{FIVE}": five})
     source = folder(tmp_path / "in", {f"s03/{FIVE}": five})
     (source / "s01").mkdir()
@@ -331,7 +346,7 @@ def test_links_are_not_followed(tmp_path: Path, five: bytes) -> None:
 
 
 def test_pipe_is_not_opened(tmp_path: Path) -> None:
-    """A pipe is reported immediately and is not opened."""
+    """A pipe is not opened; it is reported at once."""
     (tmp_path / "s01").mkdir()
     os.mkfifo(tmp_path / "s01" / FIVE)
     [found] = submissions(tmp_path)
@@ -339,7 +354,7 @@ def test_pipe_is_not_opened(tmp_path: Path) -> None:
 
 
 def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message asks the instructor to change the file's permissions."""
+    """The message asks the instructor to change the permissions of the file."""
 
     def refuse(*_: object) -> int:
         raise PermissionError(13, "Permission denied")
@@ -354,14 +369,14 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: p
     "name", ["../s01/" + FIVE, "/s01/" + FIVE, "C:\\s01\\" + FIVE, "s01/../../" + FIVE, "..\\s01\\" + FIVE]
 )
 def test_paths_that_lead_out(tmp_path: Path, five: bytes, name: str) -> None:
-    """Members whose paths lead out of the zip are not graded, and no file is written."""
+    """If the path of a member leads out of the zip, the member is not graded, and no file is written."""
     [found] = submissions(zipped(tmp_path / "a.zip", {name: five}))
     assert "leads out" in found.problem
     assert [path.name for path in tmp_path.iterdir()] == ["a.zip"]
 
 
 def test_a_link_in_a_zip(tmp_path: Path) -> None:
-    """A link in a zip is not followed; it contains only a path."""
+    """A link in a zip is not followed; it is only the text of a path."""
     source = zipped(
         tmp_path / "a.zip", {f"s01/{FIVE}": b"/etc/passwd"}, external_attr=(stat.S_IFLNK | 0o777) << 16
     )
@@ -370,7 +385,7 @@ def test_a_link_in_a_zip(tmp_path: Path) -> None:
 
 
 def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
-    """A huge member is not unpacked, even if the zip contains a wrong size; other members are graded."""
+    """A huge member is not unpacked, even if the zip contains a false size; other members are graded."""
     bomb = b" " * (archive.LARGEST - 5)
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": bomb, f"s02/{FIVE}": five})
     bad, good = submissions(source)
@@ -384,14 +399,14 @@ def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
 
 
 def test_total_size_of_a_zip_is_limited(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """When the limit for the total size is reached, further files are listed, but not read."""
+    """When the limit for all files together is reached, the other files are listed, but not read."""
     monkeypatch.setattr(archive, "ALTOGETHER", len(five) * 5 // 2)
     found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
     assert [bool(each.problem) for each in found] == [False, False, True, True]
 
 
 def test_number_of_members_is_limited(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The first files of a zip are graded, and all further files are one submission with a problem."""
+    """The first files of a zip are graded; all others are one submission with a problem."""
     monkeypatch.setattr(archive, "MEMBERS", 2)
     found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
     assert [(each.student, bool(each.problem)) for each in found] == [
@@ -402,7 +417,7 @@ def test_number_of_members_is_limited(tmp_path: Path, five: bytes, monkeypatch: 
 
 
 def test_a_damaged_or_locked_member(tmp_path: Path, five: bytes) -> None:
-    """A wrong checksum and a password are reported."""
+    """A wrong checksum is reported, and so is a password."""
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": five})
     with zipfile.ZipFile(source) as archive:
         middle = archive.infolist()[0].compress_size // 2
@@ -415,7 +430,7 @@ def test_a_damaged_or_locked_member(tmp_path: Path, five: bytes) -> None:
     with zipfile.ZipFile(locked) as archive:
         listed = archive.start_dir
     content = bytearray(locked.read_bytes())
-    content[6] |= 1  # the flag for encryption, in the member's header and in the list of members
+    content[6] |= 1  # the flag for encryption; it is in the member's header and in the list of members
     content[listed + 8] |= 1
     locked.write_bytes(bytes(content))
     [found] = submissions(locked)
@@ -437,14 +452,14 @@ def test_source_that_is_not_a_folder_or_zip(tmp_path: Path, content: bytes | Non
     [b"{", b"- 1", b"a: [", b"\xff\xfe\x00", b"a: &x [*x]", b"submission_1: {':submitters': 3}", b""],
 )
 def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content: bytes) -> None:
-    """If the metadata are broken, the names of the folders identify the students."""
+    """If the metadata are damaged, the students are identified by the names of the folders."""
     files = {"submission_metadata.yml": content, f"submission_1/{FIVE}": five}
     found = submissions(folder(tmp_path, files))
     assert [each.student for each in found if not each.problem] == ["submission_1"]
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """A file's name inside a student's folder cannot make it another student's submission."""
+    """Inside a student's folder, the name of a file cannot turn it into another student's submission."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,
@@ -468,12 +483,12 @@ def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> N
 
 
 def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
-    """An empty folder has no submissions, which is not an error."""
+    """An empty folder contains no submissions; this is not an error."""
     assert submissions(tmp_path) == []
 
 
 def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
-    """Outputs are removed from memory, and the rebuilt notebook is the same."""
+    """Outputs are not kept in memory, and the rebuilt notebook is the same as with them."""
     notebook = json.loads(five)
     for cell in notebook["cells"]:
         if cell["cell_type"] == "code":
@@ -486,7 +501,7 @@ def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
 
 
 def test_one_notebook(tmp_path: Path, five: bytes) -> None:
-    """A single notebook belongs to the student of its folder, or to the given name."""
+    """A single notebook belongs to the student whose name its folder has, or to the given name."""
     source = folder(tmp_path, {f"s01/{FIVE}": five}) / "s01" / FIVE
     assert submissions(source) == [submission_of(source)]
     assert _kept([submission_of(source), submission_of(source, "s07")]) == [("s01", "05"), ("s07", "05")]
@@ -495,7 +510,7 @@ def test_one_notebook(tmp_path: Path, five: bytes) -> None:
 
 
 def test_names_of_any_letters(tmp_path: Path, five: bytes) -> None:
-    """Each student's name gets its own record, in any script."""
+    """Names in all scripts are possible, and each student gets a separate record."""
     names = ["Größe", "a\u202eb", "x" * 200, "名前", "\udcff"]
     found = submissions(folder(tmp_path, {f"{name}/{FIVE}": five for name in names}))
     assert len({each.student for each in found}) == len(names)

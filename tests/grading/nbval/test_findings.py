@@ -1,4 +1,4 @@
-"""The sentences for students about nbval's messages."""
+"""The sentences that students read about nbval's messages."""
 
 from __future__ import annotations
 
@@ -42,5 +42,5 @@ START = "\x1b[91mNotebook cell execution failed\x1b[0m\n\x1b[94mCell 3: "
     ],
 )
 def test_a_finding_is_one_sentence(words: str, sentence: str) -> None:
-    """The sentence contains the error or the time, and no output of pytest."""
+    """The sentence contains the error or the time, but no output of pytest."""
     assert finding(words) == sentence

@@ -1,4 +1,4 @@
-"""The run of a notebook with nbval in a sandbox, which gives feedback for each cell, but no points."""
+"""A run of a notebook with nbval in a sandbox; it gives feedback on each cell, but no points."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ from course_pkg.setup import Places
 
 
 def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
-    """Return a notebook of (source, expected output); with `check`, the last cell checks that part."""
+    """Return a notebook of pairs (source, expected output).
+
+    With `check`, the last cell is the check of this part.
+    """
     made = nbformat.v4.new_notebook()
     for number, (source, shown) in enumerate(cells):
         cell = nbformat.v4.new_code_cell(source, id=f"cell-{number}", execution_count=number + 1)
@@ -36,7 +39,10 @@ def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
 
 @pytest.mark.usefixtures("sandbox")
 def test_each_cell_is_compared_with_its_stored_output() -> None:
-    """Equal outputs pass, other outputs fail, and a cell that ends the kernel ends the run."""
+    """A cell passes if its outputs are equal, and fails otherwise.
+
+    A cell that ends the kernel ends the run.
+    """
     seen = outcomes_of(notebook(("1 + 1", "2"), ("1 + 1", "3"), ("'over'", "'over'")))
     assert [(each.cell, each.outcome) for each in seen] == [
         ("cell-0", "passed"),
@@ -48,7 +54,7 @@ def test_each_cell_is_compared_with_its_stored_output() -> None:
 
 @pytest.mark.usefixtures("sandbox")
 def test_the_kernel_sees_neither_what_is_expected_nor_a_check() -> None:
-    """The kernel cannot access the notebook, the checks, other processes or another network."""
+    """The kernel has no access to the notebook's file, the checks, other processes or another network."""
     probe = """
 import glob, os, pathlib, socket
 import course_pkg.chapters as chapters
@@ -73,7 +79,7 @@ def test_a_kernel_that_ends_is_noticed_in_time() -> None:
 
 @pytest.mark.usefixtures("sandbox")
 def test_a_kernel_with_damaged_connections_is_ended() -> None:
-    """A cell that writes to all open files ends the run soon: the cells before it keep their results."""
+    """A cell that writes to all open files ends the run soon; the earlier cells keep their results."""
     damage = (
         "import os\nfor number in range(3, 200):\n    try:\n        os.set_blocking(number, False)\n"
         "        os.write(number, b'{\"record\": 1}\\n')\n    except OSError:\n        pass\n"
@@ -83,19 +89,19 @@ def test_a_kernel_with_damaged_connections_is_ended() -> None:
 
 
 def plain_nbval(path: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """Run pytest for a student's notebook with the course's plug-in."""
+    """Run pytest on a student's notebook with the course's plug-in."""
     plugin = ["-p", "course_pkg.grading.nbval.plugin", "-p", "no:cacheprovider"]
     command = [sys.executable, "-m", "pytest", "-q", "-c", "/dev/null", "--nbval", *plugin, *words, str(path)]
     return subprocess.run(command, capture_output=True, text=True, cwd=path.parent, timeout=100, check=False)
 
 
 def chapter_three(folder: Path, *headlines: str, first: str = "1") -> Path:
-    """Write a notebook in which the checks of 03.1, 03.2 and so on show these headlines; return its path."""
+    """Write a notebook whose checks of 03.1, 03.2 and so on have these headlines; return its path."""
     shows = "from IPython.display import display\ndisplay({{'text/plain': {!r}}}, raw=True)"
     made = notebook((first, "1"), *((shows.format(each), "") for each in headlines))
     for number, cell in enumerate(made["cells"][1:], 1):
         cell["metadata"]["course"] = {"check": f"03.{number}"}
-        # nbval alone would pass this notebook, because each output is the stored one
+        # each output is equal to the stored one, so nbval alone would pass this notebook
         data = {"text/plain": headlines[number - 1]}
         cell["outputs"] = [nbformat.v4.new_output("display_data", data)]
     path = folder / "chapter.ipynb"
@@ -107,7 +113,7 @@ PASSED = [f"{part.check} passed: {part.points} of {part.points} points" for part
 
 
 def test_plain_nbval_passes_if_all_checks_passed(tmp_path: Path) -> None:
-    """Run by hand, the plug-in ends with a line for each part."""
+    """At the end of the run, the plug-in prints one line for each part."""
     done = plain_nbval(chapter_three(tmp_path, *PASSED))
     lines = done.stdout.splitlines()
     assert done.returncode == 0, done.stdout
@@ -126,14 +132,17 @@ def test_plain_nbval_passes_if_all_checks_passed(tmp_path: Path) -> None:
     ],
 )
 def test_plain_nbval_fails_if_points_are_missing(tmp_path: Path, headlines: list[str], line: str) -> None:
-    """A check that did not pass, did not run or was removed fails the run, whatever output is stored."""
+    """If a check did not pass, did not run or was removed, the run fails, whatever the stored output is."""
     done = plain_nbval(chapter_three(tmp_path, *headlines))
     assert done.returncode == 1, done.stdout
     assert line in _after(done.stdout.splitlines(), "parts of the course")
 
 
 def test_course_run_adds_the_plug_in(tmp_path: Path) -> None:
-    """`course run pytest --nbval` needs no further option, and a comment that skips a check earns nothing."""
+    """`course run pytest --nbval` uses the plug-in without an option.
+
+    A comment that skips a check earns nothing.
+    """
     path = chapter_three(tmp_path, *PASSED)
     made = json.loads(path.read_text())
     made["cells"][2]["source"] = f"# NBVAL_SKIP\n{made['cells'][2]['source']}"

@@ -1,4 +1,4 @@
-"""The cells that an answer needs are found by the names that they define, within limits."""
+"""The cells that an answer needs are found by the names that they define; there are limits."""
 
 from __future__ import annotations
 
@@ -12,18 +12,33 @@ ABOVE = ("import math", "def area(box):\n    return math.prod(box)", "side = 2",
 
 
 def test_cells_that_define_a_needed_name_are_found() -> None:
-    """The result is the nearest cell that defines the name, and the cells that it needs, in order."""
+    """The result contains the nearest cell that defines the name.
+
+    It also contains the cells that this cell needs, in order.
+    """
     assert needed("def double(box):\n    return 2 * area(box)", "", ABOVE) == ABOVE[:2]
 
 
 def test_known_names_need_no_other_cell() -> None:
-    """Builtins, the answer's own names, and names of the course's cells need no other cell."""
+    """Builtins, the answer's own names, and names of the course's cells cause no search."""
     assert needed("import math\nprint(math.pi, len([1]))", "", ABOVE) == ()
     assert needed("def f():\n    return side", "side = 3", ABOVE) == ()
 
 
+def test_names_inside_of_an_answer_need_no_other_cell() -> None:
+    """A caught exception, a function inside of a function, and a local import are the answer's own names."""
+    above = ("error = 1", "def work():\n    pass", "import queue")
+    assert needed("try:\n    f = 1\nexcept OSError as error:\n    print(error)", "", above) == ()
+    assert needed("def f():\n    import queue\n    def work():\n        queue\n    work()", "", above) == ()
+
+
+def test_the_variable_of_a_comprehension_is_not_given() -> None:
+    """A cell does not define a name for later cells in a comprehension."""
+    assert needed("print(error)", "", ("[error for error in (1, 2)]",)) == ()
+
+
 def test_magics_are_read_as_ipython_reads_them() -> None:
-    """A line that only IPython understands does not hide names."""
+    """A line that only IPython understands does not hide the names in the cell."""
     assert needed("%time x = side", "", ABOVE) == ()
     assert needed("!ls\nx = side", "", ABOVE) == ("side = 2",)
 
@@ -39,7 +54,7 @@ def test_magics_are_read_as_ipython_reads_them() -> None:
     ids=["many names and long cells", "many magics", "a long ladder", "deep"],
 )
 def test_unusual_sources_take_little_time(answer: str, above: list[str]) -> None:
-    """Each source takes little time, because it is parsed outside of the sandbox within limits."""
+    """Each source takes little time; this matters, because it is parsed outside the sandbox."""
     began = time.process_time()
     assert needed(answer, "", above) == ()
     assert time.process_time() - began < 10.0  # without the limit, this would take minutes

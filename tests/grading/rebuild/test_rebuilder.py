@@ -1,4 +1,4 @@
-"""An answer is found after any change of its notebook, and only answers are taken."""
+"""An answer is found however the student changed the notebook, and nothing except answers is used."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ REFERENCE = book(
 
 
 def _student(change: Callable[[Cells], object] = lambda _: None, **answers: str) -> bytes:
-    """Return a submission: `answers` by a cell's letter, then `change`."""
+    """Return a student's notebook with these answers, by the letters of cells, after `change`."""
     notebook = derived(copy.deepcopy(REFERENCE))
     for cell in notebook["cells"]:
         letter = {D: "d", C: "c", W: "w"}.get(cell["id"], "")
@@ -54,7 +54,7 @@ def _place(cells: Cells, name: str) -> int:
 
 
 def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
-    """Copy a cell as JupyterLab does: another id, the same metadata."""
+    """Copy a cell in the same way as JupyterLab: with another id and the same metadata."""
     place = _place(cells, name)
     cells.insert(
         place + shift, {**copy.deepcopy(cells[place]), "id": f"copy-{shift}-{len(cells)}", "source": source}
@@ -62,13 +62,13 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells below (or at `shift` from) a cell."""
+    """Insert a student's own cells below a cell (or `shift` cells away from it)."""
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
 
 def _rebuilt(content: bytes) -> Rebuilt:
-    """Rebuild a submission, and assert what must hold for each."""
+    """Rebuild a submission, and assert everything that must be true for each submission."""
     before = copy.deepcopy(REFERENCE)
     made = rebuild(REFERENCE, content)
     assert before == REFERENCE
@@ -105,7 +105,10 @@ def test_an_answer_is_placed() -> None:
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_every_chapter(path: Path) -> None:
-    """Each exercise of a solution is answered, without a note; in the students' notebook, each is blank."""
+    """In a solution, each exercise has an answer, without a note.
+
+    In the student's notebook, each is blank.
+    """
     reference = read(path)
     full = rebuild(reference, path.read_bytes())
     blank = rebuild(reference, raw(derived(reference)))
@@ -159,7 +162,7 @@ TAKEN = {
 
 @pytest.mark.parametrize("change", TAKEN.values(), ids=TAKEN)
 def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
-    """A cell that was copied, moved or split, or that lost its id or metadata, is graded."""
+    """A cell is graded even if it was copied, moved or split, or has lost its id or metadata."""
     made = _rebuilt(_student(change))
     assert [line for line in made.answers["05.1"].split("\n") if line] == [
         line for line in ANSWER.split("\n") if line
@@ -169,7 +172,7 @@ def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
 
 @pytest.mark.parametrize("kind", ["markdown", "raw"])
 def test_a_cell_of_another_kind(kind: str) -> None:
-    """A Markdown cell of an exercise is used as code, with a note, but a code cell is preferred."""
+    """If the cell of an exercise is Markdown, it is used as code, with a note; a code cell is preferred."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(cell_type=kind, source=ANSWER)
@@ -189,14 +192,17 @@ def test_last_of_several_answers_is_used() -> None:
 
 
 def test_identical_copy_leads_to_no_note() -> None:
-    """An identical copy leads to no note, and an empty or blank copy is not used."""
+    """For an identical copy, there is no note; an empty or a blank copy is not used."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
 
 
 def test_a_helper_split_off_belongs_to_the_answer() -> None:
-    """A function that the answer uses is placed directly below it, with the cells between."""
+    """If the answer uses a function in a cell directly below it, this cell is placed, too.
+
+    The cells between them are also placed.
+    """
     answer = ANSWER.replace("x + x", "helper(x)")
     helper = "def helper(x):\n    return x + x"
     made = _rebuilt(_student(lambda cells: _own(cells, D, "print('try')", helper, "double(3)"), d=answer))
@@ -226,7 +232,7 @@ def test_cells_that_the_answer_does_not_need_are_left_out(source: str) -> None:
 
 @pytest.mark.parametrize("shift", [-1, 0, 3])
 def test_a_helper_elsewhere_is_named(shift: int) -> None:
-    """A helper in another place is left out, and a note names the missing function and the right cell."""
+    """If a helper function is elsewhere, it is left out; a note contains its name and the right cell."""
     answer = ANSWER.replace("x + x", "helper(x)")
     made = _rebuilt(
         _student(lambda cells: _own(cells, D, "def helper(x):\n    return x + x", shift=shift), d=answer)
@@ -237,7 +243,7 @@ def test_a_helper_elsewhere_is_named(shift: int) -> None:
 
 
 def test_an_import_in_a_given_cell_is_named() -> None:
-    """A student's additions to a cell of the course are not graded; the course's own names are there."""
+    """A student's change of a cell of the course is not graded; the names that the course defines exist."""
     answer = ANSWER.replace("x + x", "numpy.add(x, math.floor(x))")
 
     def change(cells: Cells) -> None:
@@ -249,7 +255,7 @@ def test_an_import_in_a_given_cell_is_named() -> None:
 
 
 def test_missing_answer_has_a_reason() -> None:
-    """A deleted or emptied cell earns nothing; the blank exercise replaces it."""
+    """If a cell was deleted or emptied, it earns nothing, and the blank exercise replaces it."""
 
     def change(cells: Cells) -> None:
         del cells[_place(cells, D)]
@@ -272,7 +278,10 @@ def test_an_answer_of_absurd_length() -> None:
 
 
 def test_id_decides_between_different_metadata() -> None:
-    """If id and metadata differ, the id decides; an unknown part is ignored."""
+    """If the id and the metadata of a cell contradict each other, the id decides.
+
+    An unknown part is ignored.
+    """
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(metadata={"course": {"exercise": "05.2"}}, source=ANSWER)
@@ -285,7 +294,7 @@ def test_id_decides_between_different_metadata() -> None:
 
 
 def test_tags_and_metadata_of_the_student_stay_out() -> None:
-    """A tag of the student has no effect on a cell, and a note tells this to the student."""
+    """A tag that the student has added has no effect; a note tells the student about it."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)]["metadata"]["tags"] = ["nbval-skip", "raises-exception", "mine"]
@@ -295,7 +304,7 @@ def test_tags_and_metadata_of_the_student_stay_out() -> None:
 
 
 def test_markers_and_magics_are_removed() -> None:
-    """Markers and magics are removed, with one note each."""
+    """Markers and magics are removed; there is one note for each."""
     made = _rebuilt(_student(d="%%script true\n# NBVAL_SKIP\n" + ANSWER))
     assert made.answers["05.1"] == "# %%script has no effect here\n# (NBVAL_SKIP)\n" + ANSWER
     assert len(made.notes) == 2
@@ -316,7 +325,7 @@ def test_checks_and_given_cells_do_not_change() -> None:
     "content", [b"", b"{", b"[]", b"\xff", b'{"cells": 1}', b'{"cells": ' + b"[" * 100_000]
 )
 def test_what_is_no_notebook(content: bytes) -> None:
-    """Each part gets no points, with a reason, and the rebuilt notebook contains no solution."""
+    """Each part gets no points and a reason, and the rebuilt notebook contains no solution."""
     made = _rebuilt(content)
     assert made.problem
     assert set(made.missing.values()) == {made.problem}
@@ -337,7 +346,7 @@ def test_what_is_no_notebook(content: bytes) -> None:
     ],
 )
 def test_cells_that_are_none(cell: object) -> None:
-    """Unusable cells are ignored, and the others are graded."""
+    """Unusable cells are ignored, and the other cells are graded."""
     made = _rebuilt(_student(lambda cells: cells.insert(0, cell), d=ANSWER))  # type: ignore[arg-type]
     assert made.answers["05.1"] == ANSWER
 
@@ -369,7 +378,7 @@ MANY = {
 
 @pytest.mark.parametrize("made_of", MANY.values(), ids=MANY)
 def test_ten_thousand_cells(made_of: Callable[[int], Cell]) -> None:
-    """A notebook with many cells is rebuilt in a short time, because each cell is read only a few times."""
+    """A notebook with many cells is rebuilt quickly, because each cell is read only a few times."""
 
     def change(cells: Cells) -> None:
         place = _place(cells, D) + 1
@@ -393,12 +402,12 @@ def test_ten_thousand_cells(made_of: Callable[[int], Cell]) -> None:
     ],
 )
 def test_sources_built_to_take_long(source: str) -> None:
-    """Sources with long lines are read in a short time, because no parser reads them."""
+    """Sources with long lines are read quickly, because they are not parsed."""
     _rebuilt(_student(lambda cells: _own(cells, D, source), d=source, c=source, w=source))
 
 
 def test_nbval_runs_it(tmp_path: Path) -> None:
-    """The output of an exercise's cell is not compared, but all other outputs are compared."""
+    """The output of an exercise cell is not compared, but all other outputs are."""
     done = {"output_type": "execute_result", "execution_count": 2, "metadata": {}}
     reference = book(
         exercise("05.1", source="def double(x):\n    return 2 * x"),

@@ -25,12 +25,12 @@ FILES = [
 
 @pytest.mark.parametrize("text", FILES)
 def test_unchanged_is_unchanged(text: str) -> None:
-    """A file that is read and written again has the same bytes."""
+    """If a file is read and written again, its bytes are the same."""
     assert text_of(list(records(text, ",")), ",") == text
 
 
 def test_it_reads_as_the_csv_module_does() -> None:
-    """For files that follow RFC 4180, the values are the same as from Python's csv module."""
+    """If a file follows RFC 4180, the values are the same as from Python's csv module."""
     draw = random.Random(4)  # noqa: S311 -- the files are the same each time
     for _ in range(300):
         rows = [
@@ -44,7 +44,7 @@ def test_it_reads_as_the_csv_module_does() -> None:
 
 
 def test_quotes_of_php() -> None:
-    """A cell with a quote after a backslash, as PHP writes it, ends at its last quote."""
+    """PHP writes a quote after a backslash without doubling it; the cell still ends at its last quote."""
     [_, row] = records(FILES[-1], ",")
     assert [row.value(0), row.value(1)] == ['a \\"PHP\\" quote, 1', "2"]
 
@@ -65,7 +65,7 @@ def test_lines_are_counted_in_the_file() -> None:
     ],
 )
 def test_how_a_cell_is_written(before: str, value: str, after: str) -> None:
-    """A changed cell has quotes if the old cell had quotes, or if the new value needs them."""
+    """A changed cell is quoted if the old cell was quoted, or if the new value needs quotes."""
     record = Record([before, "x"], "\n", 1)
     record.put(0, value, ",")
     assert record.cells == [after, "x"]

@@ -1,4 +1,7 @@
-"""Rosters of spreadsheets and platforms are read; an invalid roster leads to a message without names."""
+"""Rosters from spreadsheets and platforms can be read.
+
+For an invalid roster, the message contains no names.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +35,10 @@ def _file(folder: Path, content: str | bytes) -> Path:
     ids=["as documented", "another order", "Excel", "tabs", "blanks", "UTF-16", "two columns for the name"],
 )
 def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | bytes) -> None:
-    """Order, separator, byte order mark, capitals, blanks and the names of platforms do not matter."""
+    """A roster can be read with any order, separator, capitals and spaces.
+
+    It may have a byte order mark, and the column names of platforms.
+    """
     [person] = read_roster(_file(tmp_path, content))
     assert (person.name, person.id, person.email, person.username, person.section) == (
         *("Jane Doe", "17", "jane@uni.example"),
@@ -50,12 +56,12 @@ def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | by
     ],
 )
 def test_columns_that_are_missing(tmp_path: Path, content: str, person: Person) -> None:
-    """One column that identifies students is enough; further columns are stored; short rows are filled."""
+    """One column that identifies students is enough; other columns are stored; short rows are filled up."""
     assert read_roster(_file(tmp_path, content)) == (person,)
 
 
 def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
-    """In Canvas's export, the row with the possible points and the test student are left out."""
+    """From Canvas's export, the row with the possible points and the test student are left out."""
     content = (
         "Student,ID,SIS User ID,SIS Login ID,Section,Lab 1 (99)\n    Points Possible,,,,,9.0\n"
         '"Doe, Jane",17,S4,jdoe,ROS 2026,\n"Student, Test",18,,f00,ROS 2026,\n'
@@ -85,7 +91,7 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
     ],
 )
 def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """The error message contains the mistake, its place and a remedy, but no cell of the file."""
+    """The error message contains the mistake, its place and what to do, but no cell of the file."""
     with pytest.raises(GradingError, match=message) as caught:
         read_roster(_file(tmp_path, content))
     assert "roster.csv" in str(caught.value)
@@ -93,12 +99,12 @@ def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> Non
 
 
 def test_no_roster(tmp_path: Path) -> None:
-    """The message names the missing file."""
+    """The message contains the name of the missing file."""
     with pytest.raises(GradingError, match=r"none\.csv cannot be read: No such file.*Correct the path"):
         read_roster(tmp_path / "none.csv")
 
 
 def test_labels() -> None:
-    """The most readable field is shown; students with the same name get their lines."""
+    """The label is the most readable field; for students with the same name, the line is added."""
     people = [JANE, Person(email="a@b.example", line=3), Person("Jane Doe", line=4)]
     assert list(labels(people)) == ["Jane Doe (line 2)", "a@b.example", "Jane Doe (line 4)"]

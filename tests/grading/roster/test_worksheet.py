@@ -1,4 +1,4 @@
-"""In a copy of Moodle's worksheet, only grades and feedback change; an invalid worksheet is refused."""
+"""In a copy of Moodle's worksheet, only grades and feedback differ; an invalid worksheet is refused."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def test_an_unchanged_copy(tmp_path: Path, content: str) -> None:
     ids=IDS,
 )
 def test_only_two_cells_change(tmp_path: Path, content: str, grade: int, written: str) -> None:
-    """The grade has the decimal separator of the file; names, order, quotes and line ends stay."""
+    """The grade has the decimal separator of the file; names, order, quotes and line ends do not change."""
     worksheet = _read(tmp_path, content)
     first = worksheet.participants[0]
     separator = ";" if content is FRENCH else ","
@@ -95,7 +95,7 @@ def test_the_participants(
     ],
 )
 def test_a_file_that_moodle_would_refuse(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """The error message contains the mistake, its place and a remedy, but no cell of the file."""
+    """The error message contains the mistake, its place and what to do, but no cell of the file."""
     with pytest.raises(GradingError, match=message) as caught:
         _read(tmp_path, content)
     assert "sheet.csv" in str(caught.value)

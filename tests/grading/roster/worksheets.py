@@ -1,4 +1,7 @@
-"""Grading worksheets as Moodle writes them, in several languages and with several settings."""
+"""Grading worksheets in the form in which Moodle writes them.
+
+They are in several languages and have several settings.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +31,7 @@ GERMAN = (
     '"Teilnehmer/in102","Max Müller","max@uni.example",'
     '"Zur Bewertung abgegeben","","10,00","Ja","-","-",""\r\n'
 )
-# A site in French, saved by a spreadsheet with semicolons.
+# A site in French; the file was saved by a spreadsheet program with semicolons.
 FRENCH = (
     "Identifiant;Nom complet;Adresse de courriel;Statut;"  # codespell:ignore complet,adresse
     "Note;Note maximale;La note peut être modifiée;"
@@ -41,7 +44,7 @@ SPANISH = (
     '"Última modificación (calificación)","Comentarios de retroalimentación"\n'
     '"Participante 101","Jane Doe","jane@uni.example","Enviado","","9,00","Sí","-","-",""\n'
 )
-# Anonymous submissions, no feedback comments, no maximum grade.
+# Anonymous submissions, without feedback comments and without a maximum grade.
 ANONYMOUS = (
     "Identifier,Status,Grade,Grade can be changed,Last modified (grade)\n"
     "Participant 101,Submitted for grading,,Yes,-\n"

@@ -1,4 +1,4 @@
-"""A dask scheduler without workers, and a dask scheduler that ends during the run."""
+"""A dask scheduler that has no workers, and one that ends during the run."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_workers_that_end_during_the_run(scheduler: tuple[subprocess.Popen[bytes
 
 
 def test_a_scheduler_that_ends_during_the_run(scheduler: tuple[subprocess.Popen[bytes], str]) -> None:
-    """The run ends with one message, which says that the grades are kept."""
+    """The run ends with one message, which says that the finished grades are kept."""
     process, address = scheduler
 
     class Killing(Cluster):

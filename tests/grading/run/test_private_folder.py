@@ -1,4 +1,4 @@
-"""A private folder with misnamed, empty or useless files."""
+"""A private folder with files that are misnamed, empty or not used."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_a_wrong_folder_is_refused(tmp_path: Path, files: dict[str, bytes], said
 
 
 def test_another_file_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A file with a completely different name is not an error, but it is not used."""
+    """If the name of a file is completely different, there is no error, but the file is not used."""
     require_names(folder(tmp_path, {"private_05.py": b"x", "notes.md": b"", ".git/config": b""}), CHAPTERS)
     assert "notes.md" in capsys.readouterr().err
     require_names(folder(tmp_path / "a", {"points.json": b"{}"}), CHAPTERS)

@@ -15,6 +15,9 @@ NOT_RECEIVED = [
         "UInt32 from the topic whose name is in `topic`.",
     )
 ]
+NODE, SERVICE, TYPE = "Name the node.", "Name the service.", "Name the type of the service."
+RECEIVED = "Return a number of the topic, and a number that was published after the pause."
+MISSED = "Return how many numbers were published between the two."
 
 
 @part(
@@ -22,72 +25,85 @@ NOT_RECEIVED = [
     points=1,
     goal="Name the node that measures boxes, the service that it offers, and the type of this service.",
     needs=["name_of_node", "name_of_service", "name_of_type"],
+    goals=[NODE, SERVICE, TYPE],
 )
 def read_the_graph(context: CheckContext) -> None:
     """Compare the names with the names on the graph."""
-    context.expect(
-        "the name of the node",
-        expected="/SERVER_NODE",
-        actual=context.read("name_of_node"),
-        hints=[
-            ("SERVER_NODE", "The name is almost right, but names on the graph start with a slash."),
-            (
-                matches("^/?server$"),
-                "That is the program. The command rosnode list shows the names of the nodes.",
-            ),
-            (
-                matches("^/chapter"),
-                "That is the node of this notebook, which is the client. The server is another node.",
-            ),
-            (matches("getGeometry"), "That is a service. The node is the program that offers it."),
-            (
-                matches("^/server_node/?$"),
-                "Compare letter by letter: upper and lower case are different, and this name "
-                "has a slash only at its start.",
-            ),
-        ],
-    )
-    context.expect(
-        "the name of the service",
-        expected="/getGeometry",
-        actual=context.read("name_of_service"),
-        hints=[
-            ("getGeometry", "The name is almost right, but names on the graph start with a slash."),
-            (matches("logger"), "Every node has this service. Find the service that only /SERVER_NODE has."),
-            (matches("^/?SERVER_NODE$"), "That is the node. The command rosservice list shows the services."),
-            (
-                matches("course_pkg"),
-                "That is the type. Use the name that you write after rosservice call.",
-            ),
-            (
-                matches("^/getgeometry/?$"),
-                "Compare letter by letter: upper and lower case are different, and this name "
-                "has a slash only at its start.",
-            ),
-        ],
-    )
-    context.expect(
-        "the type of the service",
-        expected="course_pkg/geometry",
-        actual=context.read("name_of_type"),
-        hints=[
-            (matches("^geometry$"), "The name of a type includes the package: it has the form package/type."),
-            (
-                matches("^/course_pkg"),
-                "A type does not start with a slash, because it is not a name on the graph.",
-            ),
-            (
-                matches(r"object|course_pkg\.srv"),
-                "That is the Python class of the type. Write the name of the type as a string "
-                "of the form package/type.",
-            ),
-            (
-                matches("getGeometry"),
-                "That is the name of the service. The command rosservice type shows its type.",
-            ),
-            (matches("(?-i:course_pkg/Geometry)"), "This type is written with a small g."),
-        ],
-    )
+    with context.goal(NODE):
+        context.expect(
+            "the name of the node",
+            expected="/SERVER_NODE",
+            actual=context.read("name_of_node"),
+            hints=[
+                ("SERVER_NODE", "The name is almost right, but names on the graph start with a slash."),
+                (
+                    matches("^/?server$"),
+                    "That is the program. The command rosnode list shows the names of the nodes.",
+                ),
+                (
+                    matches("^/chapter"),
+                    "That is the node of this notebook, which is the client. The server is another node.",
+                ),
+                (matches("getGeometry"), "That is a service. The node is the program that offers it."),
+                (
+                    matches("^/server_node/?$"),
+                    "Compare letter by letter: upper and lower case are different, and this name "
+                    "has a slash only at its start.",
+                ),
+            ],
+        )
+    with context.goal(SERVICE):
+        context.expect(
+            "the name of the service",
+            expected="/getGeometry",
+            actual=context.read("name_of_service"),
+            hints=[
+                ("getGeometry", "The name is almost right, but names on the graph start with a slash."),
+                (
+                    matches("logger"),
+                    "Every node has this service. Find the service that only /SERVER_NODE has.",
+                ),
+                (
+                    matches("^/?SERVER_NODE$"),
+                    "That is the node. The command rosservice list shows the services.",
+                ),
+                (
+                    matches("course_pkg"),
+                    "That is the type. Use the name that you write after rosservice call.",
+                ),
+                (
+                    matches("^/getgeometry/?$"),
+                    "Compare letter by letter: upper and lower case are different, and this name "
+                    "has a slash only at its start.",
+                ),
+            ],
+        )
+    with context.goal(TYPE):
+        context.expect(
+            "the type of the service",
+            expected="course_pkg/geometry",
+            actual=context.read("name_of_type"),
+            hints=[
+                (
+                    matches("^geometry$"),
+                    "The name of a type includes the package: it has the form package/type.",
+                ),
+                (
+                    matches("^/course_pkg"),
+                    "A type does not start with a slash, because it is not a name on the graph.",
+                ),
+                (
+                    matches(r"object|course_pkg\.srv"),
+                    "That is the Python class of the type. Write the name of the type as a string "
+                    "of the form package/type.",
+                ),
+                (
+                    matches("getGeometry"),
+                    "That is the name of the service. The command rosservice type shows its type.",
+                ),
+                (matches("(?-i:course_pkg/Geometry)"), "This type is written with a small g."),
+            ],
+        )
 
 
 @part(
@@ -170,6 +186,7 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     goal="Return a number, a later number, and how many numbers were published between the two.",
     needs=["count_missed"],
     deadline=25.0,
+    goals=[RECEIVED, MISSED],
 )
 def count_what_was_missed(context: CheckContext) -> None:
     """Run the function twice, each time with consecutive numbers on a new topic and with another pause."""
@@ -207,32 +224,42 @@ def count_what_was_missed(context: CheckContext) -> None:
                 "with time.sleep."
             ),
         )
-        context.expect(
-            "the third number is how many were missed",
-            expected=after - before - 1,
-            actual=missed,
-            hints=[
-                (
-                    after - before,
-                    "This count includes a number that you received. Example: between 17 and "
-                    "25, 7 numbers are missed.",
-                ),
-                (
-                    after - before + 1,
-                    "This count includes both numbers that you received. Example: between 17 "
-                    "and 25, 7 numbers are missed.",
-                ),
-                (
-                    before - after + 1,
-                    "A count cannot be negative. Subtract the first number from the second.",
-                ),
-                (
-                    ANYTHING,
-                    "Calculate the third number from the other two. Example: between 17 and 25, 7 "
-                    "numbers are missed.",
-                ),
-            ],
-        )
+        if 0 not in publisher.subscribers[before - first : after - first]:
+            context.fail(
+                "the second number is received after the pause",
+                expected="no subscriber during the pause",
+                actual="a subscriber that received all numbers of the pause",
+                hint="The function received numbers during the pause. rospy.wait_for_message unsubscribes "
+                "after one number.",
+            )
+        with context.goal(MISSED):
+            context.expect(
+                "the third number is how many were missed",
+                expected=after - before - 1,
+                actual=missed,
+                hints=[
+                    (
+                        after - before,
+                        "This count includes a number that you received. Example: between 17 and "
+                        "25, 7 numbers are missed.",
+                    ),
+                    (
+                        after - before + 1,
+                        "This count includes both numbers that you received. Example: between 17 "
+                        "and 25, 7 numbers are missed.",
+                    ),
+                    (
+                        before - after + 1,
+                        "A count cannot be negative. Subtract the first number from the second.",
+                    ),
+                    (
+                        ANYTHING,
+                        "Calculate the third number from the other two. Example: between 17 and 25, 7 "
+                        "numbers are missed.",
+                    ),
+                ],
+            )
+    context.fulfilled(RECEIVED)
 
 
 def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int]:

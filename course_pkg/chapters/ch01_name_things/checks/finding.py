@@ -6,6 +6,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 
 NUMBER = "std_msgs/UInt32"
 LOOKS_LIKE_IT = "You called another service with a similar name. Compare the whole text after the last slash."
+FOUND = "Find the service, call it, and return the volume."
+RUNNING = "Return the sorted names of the running publishers of a topic."
 
 
 @part(
@@ -17,6 +19,7 @@ LOOKS_LIKE_IT = "You called another service with a similar name. Compare the who
     ),
     needs=["ask_wherever"],
     deadline=25.0,
+    goals={FOUND: 2, "Return None if there is no such service.": 1},
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
     """Serve the name and similar names in three namespaces; then pass the name of a missing service."""
@@ -24,11 +27,17 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
         last = context.random.word()
         place = "".join(f"/{context.random.word()}" for _ in range(depth))
         volume, *others = (whole + 0.375 for whole in context.random.integers(4, 1000, 9000))
-        named = {f"{place}/x{last}": others[0], f"/{last}/x": others[1], f"{place}/{last}x": others[2]}
-        for name, wrong in named.items():
-            context.serve(name, GEOMETRY, lambda _, v=wrong: {"volume": v})
-        answer = {"volume": volume, "area": volume + 1}
-        server = context.serve(f"{place}/{last}", GEOMETRY, lambda _, a=answer: a)
+        wanted = f"{place}/{last}"
+        named = {
+            f"{place}/x{last}": others[0],
+            f"/{last}/x": others[1],
+            f"{wanted}x": others[2],
+            wanted: volume,
+        }
+        servers = {  # in a random order, because the master lists the services in the order of registration
+            name: context.serve(name, GEOMETRY, lambda _, v=named[name]: {"volume": v, "area": v + 1})
+            for name in context.random.shuffled([*named])
+        }
         length, width, height = context.random.numbers(3, 0.5, 9.0)
         context.expect(
             "the volume comes from the right service",
@@ -53,7 +62,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
         context.expect(
             "the request has length, width and height",
             expected={"length": length, "width": width, "height": height},
-            actual=server.requests[0],
+            actual=servers[wanted].requests[0],
             near=1e-4,
             hints=[
                 (
@@ -82,6 +91,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             (ANYTHING, "This service responds with the volume 0. Return this value unchanged."),
         ],
     )
+    context.fulfilled(FOUND)
     context.expect(
         "None if there is no such service",
         expected=None,
@@ -138,6 +148,7 @@ _NOBODY = [
     goal="Return the sorted names of the nodes that publish a topic and answer a ping.",
     needs=["living_publishers"],
     deadline=25.0,
+    goals={RUNNING: 3, "Return an empty list if no running node publishes the topic.": 1},
 )
 def who_really_publishes(context: CheckContext) -> None:
     """Register running and killed publishers of two topics; then pass topics without a running publisher."""
@@ -145,7 +156,7 @@ def who_really_publishes(context: CheckContext) -> None:
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
     living, dead = names[:3], names[3:5]
     for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]]):
-        context.fake_node(name, topic, NUMBER, alive=number % 2 == 0)
+        context.fake_node(name, topic, NUMBER, alive=number % 2 == 0, reused=number == 3)
     context.fake_node(names[5], other, NUMBER)
     context.fake_node(names[6], grave, NUMBER, alive=False)
     context.fake_node(names[7], f"{topic}_2", NUMBER)
@@ -188,6 +199,7 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
         ],
     )
+    context.fulfilled(RUNNING)
     context.expect(
         "no running publisher gives an empty list",
         expected=[[], []],

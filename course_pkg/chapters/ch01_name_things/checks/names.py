@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
-import shlex
 import time
 from contextlib import ExitStack
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.common_hints import NO_RETURN
-from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.checking.shared.command_line import commands_of
+from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
 
 GEOMETRY = "course_pkg/geometry"
 START = 20.0  # s for a program to start; this takes 0.5 s, but much longer on a busy machine
 WHERE = "the service of a room is measure, in the namespace of the room"
+OWN_SERVICE = "Start a server whose service is `measure`, in the namespace of the room."
+OWN_NODE = "Name its node `measurer`, in the namespace of the room."
+VIEWER = "Name the viewer's node ARM_viewer, in the namespace /screen."
+SUBSCRIBES = "Let the viewer subscribe to the joint_states of its arm."
+PUBLISHES = "Let the viewer publish the mirrored_joints of its arm, in /screen."
 
 
 @part(
@@ -26,6 +31,7 @@ WHERE = "the service of a room is measure, in the namespace of the room"
     ),
     needs=["measurer_command"],
     deadline=60.0,
+    goals=[OWN_SERVICE, OWN_NODE],
 )
 def a_measurer_for_each_room(context: CheckContext) -> None:
     """Run the commands for two rooms, find both servers on the graph, and call them."""
@@ -44,6 +50,7 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
                 actual=measure(length=length, width=width, height=height).area,
                 near=1e-3,
             )
+    context.fulfilled(OWN_SERVICE)
 
 
 @part(
@@ -52,6 +59,7 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
     goal="Return the command that starts a viewer for one arm, in the namespace /screen.",
     needs=["viewer_command"],
     deadline=60.0,
+    goals=[VIEWER, SUBSCRIBES, PUBLISHES],
 )
 def a_viewer_for_each_arm(context: CheckContext) -> None:
     """Run the commands for two arms, and compare the names of both nodes and of their topics."""
@@ -65,7 +73,7 @@ def a_viewer_for_each_arm(context: CheckContext) -> None:
 def _start(context: CheckContext, running: ExitStack, function: str, name: str, program: str) -> Running:
     """Call the student's `function` with `name`; run the returned command until `running` is closed."""
     command = context.run(function, name).returned()
-    words = _words(command)
+    words = next(iter(commands_of(command)), [])
     context.require(
         "the result is a command for rosrun",
         holds=words[:3] == ["rosrun", "course_pkg", program],
@@ -88,14 +96,6 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
     return running.enter_context(context.folder().start(*words, worded=str(command)))
 
 
-def _words(command: Json) -> list[str]:
-    """Return the words into which a shell splits the command; an empty list if it is not a valid command."""
-    try:
-        return shlex.split(command) if isinstance(command, str) else []
-    except ValueError:  # a quotation mark is not closed
-        return []
-
-
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
     """Assert that the room's node serves the room's service; `before` contains the older addresses."""
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
@@ -112,20 +112,25 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         hint = _astray(room, found)
         context.fail(WHERE, expected=wanted, actual=found or "no new service", hint=hint)
     context.require(WHERE, holds=True)
-    context.expect(
-        "the node of a room is measurer, in the namespace of the room",
-        expected=node,
-        actual=service.node,
-        hints=[
-            (matches("SERVER_NODE"), "That is the default name of the program. Change it with __name:=…."),
-            (
-                "/measurer",
-                "The node is not in the namespace of the room. Use __ns:=…, which sets the "
-                "namespace of the whole node.",
-            ),
-            (ANYTHING, "The node has to be `measurer` in the namespace of the room."),
-        ],
-    )
+    with context.goal(OWN_NODE):
+        context.expect(
+            "the node of a room is measurer, in the namespace of the room",
+            expected=node,
+            actual=service.node,
+            hints=[
+                (
+                    matches("SERVER_NODE"),
+                    "That is the default name of the program. Change it with __name:=….",
+                ),
+                (
+                    "/measurer",
+                    "The node is not in the namespace of the room. Use __ns:=…, which sets the "
+                    "namespace of the whole node.",
+                ),
+                (ANYTHING, "The node has to be `measurer` in the namespace of the room."),
+            ],
+        )
+    require_served_by_program(context, server, wanted)
 
 
 def _astray(room: str, found: str) -> str:
@@ -153,61 +158,68 @@ def _astray(room: str, found: str) -> str:
 def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
     """Assert that the node that is not in `before` has the names of this arm's viewer."""
     name, seen = _viewer(context, viewer, before)
-    context.expect(
-        "the node is the arm's viewer, in the namespace /screen",
-        expected=f"/screen/{arm}_viewer",
-        actual=name or "no new node that subscribes to a topic",
-        hints=[
-            (
-                matches("simulator$"),
-                "That is the default name of the program. Choose the name of the node with __name:=….",
-            ),
-            (
-                f"/{arm}_viewer",
-                "The node is not in the namespace /screen. Use __ns:=/screen, which sets the "
-                "namespace of the whole node.",
-            ),
-            (
-                ANYTHING,
-                "The node has to be ARM_viewer in the namespace /screen, where ARM is the name of the arm.",
-            ),
-        ],
-    )
-    context.expect(
-        "the viewer subscribes to the arm's joint_states",
-        expected=[f"/{arm}/joint_states"],
-        actual=[topic.name for topic in seen.topics if name in topic.subscribers],
-        hints=[
-            (
-                ("/screen/joint_states",),
-                "The viewer subscribes in its own namespace, but no arm publishes there. Remap "
-                "joint_states with :=.",
-            ),
-            (
-                (f"/screen/{arm}/joint_states",),
-                "Your new name is relative, so it is in the namespace /screen. A global name "
-                "starts with a slash.",
-            ),
-            (ANYTHING, "The arm publishes joint_states in the namespace with the name of the arm."),
-        ],
-    )
+    with context.goal(VIEWER):
+        context.expect(
+            "the node is the arm's viewer, in the namespace /screen",
+            expected=f"/screen/{arm}_viewer",
+            actual=name or "no new node that subscribes to a topic",
+            hints=[
+                (
+                    matches("simulator$"),
+                    "That is the default name of the program. Choose the name of the node with __name:=….",
+                ),
+                (
+                    f"/{arm}_viewer",
+                    "The node is not in the namespace /screen. Use __ns:=/screen, which sets the "
+                    "namespace of the whole node.",
+                ),
+                (
+                    ANYTHING,
+                    "The node has to be ARM_viewer in the namespace /screen, where ARM is the name of "
+                    "the arm.",
+                ),
+            ],
+        )
+    with context.goal(SUBSCRIBES):
+        context.expect(
+            "the viewer subscribes to the arm's joint_states",
+            expected=[f"/{arm}/joint_states"],
+            actual=[topic.name for topic in seen.topics if name in topic.subscribers],
+            hints=[
+                (
+                    ("/screen/joint_states",),
+                    "The viewer subscribes in its own namespace, but no arm publishes there. Remap "
+                    "joint_states with :=.",
+                ),
+                (
+                    (f"/screen/{arm}/joint_states",),
+                    "Your new name is relative, so it is in the namespace /screen. A global name "
+                    "starts with a slash.",
+                ),
+                (ANYTHING, "The arm publishes joint_states in the namespace with the name of the arm."),
+            ],
+        )
     published = [topic.name for topic in seen.topics if name in topic.publishers]
-    context.expect(
-        "the viewer publishes the arm's mirrored_joints",
-        expected=[f"/screen/{arm}/mirrored_joints"],
-        actual=[topic for topic in published if topic != "/rosout" and not topic.endswith("/pictures")],
-        hints=[
-            (
-                ("/screen/mirrored_joints",),
-                "The viewers of all arms would publish on this topic. Remap mirrored_joints, too.",
-            ),
-            (
-                (f"/{arm}/mirrored_joints",),
-                "This topic is outside of /screen. A relative name stays in the namespace of the node.",
-            ),
-            (ANYTHING, "The topic has to be /screen/ARM/mirrored_joints, where ARM is the name of the arm."),
-        ],
-    )
+    with context.goal(PUBLISHES):
+        context.expect(
+            "the viewer publishes the arm's mirrored_joints",
+            expected=[f"/screen/{arm}/mirrored_joints"],
+            actual=[topic for topic in published if topic != "/rosout" and not topic.endswith("/pictures")],
+            hints=[
+                (
+                    ("/screen/mirrored_joints",),
+                    "The viewers of all arms would publish on this topic. Remap mirrored_joints, too.",
+                ),
+                (
+                    (f"/{arm}/mirrored_joints",),
+                    "This topic is outside of /screen. A relative name stays in the namespace of the node.",
+                ),
+                (
+                    ANYTHING,
+                    "The topic has to be /screen/ARM/mirrored_joints, where ARM is the name of the arm.",
+                ),
+            ],
+        )
 
 
 def _viewer(context: CheckContext, viewer: Running, before: set[str]) -> tuple[str, Snapshot]:

@@ -1,5 +1,6 @@
 """Publishers: one that publishes at a rate and loses no message, and one that publishes each change."""
 
+import threading
 from itertools import pairwise
 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
@@ -9,8 +10,9 @@ from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
 WAITS_FOR_EVER = (
     "A topic may have no subscriber. Wait for a subscriber for at most 2 s, and then publish in any case."
 )
-# Times in s for a count without a subscriber, which waits 2 s and then publishes for 1 s.
-NO_WAIT, EARLIEST = 1.7, 2.6
+# Times in s for a count without a subscriber, which waits 2 s and then publishes 11 numbers in 1.1 s. After
+# 2.2 s, a subscriber comes.
+NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.2, 2.7, 11
 NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # s for a message to arrive on a busy machine
 AT_ONCE = 0.3  # s that the fastest of several calls may take
@@ -36,6 +38,8 @@ def create(kind, topic):
 def set_value(topic, value):
     notices[topic].set(value)
 """
+COUNTS = "Publish all numbers at the given rate, from the moment at which a subscriber is connected."
+LATCHED = "Let a node that subscribes later receive the last value."
 
 
 @part(
@@ -47,6 +51,7 @@ def set_value(topic, value):
     ),
     needs=["count_aloud"],
     deadline=40.0,
+    goals={COUNTS: 3, "Begin after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
     """Subscribe to two counts with different rates; then start a third count without a subscriber."""
@@ -74,25 +79,44 @@ def count_aloud(context: CheckContext) -> None:
                 "as there is one."
             ),
         )
+    context.fulfilled(COUNTS)
+    _counts_alone(context, f"/{context.random.word()}")
+
+
+def _counts_alone(context: CheckContext, topic: str) -> None:
+    """Start a count without a subscriber, and subscribe when it should already publish."""
+    late: list[Subscription] = []
+    comes = threading.Timer(COMES, lambda: late.append(context.subscribe(topic, "std_msgs/UInt32")))
+    comes.start()
     alone = context.run(
         "count_aloud",
-        f"/{context.random.word()}",
+        topic,
         10,
-        10,
-        within=7.0,
+        ALONE,
+        within=8.0,
         hints=[
             (matches("TimesUp"), WAITS_FOR_EVER),
             (matches("^(?!TimesUp)"), "Even without a subscriber, the function has to publish all numbers."),
         ],
     )
+    comes.join()
     alone.returned()
     context.require(
         "without a subscriber it begins after 2 s",
-        holds=EARLIEST < alone.took < 5.0,
-        expected="a wait of 2 s, then ten numbers at 10 per second; together about 3 s",
+        holds=EARLIEST < alone.took < 5.5,
+        expected=f"a wait of 2 s, then {ALONE} numbers at 10 per second; together about 3 s",
         actual=f"a count that ended after {alone.took:.1f} s",
         hints=TOO_SOON if alone.took < NO_WAIT else NO_NUMBERS if alone.took < EARLIEST else WAITS_FOR_EVER,
     )
+    late[0].until(lambda arrivals: bool(arrivals) and arrivals[-1].fields["data"] == ALONE - 1, 0.5)
+    numbers = [arrival.fields["data"] for arrival in late[0].arrivals]
+    if not numbers or numbers != list(range(numbers[0], ALONE)):
+        context.fail(
+            "without a subscriber it begins after 2 s",
+            expected=f"a subscriber that comes after {COMES} s receives the numbers up to {ALONE - 1}",
+            actual=str(numbers),
+            hint=NO_NUMBERS,
+        )
 
 
 def _slow(hertz: int) -> Hints:
@@ -158,10 +182,12 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     gaps = sorted(later.at - one.at for one, later in pairwise(arrivals))
     context.require(
         "the numbers are evenly spaced",
-        holds=gaps[len(gaps) // 2] > 0.5 / hertz,
+        holds=gaps[len(gaps) // 2] > 0.88 / hertz,
         expected=f"gaps of about {1000 / hertz:.0f} ms",
         actual=f"half of the gaps shorter than {1000 * gaps[len(gaps) // 2]:.0f} ms",
-        hints="The numbers arrive in groups. Pause after each single number.",
+        hints="The numbers arrive in groups. Pause after each single number."
+        if gaps[len(gaps) // 2] < 0.5 / hertz
+        else "The pauses are shorter than 1 / rate. Use rospy.Rate(rate).",
     )
 
 
@@ -171,6 +197,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
     needs=["Notice"],
     deadline=30.0,
+    goals=[LATCHED, "Publish each change once, and no value that stays the same."],
 )
 def a_notice(context: CheckContext) -> None:
     """Set values without a subscriber, with a subscriber, and before a late subscriber; one may be 0."""
@@ -193,6 +220,7 @@ def a_notice(context: CheckContext) -> None:
     listener = _subscribed(context, zero)
     _receives(context, listener, [0.0], "the first value is published, even if it is 0")
     _receives(context, _subscribed(context, twin), [first], LATE)
+    context.fulfilled(LATCHED)
     _set(context, zero, 0.0)
     _receives(context, listener, [0.0], "a value that stays the same is not published again")
     _set(context, topic, first)

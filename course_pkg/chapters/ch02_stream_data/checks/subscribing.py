@@ -13,6 +13,7 @@ from course_pkg.checking.peers.subscription import Arrival
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Fields, Value
 from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import at_this_load
 
 JOINTS = "sensor_msgs/JointState"
 KEEPER = """
@@ -50,6 +51,7 @@ def witness(message):
 """
 FIELDS = ("name", "position", "velocity")
 DRAWING, PREPARING = 0.25, 0.02  # s that one call takes
+RETURNS = 1.5  # s in which a function has to return; this takes some ms on an idle machine
 OLDEST = 0.5  # s; the largest age of an angle when a drawing begins
 ANGLES, ORDERS = 60, 20
 HEADER = "the header and its time stamp stay the same"
@@ -84,12 +86,17 @@ class Work:
             self._busy -= 1
 
 
+MIRRORED = "Publish every message once, with opposite signs and the same header."
+NEWEST, ALL_ORDERS = "Draw only the newest angle.", "Prepare each order once, in order."
+
+
 @part(
     "02.2",
     points=2,
     goal="Publish every message of one topic immediately on another topic, with opposite signs.",
     needs=["start_mirror"],
     deadline=30.0,
+    goals={MIRRORED: 3, "Publish it immediately, and do not change the received message.": 1},
 )
 def a_mirror(context: CheckContext) -> None:
     """Publish random joint states, and compare each of them with the mirrored message."""
@@ -122,6 +129,7 @@ def a_mirror(context: CheckContext) -> None:
             actual=subscription.count,
             hints=ONCE,
         )
+        context.fulfilled(MIRRORED)
         _promptly(context, publisher.sent, subscription.arrivals)
         expected, seen = _changed(messages, context.read("witnessed", list))
         context.expect(
@@ -133,6 +141,16 @@ def a_mirror(context: CheckContext) -> None:
                 "You changed the received message, so another callback of this program got the "
                 "changed message. Create a new JointState."
             ),
+        )
+    before = subscription.count
+    context.publish(source, JOINTS, messages, every=0.02)
+    subscription.during(0.4)
+    if subscription.count > before:
+        context.fail(
+            "the subscriber is returned",
+            expected="no mirrored message after unregister() of the subscriber",
+            actual=f"{subscription.count - before} messages",
+            hint=NO_SUBSCRIBER,
         )
 
 
@@ -175,7 +193,12 @@ def _begun(
     context.prepare(KEEPER)
     try:
         started = context.run(
-            "begin", Its(start), *args, worded=worded, hints=[(matches("TimesUp"), NEVER_RETURNS)]
+            "begin",
+            Its(start),
+            *args,
+            within=at_this_load(RETURNS),
+            worded=worded,
+            hints=[(matches("TimesUp"), NEVER_RETURNS)],
         )
         names = started.returned()
         swapped = len(topics) > 1 and names == list(reversed(topics))
@@ -304,6 +327,7 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
     goal="Draw only the newest angle of one topic, but prepare all orders of another topic.",
     needs=["start_robot"],
     deadline=30.0,
+    goals={NEWEST: 2, ALL_ORDERS: 1},
 )
 def two_queues(context: CheckContext) -> None:
     """Publish angles much faster than draw() handles them, and many orders within a short time."""
@@ -326,8 +350,10 @@ def two_queues(context: CheckContext) -> None:
         customers.finish(10.0)
         time.sleep(max(2 * DRAWING, ORDERS * PREPARING))  # wait for the calls with the last values
         drawn, prepared = [*draw.done], [value for _, value in prepare.done]
-    _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
-    _prepared(context, prepare.at_once, prepared, numbers)
+    with context.goal(NEWEST):
+        _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
+    with context.goal(ALL_ORDERS):
+        _prepared(context, prepare.at_once, prepared, numbers)
 
 
 def _drawn(

@@ -28,16 +28,17 @@ ear = Ear()
 
 
 def begin(start, *topics):
-    ear.names = getattr(start, "__globals__", {})
-    if ear.names.get("say_good_day") not in (None, ear):
-        ear.say = ear.names["say_good_day"]
-        ear.names["say_good_day"] = ear
+    names = getattr(start, "__globals__", {})
+    if names.get("say_good_day") not in (None, ear):
+        ear.say = names["say_good_day"]
+        ear.names = {name: names for name, value in names.items() if value is ear.say}
+        names.update(dict.fromkeys(ear.names, ear))
     return start(*topics)
 
 
 def end():
-    if ear.say:
-        ear.names["say_good_day"] = ear.say
+    for name, names in ear.names.items():
+        names[name] = ear.say
 """  # reports the calls, because the topic may not show that two calls run at the same time
 MIXED_UP = "The function publishes on `customers`. Subscribe to `customers`, and publish on `greetings`."
 TOO_LATE = (
@@ -74,12 +75,16 @@ class Greetings:
             self._busy -= 1
 
 
+GREETED = "Greet five customers once and in order, and publish each number after the greeting."
+
+
 @part(
     "03.2",
     points=2,
     goal="Greet each customer of a topic once, in the order of the messages.",
     needs=["start_greeting"],
     deadline=30.0,
+    goals={GREETED: 3, "Greet later customers, and customers after a second start_greeting().": 1},
 )
 def greet_everyone(context: CheckContext) -> None:
     """Announce five customers quickly, two of them twice; after a pause, two new ones and an old one."""
@@ -122,8 +127,16 @@ def _greets(
         actual="an earlier message",
         hints="The number was published before the greeting had ended. Call say_good_day(number) first.",
     )
+    context.fulfilled(GREETED)
     _told(context, customers, [later[0], first[3], later[1]])
     _greeted(context, said, subscription, numbers)
+    context.require(
+        "no customer is lost",
+        holds=set(map(str, numbers)) <= set(map(str, said.said)),
+        expected=f"a call of say_good_day() for each of {numbers}",
+        actual=f"calls for {said.said}",
+        hints="The number was published, but the customer was not greeted. Call say_good_day(number).",
+    )
     _starts_again(context, first[0])
 
 

@@ -44,17 +44,22 @@ class Counter:
         return Late(self.slow, answer) if self.slow else answer
 
 
+FOUND = "Return the number of a customer who is there, or who comes later."
+
+
 @part(
     "03.1",
     points=2,
     goal="Poll until a customer is there, with a limit for the rate and a limit for the time.",
     needs=["poll"],
     deadline=30.0,
+    goals=[FOUND, "Return None when the time is over, and make no more calls than the rate allows."],
 )
 def poll_with_a_deadline(context: CheckContext) -> None:
     """Try a present and a late customer; then try no customer, with a fast and with a slow detector."""
     _one_who_is_there(context)
     _one_who_comes(context)
+    context.fulfilled(FOUND)
     _nobody(context)
     _nobody_slowly(context)
 

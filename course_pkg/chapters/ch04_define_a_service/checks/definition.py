@@ -7,12 +7,12 @@ from collections.abc import Collection
 
 from course_pkg.chapters.ch04_define_a_service.checks.lamp import DEFINITION, PACKAGE, TYPE, built, md5_in
 from course_pkg.checking import CheckContext, part
-from course_pkg.errors import BrokenDefinition
+from course_pkg.checking.shared.definition import read_definition
 from course_pkg.types import MessageType, ServiceType, compile_service
 from course_pkg.types.definition import lines
 
 FILE = f"{PACKAGE}/srv/Lamp.srv"
-MARK = "\ufeff"
+FIELDS = "Write the fields of the request and of the response, with their types."
 
 
 @part(
@@ -21,16 +21,18 @@ MARK = "\ufeff"
     goal="Write Lamp.srv as described in the exercise.",
     needs=[f"file:{FILE}"],
     deadline=60.0,
+    goals={FIELDS: 3, "Write the constants of the request.": 1},
 )
 def the_lamp(context: CheckContext) -> None:
     """Parse the text as ROS does, compare it with the description, and build it in another folder."""
     text = context.source(f"file:{FILE}")
-    asked, given = compile_service(TYPE, DEFINITION), _read(context, text)
+    asked, given = compile_service(TYPE, DEFINITION), read_definition(context, TYPE, text)
     answers = {field.name for field in asked.response.fields}
     _names(context, "request", asked.request, given.request, text, elsewhere=answers)
     _names(context, "response", asked.response, given.response, text)
     _types(context, "request", asked.request, given.request, text)
     _types(context, "response", asked.response, given.response, text)
+    context.fulfilled(FIELDS)
     _constants(context, asked, given, text)
     folder = built(context, given=[FILE])
     md5, printed = md5_in(folder)
@@ -40,24 +42,6 @@ def the_lamp(context: CheckContext) -> None:
         expected=asked.md5,
         actual=md5 or printed,
     )
-
-
-def _read(context: CheckContext, text: str) -> ServiceType:
-    assertion = "ROS can read the definition"
-    if text.startswith(MARK):
-        hint = "Line 1 begins with an invisible mark of Windows. Save the file as UTF-8 without BOM."
-        context.fail(assertion, expected="a definition", actual="an invisible mark", hint=hint)
-    try:
-        given = compile_service(TYPE, text)
-    except BrokenDefinition as error:
-        seen = f"line {error.line}: {error.text.strip()}" if error.text.strip() else f"line {error.line}"
-        hint = f"{_sentence(error.problem)} {_sentence(error.remedy)}"
-        hint = "Remove the line with the three dots." if error.text.strip() == "..." else hint
-        if "\t" in error.text.split("#")[0].strip():
-            hint = "There is a tab between type and name. ROS separates them only at spaces, so use a space."
-        context.fail(assertion, expected="a definition", actual=seen, hint=hint)
-    context.require(assertion, holds=True)
-    return given
 
 
 def _names(
@@ -178,7 +162,3 @@ def _line(text: str, name: str) -> str:
         if any(word.text.partition("=")[0] == name for word in line.words()[1:]):
             return f"Line {line.number}: "
     return ""
-
-
-def _sentence(text: str) -> str:
-    return f"{text[:1].upper()}{text[1:]}."

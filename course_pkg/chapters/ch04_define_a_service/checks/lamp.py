@@ -19,7 +19,7 @@ TYPE = "lamp_services/Lamp"
 LIMITS = "ulimit -t 6 -f 100000"  # s of processor time and KiB of a file; a step takes 1 s of processor time
 BUILD = 40.0  # s for the whole build; it takes 1.5 s on an idle machine, and 20 s on a very busy one
 
-GENERATION = re.compile("catkin_package names message_generation")
+GENERATION = re.compile("catkin_package lists message_generation")
 RUNTIME = (
     "Only the build needs message_generation, but programs need message_runtime. Write "
     "message_runtime in catkin_package."
@@ -49,6 +49,7 @@ MANIFEST = """\
 
   <buildtool_depend>catkin</buildtool_depend>
   <build_depend>message_generation</build_depend>
+  <build_depend>rospy</build_depend>
   <build_depend>std_msgs</build_depend>
   <exec_depend>message_runtime</exec_depend>
   <exec_depend>rospy</exec_depend>
@@ -70,6 +71,7 @@ SOUND = {
     f"{PACKAGE}/srv/Lamp.srv": DEFINITION,
     f"{PACKAGE}/package.xml": MANIFEST,
     f"{PACKAGE}/CMakeLists.txt": LISTS,
+    f"{PACKAGE}/scripts/lamp_server.py": "#!/usr/bin/env python3\n",  # a CMakeLists.txt may install it
 }
 
 
@@ -80,7 +82,7 @@ def lamp_class() -> ServiceClass:
 
 def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
     """Build a workspace of the student's `given` (files or folders) and the check's own other files."""
-    texts = {path: text for path, text in SOUND.items() if path not in given}
+    texts = {path: text for path, text in SOUND.items() if not path.startswith(tuple(given))}
     folder = context.folder(files=given, texts=texts)
     build = run_catkin_make(folder, f"{LIMITS};", within=BUILD)
     printed = f"{build.out}\n{build.err}"
@@ -90,18 +92,11 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
     return folder
 
 
-def in_sourced(folder: Folder, line: str, within: float = 10.0) -> tuple[int | None, str]:
-    """Return status and output of a bash command in a shell that has sourced the folder's workspace."""
-    sourced = f". devel/setup.bash && {line}"
-    done = folder.command("bash", "-c", sourced, within=within, worded=line)
-    return done.status, done.out + done.err
-
-
 def md5_in(folder: Folder) -> tuple[str, str]:
-    """Return the MD5 sum of the type that Python finds in `folder`, or "" and the error output."""
+    """Return the MD5 sum of the type that Python finds in `folder`, and ""; or "" and the error output."""
     line = "python3 -c 'from lamp_services.srv import Lamp; print(Lamp._md5sum)'"
-    status, printed = in_sourced(folder, line)
-    return (printed.strip(), "") if status == 0 else ("", printed)
+    done = folder.command("bash", "-c", f". devel/setup.bash && {line}", within=10.0, worded=line)
+    return (done.out.strip(), "") if done.status == 0 else ("", done.out + done.err)
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:

@@ -20,6 +20,7 @@ catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
 add_service_files(FILES lamp.srv)
 # generate_messages()
 """
+GENERATED = "Let the build pass, and generate the type Lamp."
 
 
 @part(
@@ -29,6 +30,7 @@ add_service_files(FILES lamp.srv)
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals={GENERATED: 3, "Let other packages find this package.": 1},
 )
 def the_list_file(context: CheckContext) -> None:
     """Build the package with this file and the check's other files; then import the type."""
@@ -48,6 +50,7 @@ def the_list_file(context: CheckContext) -> None:
         expected=lamp_class()._md5sum,
         actual=md5,
     )
+    context.fulfilled(GENERATED)
     context.require(
         "other packages can find this package",
         holds=folder.command("test", "-f", CONFIGURATION).status == 0,

@@ -22,6 +22,8 @@ START = f"""%%writefile {FILE}
   <run_depend>rospy</run_depend>
 </package>
 """
+ACCEPTED = "Write a package.xml that catkin accepts."
+LISTED = {"built": "List what is needed to build.", "run": "List what is needed to run."}
 
 
 @part(
@@ -31,10 +33,12 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals=[ACCEPTED, *LISTED.values()],
 )
 def the_manifest(context: CheckContext) -> None:
     """Build the package with this file and the check's other files; then compare the dependencies."""
     built(context, given=[FILE])
+    context.fulfilled(ACCEPTED)
     text = context.source(f"file:{FILE}")
     for purpose, packages, tag in (
         ("built", ("message_generation", "std_msgs"), "build_depend"),
@@ -49,6 +53,7 @@ def the_manifest(context: CheckContext) -> None:
                 actual=", ".join(sorted(named)) or "nothing",
                 hints=_hint(text, package, tag),
             )
+        context.fulfilled(LISTED[purpose])
 
 
 def _hint(text: str, package: str, tag: str) -> str:

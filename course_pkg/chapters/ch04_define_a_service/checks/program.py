@@ -10,6 +10,7 @@ from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.commands.folder import Folder, Running
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.shared.script import require_shebang
+from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.types import message_type
 from course_pkg.workspace import explain
 
@@ -52,6 +53,7 @@ FAULTS = [
 
 START = f"""%%writefile {FILE}
 ..."""
+STARTED = "Write a program that rosrun can start, and that serves /lamp with the right type."
 
 
 @part(
@@ -61,6 +63,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals=[STARTED, "Return the response of the exercise for each mode."],
 )
 def the_program(context: CheckContext) -> None:
     """Build a copy, run its program with other names for node and service, and call the service."""
@@ -85,8 +88,11 @@ def the_program(context: CheckContext) -> None:
     with folder.start("bash", "-c", f". devel/setup.bash && exec {line}", worded=line) as running:
         _serves(context, running, name, f"/{node}")
         lamp = context.service(name, lamp_class(), hints=FAULTS, timeout=5.0)
-        for mode in (1, 2, 0, context.random.integer(3, 255), 1):
+        context.fulfilled(STARTED)
+        modes = [1, 2, 0, *context.random.integers(9, 3, 255), 1, 2]
+        for mode in (1, 2, 0, *context.random.shuffled(modes)):
             _answers(context, lamp, mode)
+        require_served_by_program(context, running, name)
 
 
 def _run_bit(context: CheckContext, folder: Folder) -> None:
@@ -152,7 +158,7 @@ def _own_line(printed: str) -> str:
 def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
     """Call once with a random colour and random times, and compare the three fields of the response."""
     red, green, blue = context.random.numbers(3, 0.1, 1.0)
-    seconds = context.random.numbers(context.random.integer(2, 5), 0.5, 9.0)
+    seconds = context.random.numbers(context.random.integer(2, 40), 0.5, 9.0)
     colour = message_type("std_msgs/ColorRGBA").to_message({"r": red, "g": green, "b": blue, "a": 1.0})
     response = lamp(mode=mode, colour=colour, seconds=seconds)
     known = mode in (0, 1, 2)

@@ -9,6 +9,7 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.script import require_shebang
+from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.ros.protocol.probe import ask_all, header_fields, service_probe
 from course_pkg.ros.protocol.snapshot import ServiceSeen
 from course_pkg.waiting import at_this_load, wait_until
@@ -17,10 +18,13 @@ FILE = "arm.py"
 MOVE, MAINTENANCE = "/move_arm", "/maintenance"
 STARTS = 8.0  # s for the program to serve; it takes 0.5 s on an idle machine
 POLL = 0.1  # s between two snapshots of the graph
-IMPORT = "import arm"
+IMPORTED = 77  # the exit status after an import that ends without sys.exit or os._exit
+IMPORT = f"import arm; raise SystemExit({IMPORTED})"
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
 ..."""
+MOVES = "Serve /move_arm and /maintenance, and count the moves."
+CLOSES = "Shut /move_arm down, and return the state and whether it changed."
 
 
 @part(
@@ -33,6 +37,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=30.0,
     start=START,
+    goals=[MOVES, CLOSES, "Serve /move_arm again, and continue the count."],
 )
 def close_for_maintenance(context: CheckContext) -> None:
     """Start the program; call /move_arm, close it twice, open it twice, and call it again."""
@@ -45,7 +50,9 @@ def close_for_maintenance(context: CheckContext) -> None:
     _can_be_imported(context, folder.command("python", "-c", IMPORT, within=4.0, worded="import arm"))
     with folder.start("python", FILE, worded=f"python3 {FILE}") as program:
         _serves(context, program)
+        require_served_by_program(context, program, MOVE, MAINTENANCE)
         _works(context)
+        require_served_by_program(context, program, MOVE, MAINTENANCE)
 
 
 def _serves(context: CheckContext, program: Running) -> None:
@@ -92,10 +99,12 @@ def _works(context: CheckContext) -> None:
     move = context.service(MOVE, "std_srvs/Trigger")
     maintenance = context.service(MAINTENANCE, "std_srvs/SetBool", hints=SWITCHES)
     _counts(context, [move().message, move().message], 1)
+    context.fulfilled(MOVES)
     address = context.look().service(MOVE)
     for data, changed in ((False, False), (True, True), (True, False)):
         _switches(context, maintenance(data=data), closed=data, changed=changed)
     _is_closed(context, address)
+    context.fulfilled(CLOSES)
     _switches(context, maintenance(data=False), closed=False, changed=True)
     context.require(
         "after the maintenance, /move_arm is served again",
@@ -183,7 +192,7 @@ def _is_closed(context: CheckContext, address: ServiceSeen | None) -> None:
 def _can_be_imported(context: CheckContext, done: Finished) -> None:
     context.require(
         "an import of the file starts nothing",
-        holds=done.status == 0 and not (done.out + done.err).strip(),
+        holds=done.status == IMPORTED and not (done.out + done.err).strip(),
         expected="an import that ends",
         actual="an import that does not end" if done.status is None else telling_line(done.out + done.err),
         hints=(

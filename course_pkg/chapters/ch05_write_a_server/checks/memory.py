@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from course_pkg.checking import CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Condition
+from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 A_NEW_SWITCH = """
 from rospy.impl.tcpros_service import convert_return_to_response
@@ -30,6 +31,14 @@ from std_srvs.srv import TriggerRequest, TriggerResponse
 def a_new_counter(kind):
     return convert_return_to_response(kind().handle_count(TriggerRequest()), TriggerResponse).message
 """
+ANOTHER_CLIENT = """
+import rospy
+from std_srvs.srv import Trigger
+
+
+def another_client():
+    return rospy.ServiceProxy("/count", Trigger)().message
+"""
 NO_REFUSAL = "A request for the present position is not an error. Return success=False and the position."
 STARTS_ON = "A new switch was not off. Set its position to False in __init__."
 SHARES = (
@@ -45,6 +54,10 @@ ELSEWHERE = {
         "The message is the position before the call. Change the position first, and then set the message."
     ),
 }
+COUNTED = "Count the calls after each reset in the message."
+SUCCESS = "Return success=True."
+POSITION = "Return the position after the call in the message."
+MOVED = "Return in success whether the switch moved."
 
 
 @part(
@@ -52,6 +65,7 @@ ELSEWHERE = {
     points=2,
     goal="Serve /count, which counts its calls, and /reset_count, which sets the count to zero.",
     needs=["Counter|count_service"],
+    goals={COUNTED: 3, SUCCESS: 1},
 )
 def a_counter_that_resets(context: CheckContext) -> None:
     """Call /count to learn the present count; then reset it, and count beyond 9."""
@@ -77,18 +91,22 @@ def a_counter_that_resets(context: CheckContext) -> None:
             )
         ],
     )
+    require_served_by_notebook(context, "/count", "/reset_count")
     count(), count()
     before = count().message
     for last in (context.random.integer(3, 6), 12):
         reset()
         for number in range(1, last + 1):
             response = count()
-            context.expect(
-                "success is True",
-                expected=True,
-                actual=response.success,
-                hints=[(False, "success is False: a bool field without a value is False. Set it to True.")],
-            )
+            with context.goal(SUCCESS):
+                context.expect(
+                    "success is True",
+                    expected=True,
+                    actual=response.success,
+                    hints=[
+                        (False, "success is False: a bool field without a value is False. Set it to True.")
+                    ],
+                )
             context.expect(
                 "after each reset, the message counts 1, 2, 3",
                 expected=str(number),
@@ -124,12 +142,19 @@ def a_counter_that_resets(context: CheckContext) -> None:
                 ],
             )
             before = response.message
-    reset()
+    context.prepare(ANOTHER_CLIENT)
+    context.expect(
+        "after each reset, the message counts 1, 2, 3",
+        expected=str(int(before) + 1),
+        actual=context.run("another_client", worded="a call from another client").returned(),
+        hints="The calls of all clients have to change the same count. Store one number in self.",
+    )
     _starts_from_zero(context)
+    context.fulfilled(COUNTED)
 
 
 def _starts_from_zero(context: CheckContext) -> None:
-    """Count once with a new object; skip a class that does not work as in the exercise."""
+    """Count once with a new object, while /count is not at zero; skip a class that works otherwise."""
     if not context.has("Counter"):
         return
     context.prepare(A_NEW_COUNTER)
@@ -139,7 +164,8 @@ def _starts_from_zero(context: CheckContext) -> None:
             "after each reset, the message counts 1, 2, 3",
             expected="'1'",
             actual=repr(new.value),
-            hint="A new counter did not start from zero. Set its count to zero in __init__.",
+            hint="A new counter did not start from zero. Set its count to zero in __init__, and store it in "
+            "self.",
         )
 
 
@@ -162,49 +188,59 @@ def _follows(before: str) -> Callable[[str], bool]:
         "Serve /switch: move to the wanted position; return whether the switch moved, and the new position."
     ),
     needs=["Switch|switch_service"],
+    goals={POSITION: 2, MOVED: 2, "Let each new Switch() be off.": 1},
 )
 def a_switch_that_tells(context: CheckContext) -> None:
     """Call /switch with data=False, then ten times; then try a new Switch(), which must be off."""
     turn = context.service(
         "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]
     )
+    require_served_by_notebook(context, "/switch")
     turn(data=False)
-    context.expect(
-        "data=False means off",
-        expected="off",
-        actual=turn(data=False).message,
-        hints=[
-            ("on", "The field `data` is False, but the message is on. True means on, and False means off."),
-            *MESSAGE,
-        ],
-    )
+    with context.goal(POSITION):
+        context.expect(
+            "data=False means off",
+            expected="off",
+            actual=turn(data=False).message,
+            hints=[
+                (
+                    "on",
+                    "The field `data` is False, but the message is on. True means on, and False means off.",
+                ),
+                *MESSAGE,
+            ],
+        )
     on = False
     for data in [True, True, False, False, *(context.random.choice([True, False]) for _ in range(6))]:
         response = turn(data=data)
-        context.expect(
-            "the message is the position after the call",
-            expected="on" if data else "off",
-            actual=response.message,
-            hints=[("off" if data else "on", ELSEWHERE[data == on]), *MESSAGE],
-        )
-        context.expect(
-            "success shows whether the switch moved",
-            expected=data != on,
-            actual=response.success,
-            hints=[
-                (
-                    True,
-                    "The switch did not move, but success is True. Here, success means that it "
-                    "moved: store the position, and compare it with `data`.",
-                ),
-                (
-                    False,
-                    "The switch moved, but success is False. Compare `data` with the position "
-                    "before you change it.",
-                ),
-            ],
-        )
+        with context.goal(POSITION):
+            context.expect(
+                "the message is the position after the call",
+                expected="on" if data else "off",
+                actual=response.message,
+                hints=[("off" if data else "on", ELSEWHERE[data == on]), *MESSAGE],
+            )
+        with context.goal(MOVED):
+            context.expect(
+                "success shows whether the switch moved",
+                expected=data != on,
+                actual=response.success,
+                hints=[
+                    (
+                        True,
+                        "The switch did not move, but success is True. Here, success means that it "
+                        "moved: store the position, and compare it with `data`.",
+                    ),
+                    (
+                        False,
+                        "The switch moved, but success is False. Compare `data` with the position "
+                        "before you change it.",
+                    ),
+                ],
+            )
         on = data
+    context.fulfilled(POSITION)
+    context.fulfilled(MOVED)
     context.prepare(A_NEW_SWITCH)
     if not context.has("Switch"):  # the handler is not a method of Switch
         return

@@ -7,6 +7,7 @@ def is_list(function, *args):
     return isinstance(function(*args), list)
 """  # a check receives a tuple as a list, so only the kernel sees the difference
 FOR_ROS = "An argument with := is for ROS. rospy.myargv(argv) returns the other arguments."
+NUMBERS = "Return the three numbers, and ignore arguments for ROS."
 
 
 @part(
@@ -14,6 +15,7 @@ FOR_ROS = "An argument with := is for ROS. rospy.myargv(argv) returns the other 
     points=2,
     goal="Return the three numbers in the list of arguments, or None if there are not exactly three.",
     needs=["read_sides"],
+    goals=[NUMBERS, "Return None if there are not exactly three numbers."],
 )
 def read_the_arguments(context: CheckContext) -> None:
     """Try valid arguments without and with arguments for ROS; then too few, too many, and a word."""
@@ -83,6 +85,7 @@ def read_the_arguments(context: CheckContext) -> None:
             near=1e-9,
             hints=FOR_ROS,
         )
+    context.fulfilled(NUMBERS)
     context.expect(
         "None when there are too few",
         expected=None,
@@ -95,7 +98,11 @@ def read_the_arguments(context: CheckContext) -> None:
         actual=context.run("read_sides", [program, *texts, "1.0"], hints=_ENDS).returned(),
         hints="Four numbers are too many. Return None; do not ignore one of them.",
     )
-    for others in ([texts[0], "wide", texts[2]], [*texts[:2], "wide", texts[2]]):
+    for others in (
+        [texts[0], "wide", texts[2]],
+        [*texts[:2], "wide", texts[2]],
+        [texts[0], f"float({texts[1]})", texts[2]],
+    ):
         context.expect(
             "None when one is not a number",
             expected=None,

@@ -4,12 +4,16 @@ from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volum
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
+CALLED = "Call the given service once, with length, width and height."
+RETURNED = "Return the area and the volume of the response."
+
 
 @part(
     "06.1",
     points=2,
     goal="Call the given service, and return the area and the volume of its response.",
     needs=["measure"],
+    goals=[CALLED, RETURNED],
 )
 def the_geometry_client(context: CheckContext) -> None:
     """Respond with random numbers, so that only a call returns the right numbers."""
@@ -54,29 +58,35 @@ def the_geometry_client(context: CheckContext) -> None:
                 ),
             ],
         )
-        context.expect(
-            "area and volume are returned, in this order",
-            expected=[area, volume],
-            actual=returned,
-            near=1e-6,
-            hints=[
-                (None, NO_RETURN),
-                (
-                    {"area": area, "volume": volume},
-                    "This is the whole response. Return only its fields `area` and `volume`.",
-                ),
-                ([volume, area], "The order is wrong. Return the area first, and then the volume."),
-                (
-                    lambda actual: not isinstance(actual, list),
-                    "Return the area and the volume, with a comma between them.",
-                ),
-                ([length, width], "These are fields of the request. Read area and volume from the response."),
-                (
-                    ANYTHING,
-                    "Return the area and the volume of the response unchanged. Do not compute or round them.",
-                ),
-            ],
-        )
+        with context.goal(RETURNED):
+            context.expect(
+                "area and volume are returned, in this order",
+                expected=[area, volume],
+                actual=returned,
+                near=1e-6,
+                hints=[
+                    (None, NO_RETURN),
+                    (
+                        {"area": area, "volume": volume},
+                        "This is the whole response. Return only its fields `area` and `volume`.",
+                    ),
+                    ([volume, area], "The order is wrong. Return the area first, and then the volume."),
+                    (
+                        lambda actual: not isinstance(actual, list),
+                        "Return the area and the volume, with a comma between them.",
+                    ),
+                    (
+                        [length, width],
+                        "These are fields of the request. Read area and volume from the response.",
+                    ),
+                    (
+                        ANYTHING,
+                        "Return the area and the volume of the response unchanged. Do not compute or "
+                        "round them.",
+                    ),
+                ],
+            )
+    context.fulfilled(CALLED)
 
 
 _UNAVAILABLE = [

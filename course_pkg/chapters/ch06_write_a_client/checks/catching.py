@@ -24,6 +24,8 @@ class no_name:
 """  # each use of this object raises the same error as a name of a wrong type
 
 DEPENDS = "The result must depend on the response of this call, not on earlier calls."
+VOLUME = "Return the volume of the response."
+CAUGHT = "Return None if the call failed."
 
 
 @part(
@@ -32,6 +34,7 @@ DEPENDS = "The result must depend on the response of this call, not on earlier c
     goal="Return the volume, or None if the call failed; do not catch errors of the arguments.",
     needs=["volume_or_none"],
     deadline=30.0,
+    goals={VOLUME: 1, CAUGHT: 2, "Do not catch errors of the arguments.": 1},
 )
 def catch_what_can_happen(context: CheckContext) -> None:
     """Try two working servers, four servers that fail in different ways, and wrong arguments."""
@@ -59,11 +62,13 @@ def catch_what_can_happen(context: CheckContext) -> None:
                 (ANYTHING, "Return the field `volume` of the response."),
             ],
         )
+    context.fulfilled(VOLUME)
     for failure, name, server in _failing(context):
         _fails(context, failure, name, sides)
         if server:
             _is_called_once(context, server)
     _in_a_random_order(context, sides)
+    context.fulfilled(CAUGHT)
     for slip in (f"{context.random.word()} metres", context.random.number(2.0, 9.0) * 1e200):
         _comes_out(context, context.run("volume_or_none", good, slip, *sides[1:]), repr(slip))
     text = str(sides[0])
@@ -89,7 +94,7 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
             _fails(context, "refuses", name, sides)
             _is_called_once(context, refuses)
         else:
-            context.serve(name, GEOMETRY, lambda _, volume=volume: {"volume": volume})
+            server = context.serve(name, GEOMETRY, lambda _, volume=volume: {"volume": volume})
             context.expect(
                 "it returns the volume of the response",
                 expected=volume,
@@ -97,6 +102,13 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
                 near=1e-6,
                 hints=DEPENDS,
             )
+            if len(server.requests) > 1:
+                context.fail(
+                    "it returns the volume of the response",
+                    expected="one call of the service",
+                    actual=f"{len(server.requests)} calls",
+                    hint="The function called the service more than once. Call it once.",
+                )
 
 
 def _is_called_once(context: CheckContext, server: ScriptedServer) -> None:

@@ -18,7 +18,8 @@ FILE = "fits.py"
 RUNS = 9.0  # s for all runs, which are started at the same time; the program waits 2 s at most
 LATE = 0.5  # s between the first snapshot that contains the node and the start of the service
 POLL = 0.2  # s between two tests whether the runs have ended
-IMPORT = "import sys; sys.argv = ['fits.py']; import fits"
+IMPORTED = 77  # the exit status after an import that ends without sys.exit or os._exit
+IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"
 USAGE = "usage"
 ENDED_WITH_TEXT = (
     "The exit status is 1, because sys.exit with a text always ends with 1. Print the text, "
@@ -42,6 +43,11 @@ class Case:
     hint: str = ""  # for a wrong exit status
     remapped: bool = False  # whether getGeometry is remapped; otherwise the program runs in another namespace
     late: bool = False  # the service starts after the program
+    ends: str = ""  # the goal that is fulfilled if this run and the runs before it are right
+
+
+COMPARED = "Call getGeometry, and print whether the volume is at most LIMIT."
+USED = "Print a usage line, and end with 2, if the arguments are wrong."
 
 
 @part(
@@ -54,6 +60,7 @@ class Case:
     needs=[f"file:{FILE}"],
     deadline=30.0,
     start=START,
+    goals={COMPARED: 2, USED: 1, "End with 3 if the call fails, and wait for a late service.": 1},
 )
 def does_it_fit(context: CheckContext) -> None:
     """Run the program for all cases at the same time; each case has its own namespace."""
@@ -89,6 +96,8 @@ def does_it_fit(context: CheckContext) -> None:
     for each, done in zip(started, finished[1:], strict=True):
         each.run.show()
         _examine(context, each.case, each.server, done, elsewhere=bool(absolute.requests))
+        if each.case.ends:
+            context.fulfilled(each.case.ends)
 
 
 def _cases(context: CheckContext) -> list[Case]:
@@ -124,6 +133,7 @@ def _cases(context: CheckContext) -> list[Case]:
             "too large",
             hint="The volume in the response is larger than LIMIT: print too large, and end with the exit "
             "status 1.",
+            ends=COMPARED,
         ),
         Case("three numbers", sides, answer, 2, USAGE, calls=0, hint=usage),
         Case(
@@ -134,6 +144,7 @@ def _cases(context: CheckContext) -> list[Case]:
             USAGE,
             calls=0,
             hint="float() raises ValueError for a word. Catch it, print the usage line, and end with 2.",
+            ends=USED,
         ),
         Case(
             "a refusal",
@@ -191,7 +202,7 @@ class Started:
 def _can_be_imported(context: CheckContext, done: Finished) -> None:
     context.require(
         "an import of the file runs nothing",
-        holds=done.status == 0 and not done.out.strip(),
+        holds=done.status == IMPORTED and not done.out.strip(),
         expected="no output",
         actual=telling_line(done.out),
         hints=(
@@ -240,10 +251,13 @@ def _examine(
 
 
 def _prints(case: Case, out: str) -> bool:
-    """Return whether a line of the output is the text of the table, or contains the error message."""
+    """Return whether the output has a line with the text of the table, and no line with another text."""
     lines = [line.strip() for line in out.splitlines()]
+    usage = any(line.startswith("usage:") for line in lines)
+    if usage != (case.prints == USAGE) or {"fits", "too large"}.intersection(lines) - {case.prints}:
+        return False
     if case.prints == USAGE:
-        return any(line.startswith("usage:") for line in lines)
+        return True
     if case.status in (0, 1):
         return case.prints in lines
     return case.prints in out and any(lines)

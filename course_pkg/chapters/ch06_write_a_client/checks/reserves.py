@@ -9,6 +9,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
+FIRST = "Return the volume of the first service if it responds."
+NEXT = "Return the volume of the next service if a service does not exist or refuses."
 
 
 @part(
@@ -20,19 +22,21 @@ KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhe
     ),
     needs=["first_answer"],
     deadline=30.0,
+    goals=[FIRST, NEXT, "Wait one second for a response, and return None if no service responds."],
 )
 def ask_the_next_one(context: CheckContext) -> None:
     """Try a working server alone, after each kind of failing server, and then only failing servers."""
     names = {kind: f"/{context.random.word()}" for kind in KINDS}  # a name must not show the kind
     first, second, late, tardy = volumes(context, 4)
-    context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
+    primary = context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
     reserve = context.serve(names["second"], GEOMETRY, lambda _: {"volume": second})
     context.serve(names["flat"], GEOMETRY, lambda _: {"volume": 0.0})
     context.serve(names["late"], GEOMETRY, lambda _: Late(0.6, {"volume": late}))
     context.serve(names["tardy"], GEOMETRY, lambda _: Late(1.3, {"volume": tardy}))
     context.serve(names["refuses"], GEOMETRY, lambda _: Refuse("not today"))
     context.serve(names["frozen"], GEOMETRY, lambda _: Silence())
-    working = _first_of(context, names, "first", "second")
+    sides = context.random.numbers(3, 0.5, 9.0)
+    working = context.run("first_answer", [names["first"], names["second"]], *sides, hints=_ERRORS)
     context.expect(
         "the first service is used if it responds",
         expected=first,
@@ -47,6 +51,13 @@ def ask_the_next_one(context: CheckContext) -> None:
             ),
             (ANYTHING, "Return the volume of the response."),
         ],
+    )
+    context.expect(
+        "the first service is used if it responds",
+        expected=[dict(zip(("length", "width", "height"), sides, strict=True))],
+        actual=primary.requests,
+        near=1e-4,
+        hints="Call a service once, and send the three sides unchanged.",
     )
     context.expect(
         "then no other service is called",
@@ -66,7 +77,9 @@ def ask_the_next_one(context: CheckContext) -> None:
             "test for an empty list or for None."
         ),
     )
-    for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), ["nowhere", "refuses"]):
+    context.fulfilled(FIRST)
+    many = context.random.shuffled(["nowhere", *["refuses"] * context.random.integer(2, 3)])
+    for failing in (*context.random.shuffled([["nowhere"], ["refuses"]]), many):
         context.expect(
             "the next service is used if one fails",
             expected=second,
@@ -80,6 +93,7 @@ def ask_the_next_one(context: CheckContext) -> None:
                 )
             ],
         )
+    context.fulfilled(NEXT)
     context.expect(
         "the client waits for a response that comes after 0.6 s",
         expected=late,
@@ -172,4 +186,5 @@ _ERRORS: Hints = [
 def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
     """Run the student's function with the names of the services of these kinds, in this order."""
     sides = context.random.numbers(3, 0.5, 9.0)
-    return context.run("first_answer", [names[kind] for kind in kinds], *sides, hints=hints or _ERRORS)
+    services = [names[kind] for kind in kinds]
+    return context.run("first_answer", services, *sides, within=3.0 + len(services), hints=hints or _ERRORS)

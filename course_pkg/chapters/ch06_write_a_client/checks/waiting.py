@@ -7,6 +7,7 @@ from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
 SAME = 1.5  # s, a limit for services that exist and for others; a busy machine connects within this time
+THERE = "Return True for a service that exists, and False for a service that does not exist."
 
 
 @part(
@@ -18,6 +19,7 @@ SAME = 1.5  # s, a limit for services that exist and for others; a busy machine 
     ),
     needs=["is_there"],
     deadline=30.0,
+    goals=[THERE, "Return True for a service that starts in time."],
 )
 def is_anybody_there(context: CheckContext) -> None:
     """Try a running server, two names without a running server, and a server that starts during the wait."""
@@ -87,6 +89,7 @@ def is_anybody_there(context: CheckContext) -> None:
         "The master still lists this service, but its process has ended. Use wait_for_service, "
         "which connects to the server itself.",
     )
+    context.fulfilled(THERE)
     Timer(1.3, context.serve, [later, GEOMETRY, lambda _: {}]).start()
     context.expect(
         "True for a service that comes in time",

@@ -25,6 +25,8 @@ WITHIN = 16.0  # s for a run: rospy starts in 0.5 s (5 s on a busy machine), and
 
 START = f"""%%writefile {FILE}
 ..."""
+PRINTED = "Call the service, and print the area and the volume."
+EXPLAINED = "End with 2 if the arguments are wrong."
 
 
 @part(
@@ -37,6 +39,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
+    goals=[PRINTED, EXPLAINED, "End with 1 if there is no response."],
 )
 def the_client(context: CheckContext) -> None:
     """Run the client with a server that responds or refuses, with wrong arguments, and without a server."""
@@ -45,7 +48,9 @@ def the_client(context: CheckContext) -> None:
     package = built(context, MY_GEOMETRY, examined=CLIENT.file)
     can_be_imported(context, package, CLIENT)
     _prints_the_answer(context, package)
+    context.fulfilled(PRINTED)
     _explains_its_usage(context, package)
+    context.fulfilled(EXPLAINED)
     _ends_with_one_after_a_refusal(context, package)
     _gives_up_without_a_server(context, package)
 

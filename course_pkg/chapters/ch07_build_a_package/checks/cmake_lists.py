@@ -26,6 +26,8 @@ find_package(catkin REQUIRED COMPONENTS
 
 catkin_package()
 """
+GENERATED = "Generate the type my_geometry/geometry."
+WAITS = "Let the target my_geometry_programs wait for the type."
 
 
 @part(
@@ -39,6 +41,7 @@ catkin_package()
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
+    goals=[GENERATED, WAITS, "Name message_runtime for other packages."],
 )
 def the_build(context: CheckContext) -> None:
     """Build the package; then remove the generated classes, and build only the target."""
@@ -47,7 +50,9 @@ def the_build(context: CheckContext) -> None:
     package = built(context, MY_GEOMETRY, examined=NAME, drawn={"srv/geometry.srv": definition})
     md5 = compile_service("my_geometry/geometry", definition).md5
     _has_type(context, package, text, md5)
+    context.fulfilled(GENERATED)
     _target_waits(context, package, text, md5)
+    context.fulfilled(WAITS)
     _tells_other_packages(context, package, text)
 
 

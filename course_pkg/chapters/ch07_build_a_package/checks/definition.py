@@ -12,8 +12,8 @@ from course_pkg.chapters.ch07_build_a_package.checks.packages import (
 )
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.catkin_package import Package, built
-from course_pkg.errors import BrokenDefinition
-from course_pkg.types import MessageType, ServiceType, compile_service
+from course_pkg.checking.shared.definition import read_definition
+from course_pkg.types import MessageType, compile_service
 
 GEOMETRY_FILE = "srv/geometry.srv"
 EXAMPLE_FILE = "srv/ServiceExample.srv"
@@ -52,7 +52,7 @@ def the_second_definition(context: CheckContext) -> None:
 def _examine(context: CheckContext, package: Package, file: str, name: str, text: str) -> None:
     full = f"{package.name}/{name}"
     asked = compile_service(full, text)
-    given = _read(context, full, context.source(f"file:{package.path(file)}"))
+    given = read_definition(context, full, context.source(f"file:{package.path(file)}"))
     _compare(context, "request", asked.request, given.request, asked.response)
     _compare(context, "response", asked.response, given.response, asked.request)
     md5, printed = built(context, package, examined=file, alone=True).md5(name)
@@ -66,18 +66,6 @@ def _examine(context: CheckContext, package: Package, file: str, name: str, text
             "without constants."
         ),
     )
-
-
-def _read(context: CheckContext, full: str, text: str) -> ServiceType:
-    assertion = "ROS can read the definition"
-    try:
-        given = compile_service(full, text)
-    except BrokenDefinition as error:
-        where = f"line {error.line}: {error.text.strip()}".rstrip(": ")
-        hint = " ".join(f"{each.rstrip('.')}." for each in (error.problem, error.remedy))
-        context.fail(assertion, expected="a definition", actual=where, hint=hint)
-    context.require(assertion, holds=True)
-    return given
 
 
 def _compare(

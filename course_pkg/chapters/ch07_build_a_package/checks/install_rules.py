@@ -15,6 +15,7 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 SCRIPTS = ("server.py", "client.py")
 PLACE = "lib/my_geometry"
 INSTALLING = 20.0  # s; it takes 1 s on an idle machine
+INSTALLED = "Install server.py and client.py in the folder in which rosrun finds them."
 
 
 @part(
@@ -26,6 +27,7 @@ INSTALLING = 20.0  # s; it takes 1 s on an idle machine
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
+    goals={INSTALLED: 3, "Install all that the server needs to run.": 1},
 )
 def the_install_rules(context: CheckContext) -> None:
     """Install a copy, hide the other folders, and start the installed server."""
@@ -33,6 +35,7 @@ def the_install_rules(context: CheckContext) -> None:
     _installs(context, package)
     for script in SCRIPTS:
         _is_in_its_place(context, package, script)
+    context.fulfilled(INSTALLED)
     package.folder.command("mv", "src", "devel", "build")
     space = f"/{context.random.word()}"
     name = f"{space}{SERVER.service}"
@@ -71,16 +74,26 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
         f"{script} is installed in {PLACE}, as an executable file",
         holds=there and "7" in modes[places.index(f"{PLACE}/{script}")],
         expected=f"{PLACE}/{script}",
-        actual=", ".join(places) or "no such file",
+        actual=", ".join(places) + (", a file that can only be read" if there else "") or "no such file",
         hints=_why_not_there(context.source(f"file:{FILE}"), script, places, there=there),
     )
+    # catkin_install_python may change the first line.
+    both = f"<(tail -n +2 {MY_GEOMETRY.path(f'scripts/{script}')}) <(tail -n +2 install/{PLACE}/{script})"
+    if package.folder.command("bash", "-c", f"cmp {both}", worded=f"cmp {script}").status != 0:
+        context.fail(
+            f"{script} is installed in {PLACE}, as an executable file",
+            expected=f"the same lines as in scripts/{script}",
+            actual="another file",
+            hint=f"The installed file is not the script of the package. Install scripts/{script}.",
+        )
 
 
 def _why_not_there(text: str, script: str, places: list[str], *, there: bool) -> str:
     rules = [each.name for each in cmake_commands(text) if not each.is_comment]
     if there:
         return (
-            "install(FILES …) installs files that are not executable. For scripts, use catkin_install_python."
+            "The installed file is not executable. install(FILES …) installs files that are not executable, "
+            "so use catkin_install_python for scripts."
         )
     if places:
         return (

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.catkin_package import built
-from course_pkg.workspace.fault import dependencies, manifest_tags
+from course_pkg.workspace.fault import dependencies, manifest_tags, without_comments
 
 NAME = "package.xml"
 FILE = MY_GEOMETRY.path(NAME)
@@ -37,6 +39,7 @@ START = f"""%%writefile {FILE}
   <exec_depend>std_msgs</exec_depend>
 </package>
 """
+COMPLETE = "List all packages that are needed, in a package.xml that catkin accepts."
 
 
 @part(
@@ -49,6 +52,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals={COMPLETE: 3, "Write your own description, address and licence.": 1},
 )
 def the_manifest(context: CheckContext) -> None:
     """Compare the dependencies, build the package, and read the texts that do not affect the build."""
@@ -64,8 +68,10 @@ def the_manifest(context: CheckContext) -> None:
                 hints=_about_dependency(text, package, tag),
             )
     built(context, MY_GEOMETRY, examined=NAME, alone=True)
+    context.fulfilled(COMPLETE)
     for name, (generated, hint) in GENERATED.items():
-        found = next((each.text for each in manifest_tags(text) if each.name == name), "")
+        whole = re.search(rf"<{name}\b[^>]*>(.*?)</{name}>", without_comments(text), re.DOTALL)
+        found = whole[1].strip() if whole else ""
         context.require(
             f"the {name} is your own",
             holds=found not in ("", generated),
@@ -75,7 +81,7 @@ def the_manifest(context: CheckContext) -> None:
         )
     context.require(
         "the address of the maintainer is your own",
-        holds="@todo.todo" not in text,
+        holds="@todo.todo" not in without_comments(text),
         expected="an address such as name@example.com",
         actual="the generated address",
         hints="Replace the address in the maintainer tag with your own, or with you@example.com.",

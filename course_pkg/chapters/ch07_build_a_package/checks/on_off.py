@@ -34,6 +34,8 @@ SERVER_START = f"""%%writefile {SERVER_FILE}
 ..."""
 CLIENT_START = f"""%%writefile {CLIENT_FILE}
 ..."""
+ANSWERED = "Return the state OFF for 0 and ON for 1."
+CALLED = "Call /onOff COUNT times, each time with a random number, 0 or 1."
 
 
 @part(
@@ -46,6 +48,7 @@ CLIENT_START = f"""%%writefile {CLIENT_FILE}
     needs=[f"file:{SERVER_FILE}"],
     deadline=120.0,
     start=SERVER_START,
+    goals={ANSWERED: 2, "Refuse any other number.": 1},
 )
 def the_on_off_server(context: CheckContext) -> None:
     """Start the server in a separate namespace; call it with 0, 1 and other numbers."""
@@ -76,7 +79,8 @@ def the_on_off_server(context: CheckContext) -> None:
                     (ANYTHING, "This state is not in the exercise. The only states are ON and OFF."),
                 ],
             )
-        for number in (2, -1, context.random.integer(3, 900)):
+        context.fulfilled(ANSWERED)
+        for number in (2, -1, context.random.integer(3, 2_000_000_000)):
             service.refused(
                 "any other number is refused, and the error message names the number",
                 saying=f"cannot process request: .*(?<!\\d){number}",
@@ -110,6 +114,7 @@ def the_on_off_server(context: CheckContext) -> None:
     needs=[f"file:{CLIENT_FILE}"],
     deadline=120.0,
     start=CLIENT_START,
+    goals=[CALLED, "Print a line for each call."],
 )
 def the_on_off_client(context: CheckContext) -> None:
     """Run the client with a server whose states are random words."""
@@ -141,6 +146,7 @@ def the_on_off_client(context: CheckContext) -> None:
             "each call of the service."
         ),
     )
+    context.fulfilled(CALLED)
     wanted = [f"{number}: {states[number % 2]}" for number in sent]
     printed = [line.strip() for line in done.out.splitlines() if re.match(r"\s*\d+\s*:", line)]
     context.require(

@@ -11,6 +11,7 @@ from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import BuiltPackage
 from course_pkg.checking.shared.script import require_shebang
+from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.errors import CheckError
 from course_pkg.workspace import explain
 
@@ -31,7 +32,9 @@ for name in ("init_node", "Service", "ServiceProxy", "wait_for_service", "spin",
     setattr(rospy, name, began)
 spec = importlib.util.spec_from_file_location("imported", sys.argv[1])
 spec.loader.exec_module(importlib.util.module_from_spec(spec))
+sys.exit(77)
 """
+IMPORTED = 77  # the exit status after an import that ends without sys.exit or os._exit
 ENDINGS = (  # a pattern in the output of the program, and a hint
     (r"rospy\.init_node\(\) first", "A service needs a node. Call rospy.init_node before rospy.Service."),
     (
@@ -103,7 +106,7 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
     began = done.status is None or "it began its work" in printed
     context.require(
         "an import of the script starts no node",
-        holds=done.status == 0,
+        holds=done.status == IMPORTED,
         expected="a script that only defines functions and classes",
         actual="a script that starts its work" if began else printed.strip().rpartition("\n")[2],
         hints=(
@@ -153,6 +156,7 @@ def serves(
         actual=found.node.rpartition("/")[2],
         hints=f'Call rospy.init_node("{program.node}"), without anonymous=True.',
     )
+    require_served_by_program(context, running, name)
 
 
 def _seen(program: Program, status: int | None, printed: str) -> str:

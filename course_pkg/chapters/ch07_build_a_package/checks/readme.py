@@ -8,13 +8,14 @@ from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY
 from course_pkg.checking import CheckContext, part
 
 FILE = MY_GEOMETRY.path("README.md")
-BLOCK = re.compile(r"^[ \t]*(?:```|~~~)\w*\n(.*?)^[ \t]*(?:```|~~~)", re.DOTALL | re.MULTILINE)
-NUMBER = r"-?\d+(?:\.\d*)?"
+BLOCK = re.compile(r"^[ \t]*(?:```|~~~)[^\n`]*\n(.*?)^[ \t]*(?:```|~~~)", re.DOTALL | re.MULTILINE)
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"
 FIELD = rf"\w+: *{NUMBER}"
 CALL = re.compile(
-    rf"rosservice call /?getGeometry\s+(?:--\s+)?"
-    rf"(?:{NUMBER}\s+{NUMBER}\s+{NUMBER}|['\"]\{{{FIELD}, *{FIELD}, *{FIELD}\}}['\"])\s*(?:#.*|)"
+    rf"rosservice +call +/?getGeometry +(?:-- +)?"
+    rf"(?:{NUMBER} +{NUMBER} +{NUMBER}|['\"]\{{?\s*{FIELD}(?:(?: *, *|\s+){FIELD}){{2}}\s*\}}?['\"])"
 )
+CLIENT = re.compile(rf"rosrun +my_geometry +client\.py(?: +{NUMBER}){{3}}")
 COMMANDS = (  # for each command: a pattern, its name, and the hint
     (
         r"catkin_make\b",
@@ -22,12 +23,12 @@ COMMANDS = (  # for each command: a pattern, its name, and the hint
         "The command that builds the package is missing. Write catkin_make on a line of a code block.",
     ),
     (
-        r"(?:source|\.) (?:\S*/)?devel/setup\.(?:ba|z)?sh",
+        r"(?:source|\.) +(?:\S*/)?(?:devel|install)/setup\.(?:ba|z)?sh",
         "source devel/setup.bash",
         "The command source devel/setup.bash is missing. A new terminal needs it.",
     ),
     (
-        r"rosrun my_geometry server\.py",
+        r"rosrun +my_geometry +server\.py|(?:python3 +|\./)(?:\S*/)?server\.py",
         "rosrun my_geometry server.py",
         "The command that starts the server is missing. Write the whole command, from rosrun "
         "to the name of the file.",
@@ -56,47 +57,48 @@ def the_readme(context: CheckContext) -> None:
         hints="In Markdown, a title is a line that begins with one # and a space.",
     )
     lines = [line.strip().removeprefix("$ ") for block in BLOCK.findall(text) for line in block.splitlines()]
+    commands = "\n".join(lines)
     context.require(
         "it has commands in a code block",
-        holds=bool(lines),
+        holds=bool(commands),
         expected="lines between ``` and ```",
         actual="no code block",
         hints="Write a line ``` above the commands, and another line ``` below them.",
     )
-    places = [_place(context, lines, *command) for command in COMMANDS]
-    places.append(_place_of_call(context, lines))
+    places = [_place(context, commands, *command) for command in COMMANDS]
+    places.append(_place_of_call(context, commands))
     context.require(
         "the commands are in the order in which they are typed",
         holds=places == sorted(places),
         expected="build, source, start, call",
-        actual=" / ".join(lines[place] for place in sorted(places)),
+        actual=" / ".join(commands[place:].partition("\n")[0] for place in sorted(places)),
         hints="Imagine a new terminal: first build, then source, then start the server, and then call it.",
     )
 
 
-def _place(context: CheckContext, lines: list[str], pattern: str, name: str, hint: str) -> int:
-    """Assert that a line has the command `name`; return the number of the first such line."""
-    found = [number for number, line in enumerate(lines) if re.search(pattern, line)]
+def _place(context: CheckContext, commands: str, pattern: str, name: str, hint: str) -> int:
+    """Assert that the lines `commands` contain the command `name`; return where it first begins."""
+    found = re.search(pattern, commands)
     context.require(
         f"it contains {name}",
-        holds=bool(found),
+        holds=found is not None,
         expected=name,
-        actual=" / ".join(lines)[:120],
+        actual=commands.replace("\n", " / ")[:120],
         hints=hint,
     )
-    return found[0]
+    return found.start() if found else 0
 
 
-def _place_of_call(context: CheckContext, lines: list[str]) -> int:
-    found = [number for number, line in enumerate(lines) if CALL.search(line)]
-    others = [line for line in lines if "rosservice" in line]
+def _place_of_call(context: CheckContext, commands: str) -> int:
+    found = (CALL if "rosservice call" in commands else CLIENT).search(commands)
+    others = [line for line in commands.splitlines() if "rosservice" in line]
     context.require(
         "it shows how to call the service",
-        holds=bool(found),
+        holds=found is not None,
         expected="rosservice call /getGeometry and three numbers",
         actual=" / ".join(others) or "no rosservice call",
         hints="The call needs the name /getGeometry, and one number for each of the three sides."
         if others
         else "Show a call with rosservice, as in step 8.",
     )
-    return found[0]
+    return found.start() if found else 0

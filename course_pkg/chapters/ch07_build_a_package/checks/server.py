@@ -20,6 +20,7 @@ FILE = MY_GEOMETRY.path(SERVER.file)
 
 START = f"""%%writefile {FILE}
 ..."""
+STARTED = "Start the node SERVER_NODE with the service /getGeometry."
 
 
 @part(
@@ -32,6 +33,7 @@ START = f"""%%writefile {FILE}
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
+    goals={STARTED: 1, "Return the area and the volume.": 2},
 )
 def the_server(context: CheckContext) -> None:
     """Build a copy of the package, start its program in a separate namespace, and call the service."""
@@ -45,6 +47,7 @@ def the_server(context: CheckContext) -> None:
     with package.start(line, worded=f"rosrun my_geometry {SERVER.name}") as running:
         serves(context, running, package, SERVER, name, f"{space}/{SERVER.node}")
         measure = context.service(name, geometry_class(), timeout=5.0)
+        context.fulfilled(STARTED)
         for _ in range(3):
             _answers(context, measure, *context.random.numbers(3, 0.5, 9.0))
         length, width = context.random.numbers(2, 0.5, 9.0)

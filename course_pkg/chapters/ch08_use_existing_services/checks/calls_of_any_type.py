@@ -45,6 +45,7 @@ NESTED = (
     "The field `camera_info` needs a message, but it got a dict. "
     "genpy.message.fill_message_args can fill a request from a dict that contains dicts."
 )
+CALLED = "Call services of three types, and return the fields of the response."
 
 
 @part(
@@ -53,11 +54,13 @@ NESTED = (
     goal="Call a service of any type with the fields in a dict, and return its response.",
     needs=["call_any"],
     deadline=25.0,
+    goals={CALLED: 2, "Raise an error for an unknown field, and return the whole response.": 1},
 )
 def call_of_any_type(context: CheckContext) -> None:
     """Serve three types with random names; then pass a field that the type does not have."""
     for example in example_calls(context):
         _calls(context, example)
+    context.fulfilled(CALLED)
     name = f"/{context.random.word()}"
     server = context.serve(name, "std_srvs/SetBool", lambda _: {"success": True})
     wrong = context.run("call_any", name, {"dat": True})

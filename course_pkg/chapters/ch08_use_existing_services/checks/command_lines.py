@@ -11,7 +11,10 @@ from course_pkg.checking.assertions import Hints, hint_for
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.plain_values import Fields, of_kind
+from course_pkg.checking.shared.command_line import commands_of
+from course_pkg.ros.protocol.json_channel import Json
 
+PRINTS = (["echo"], ["printf"])
 WORDS = 4  # number of words in a line: rosservice, call, the name, and one word with all fields
 SPLIT = (
     "bash has split the fields at spaces, or removed quotes. shlex.quote turns any text into one "
@@ -98,6 +101,12 @@ def line_for_a_terminal(context: CheckContext) -> None:
         _runs(context, example, server, of_kind(str, line, "the line"))
 
 
+def _is_call(line: Json) -> bool:
+    """Return whether the line is a call of rosservice, which may read the fields from a pipe."""
+    *before, last = commands_of(line) or [[]]
+    return last[:2] == ["rosservice", "call"] and all(words[:1] in PRINTS for words in before)
+
+
 def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, line: str) -> None:
     """Assert that the line makes one call, with the right fields."""
     finished = context.command("bash", "-c", line, within=12.0)
@@ -109,6 +118,13 @@ def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, l
         actual=_decisive_lines(output),
         hints=TWICE if len(server.requests) > 1 else _complaint(line, output),
     )
+    if not _is_call(line):
+        context.fail(
+            "it returns a string with rosservice call in it",
+            expected="one command, rosservice call",
+            actual=line,
+            hint="Another program in the line makes the call. Write one command.",
+        )
     context.expect(
         f"{example.what}: the fields arrive as they were given",
         expected=example.fields,

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from course_pkg.checking import ANYTHING, CheckContext, Refuse, matches, part
 from course_pkg.checking.assertions import Hints
+from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 LAMP = "/on_off"
 KIND = "course_pkg/ServiceExample"
@@ -17,6 +19,8 @@ NO_ERROR: Hints = [
         "rospy.ServiceException, and respond with success=False.",
     ),
 ]
+OBEYED = "Call /on_off once with 1 or 0, and return success=True."
+COMPARED = "Return success=False if the lamp refuses or has another state."
 
 
 @part(
@@ -28,18 +32,22 @@ NO_ERROR: Hints = [
     ),
     needs=["handle_lamp|lamp_service"],
     deadline=20.0,
+    goals=[OBEYED, COMPARED, "Return success=False if the lamp has no server."],
 )
 def translate(context: CheckContext) -> None:
     """Try a lamp that obeys, a lamp that does the opposite, a lamp that refuses, and no lamp."""
     panel = context.service("/lamp", "std_srvs/SetBool", hints=NO_ERROR)
+    require_served_by_notebook(context, "/lamp")
     for data in (*context.random.shuffled([True, False]), context.random.choice([True, False])):
         _obeys(context, panel, data)
+    context.fulfilled(OBEYED)
     for data in context.random.shuffled([True, False]):
         _disobeys(context, panel, data)
     _refuses(context, panel)
     for obeys in context.random.shuffled([True] * context.random.integer(1, 3) + [False] * 2):
         try_lamp = _obeys if obeys else _disobeys
         try_lamp(context, panel, context.random.choice([True, False]))
+    context.fulfilled(COMPARED)
     context.absent(LAMP)
     _fails(context, panel, "the lamp has no server", "unavailable", "timeout exceeded")
 
@@ -83,7 +91,7 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
 
 
 def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
-    state = STATES[not data]
+    state = context.random.choice([STATES[not data], f"NOT {STATES[data]}"])
     lamp = context.serve(LAMP, KIND, lambda _: {"state": state})
     response = panel(data=data)
     context.expect(
@@ -101,13 +109,25 @@ def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
         actual=response.message,
         hints="The message has to be the state in the lamp's response, not the wanted state.",
     )
+    _was_called_once(context, lamp)
     lamp.leave()
+
+
+def _was_called_once(context: CheckContext, lamp: ScriptedServer) -> None:
+    if len(lamp.requests) != 1:
+        context.fail(
+            "it calls /on_off once, with 1 for True and 0 for False",
+            expected="one call for each call of /lamp",
+            actual=f"{len(lamp.requests)} calls",
+            hint="The handler called /on_off again after an answer that it did not want. Call it once.",
+        )
 
 
 def _refuses(context: CheckContext, panel: Service) -> None:
     reason = f"{context.random.word()} is hot"
     lamp = context.serve(LAMP, KIND, lambda _: Refuse(reason))
     _fails(context, panel, "the lamp refuses", reason)
+    _was_called_once(context, lamp)
     lamp.leave()
 
 

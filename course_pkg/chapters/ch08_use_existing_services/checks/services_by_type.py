@@ -31,6 +31,7 @@ ERRORS = [
         "type: use get_service_type.",
     ),
 ]
+FOUND = "Return the names of all services of the type, without a call."
 
 
 @part(
@@ -39,6 +40,7 @@ ERRORS = [
     goal="Return a list with the names of all services of a type, without services whose server has ended.",
     needs=["services_of"],
     deadline=25.0,
+    goals=[FOUND, "Leave out a service whose server has ended, and find a new one."],
 )
 def find_by_type(context: CheckContext) -> None:
     """Serve two types and types with similar names; then add a service and a dead server's service."""
@@ -63,6 +65,7 @@ def find_by_type(context: CheckContext) -> None:
                 "its work. Use get_service_type."
             ),
         )
+    context.fulfilled(FOUND)
     for place, hint in (("late", LATE), ("last", GONE)):
         if place == "last":
             context.absent(f"/{word}/dead", stale=True)

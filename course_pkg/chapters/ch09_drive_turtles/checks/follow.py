@@ -27,12 +27,16 @@ ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # m/s
 LATER = 0.5  # s after which /toggle_forward starts
+WHERE = "Publish only on /NAME/cmd_vel, where NAME is the name in the response of /spawn."
 ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
 ENDING = 0.6  # s in which a program without spin() ends
 COUNT = 20  # number of velocities that the check publishes
 STOPS = (
     "if a service is missing for 5 s or refuses a call, the program calls no further service and ends with 1"
 )
+CALLED = "Call /spawn, /toggle_forward and /change_speed in this order."
+PASSED_ON = "Publish the velocities of turtle1 for MyTurtle."
+FOLLOW_GOALS = {CALLED: 3, PASSED_ON: 3, "End with 1 if a service is missing or refuses.": 2}
 
 
 @part(
@@ -45,6 +49,7 @@ STOPS = (
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=f"%%writefile {PROGRAM.path}\n...",
+    goals=FOLLOW_GOALS,
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
     """Serve all three services; in two other runs, leave one service out, or refuse a call."""
@@ -99,8 +104,10 @@ def follows(context: CheckContext, program: TurtleProgram) -> None:
     with missing.world.run() as first, refusing.world.run() as second, whole.world.run() as running:
         whole.serve("spawn")
         _calls_in_order(context, whole, running)
+        context.fulfilled(CALLED)
         began = time.monotonic()
         _passes_on(context, whole, running)
+        context.fulfilled(PASSED_ON)
         _stops_early(context, refusing, second, ["spawn", "toggle_forward"], LIMIT)
         _stops_early(context, missing, first, ["spawn"], began + LIMIT + LATE - time.monotonic())
 
@@ -165,10 +172,7 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
     subscription.published(
         hints=[
             ended,
-            (
-                "no publisher",
-                "Publish on /NAME/cmd_vel, where NAME is the name in the response of /spawn.",
-            ),
+            ("no publisher", WHERE),
         ],
         within=4.0,
     )
@@ -184,7 +188,16 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
     )
     publisher.finish(5.0)
     subscription.wait(COUNT, 2.0)
+    driver.world.runs_own_program()
     _each_once(context, velocities, subscription)
+    own = {driver.world.name(f"{name}/cmd_vel") for name in ("turtle1", driver.name)}
+    topics = [topic.name for topic in context.look().topics if topic.publishers]
+    context.expect(
+        "the program publishes each velocity once",
+        expected=[],
+        actual=[name for name in topics if name.startswith(driver.world.name("")) and name not in own],
+        hints=WHERE,
+    )
 
 
 def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscription: Subscription) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from course_pkg.chapters.ch09_drive_turtles.checks.rate import KIND as CHANGE_RATE
-from course_pkg.chapters.ch09_drive_turtles.checks.rate import refuses
+from course_pkg.chapters.ch09_drive_turtles.checks.rate import TINY, refuses
 from course_pkg.chapters.ch09_drive_turtles.checks.toggle import STRAIGHT, TURNING, toggles_the_stream
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
@@ -26,6 +26,9 @@ NO_REFUSAL = (
 )
 SETS_RATE = "/change_rate sets the rate"
 SPEED_SO_FAR = "the response of /change_speed contains the speed before the call"
+SETS_ITS_RATE = "Publish the velocities at the rate that /change_rate sets."
+SETS_ITS_SPEED = "Set the speed with /change_speed, and the direction with /toggle_forward."
+IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtle with /start_stop.": 3}
 
 
 @part(
@@ -37,6 +40,7 @@ SPEED_SO_FAR = "the response of /change_speed contains the speed before the call
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=f"%%writefile {PROGRAM.path}\n...",
+    goals=IMPROVED_GOALS,
 )
 def change_speed_and_stop(context: CheckContext) -> None:
     """Set speeds, stop and start the turtle in both directions, and check the published velocities."""
@@ -70,20 +74,23 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
         )
         for impossible in (0.0, float("nan")):
             refuses(context, change_rate, SETS_RATE, rate=impossible)
+        context.fulfilled(SETS_ITS_RATE)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
-        speed = _changes_speed(context, world, stream, toggle)
-        _starts_and_stops(context, world, stream, toggle, speed)
+        change_speed = _changes_speed(context, world, stream, toggle)
+        context.fulfilled(SETS_ITS_SPEED)
+        _starts_and_stops(context, world, stream, toggle, change_speed)
         stream.moves_turtle()
+        change_rate(rate=TINY)
 
 
-def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: Service) -> float:
-    """Set speeds, and try impossible speeds; return the speed in m/s that is set at the end."""
+def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: Service) -> Service:
+    """Set speeds, and try impossible speeds; return a proxy of the service that sets them."""
     change = world.service(
         "change_speed",
         CHANGE_SPEED,
         [(REFUSED_BY_HANDLER, ANY_SPEED), (matches("responded with an error: b''"), ANY_SPEED)],
     )
-    first, second = context.random.number(2.0, 4.0), -context.random.number(5.0, 9.0)
+    first, second = context.random.number(2.0, 4.0), -context.random.number(100.0, 900.0)
     before = STRAIGHT[0]
     for wanted in (first, second, first):
         _returns_the_old_speed(context, change, wanted, before)
@@ -102,6 +109,7 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
                     (float(int(wanted)), 0.0),
                     "The part after the decimal point is lost. Use a float, or a double in C++.",
                 ),
+                (ANYTHING, "Publish the number that /change_speed has set. Every finite number is allowed."),
             ],
         )
     toggles_the_stream(toggle, stream, straight=(first, 0.0))
@@ -109,7 +117,7 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
         refuses(context, change, "a speed that is not finite is refused", speed=impossible)
     _returns_the_old_speed(context, change, 0.0, first)
     _returns_the_old_speed(context, change, first, 0.0)
-    return first
+    return change
 
 
 def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float, before: float) -> None:
@@ -126,17 +134,17 @@ def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float
 
 
 def _starts_and_stops(
-    context: CheckContext, world: World, stream: Stream, toggle: Service, speed: float
+    context: CheckContext, world: World, stream: Stream, toggle: Service, change_speed: Service
 ) -> None:
-    """In each of the two directions, stop the turtle twice and start it twice."""
+    """In each of the two directions, stop the turtle twice, set another speed, and start it twice."""
     switch = world.service(
         "start_stop",
         "std_srvs/SetBool",
         [(REFUSED_BY_HANDLER, NO_REFUSAL), (matches("responded with an error: b''"), NO_REFUSAL)],
     )
     _says(context, switch, moving=True, already=True)
-    for direction in context.random.shuffled([(speed, 0.0), TURNING]):
-        if direction == TURNING:
+    for turning in context.random.shuffled([False, True]):
+        if turning:
             toggle()
         _says(context, switch, moving=False, already=False)
         stream.becomes(
@@ -145,15 +153,27 @@ def _starts_and_stops(
             "The turtle still moves. While it is stopped, publish messages whose fields are all 0.",
         )
         _says(context, switch, moving=False, already=True)
+        speed = context.random.number(2.0, 9.0)
+        before = change_speed(speed=speed).before
         _says(context, switch, moving=True, already=False)
         stream.becomes(
-            direction,
+            TURNING if turning else (speed, 0.0),
             "data=True lets the turtle move as before",
-            "After data=True, the turtle has to move with its old direction and speed. Do "
-            "not change either of them when you stop it.",
+            [
+                (
+                    (before, 0.0),
+                    "A call of /change_speed came while the turtle was stopped. After data=True, the turtle "
+                    "has to move with this new speed.",
+                ),
+                (
+                    ANYTHING,
+                    "After data=True, the turtle has to move with its old direction and the last speed. Do "
+                    "not change either of them when you stop it.",
+                ),
+            ],
         )
         _says(context, switch, moving=True, already=True)
-        if direction == TURNING:
+        if turning:
             toggle()
 
 

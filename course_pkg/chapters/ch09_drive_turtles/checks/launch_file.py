@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import (
@@ -156,14 +157,18 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
     """Assert that roslaunch finds each program, before the nodes are started."""
     names = ("turtlesim", DRIVER, SECOND)
     each = (
-        f"for n in {' '.join(names)}; do roslaunch --args /$n {file.path} addturtle:=true 2>&1 & done; wait"
+        f"for n in {' '.join(names)}; do roslaunch --args /$n {file.path} addturtle:=true 2>&1"
+        ' | sed "s|^|$n: |" & done; wait'
     )
     done = copy.run(each, within=20.0)
     missing = [line for line in done.out.splitlines() if "annot l" in line or "not found" in line]
-    own = [file.package + f"/scripts/{program.command}" for program in (file.driver, file.second)]
+    own = [
+        rf"^{name}: .*{file.package}/scripts/{program.command}\b"
+        for name, program in ((DRIVER, file.driver), (SECOND, file.second))
+    ]
     context.require(
         "roslaunch finds the program of each node",
-        holds=not missing and all(path in done.out for path in own),
+        holds=not missing and all(re.search(line, done.out, re.MULTILINE) for line in own),
         expected=f"three programs, two of them in {file.package}",
         actual=telling_line(missing[0] if missing else done.out),
         hints=(

@@ -13,6 +13,7 @@ from course_pkg.checking.peers.service_calls import Service
 PROGRAM = script("pubvel_toggle_plus")
 KIND = "course_pkg/ChangeRate"
 AT_FIRST = 2.0  # messages per second
+TINY = 0.001  # messages per second; the check sets it last, because the next message comes after 1000 s
 ALLOWED = "The node refused a rate that is allowed: above 0 and at most 100, with fractions."
 REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
 
@@ -54,6 +55,8 @@ if __name__ == "__main__":
         publisher.publish(message)
         rate.sleep()
 """
+CHANGED = "Change the rate, return the old one, and refuse impossible rates."
+RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
 
 
 @part(
@@ -64,6 +67,7 @@ if __name__ == "__main__":
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
+    goals=RATE_GOALS,
 )
 def change_the_rate(context: CheckContext) -> None:
     """Set rates and measure them; then try impossible rates."""
@@ -78,6 +82,7 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
         stream = Stream(context, world, running)
         change = world.service("change_rate", KIND, REFUSALS)
         rate = sets_rates(context, change, stream)
+        context.fulfilled(CHANGED)
         toggles_the_stream(world.service("toggle_forward", "std_srvs/Empty"), stream)
         context.expect(
             "the response contains the rate before the call",
@@ -87,21 +92,27 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
             hints="A call of /toggle_forward changed the rate, too, but it has to change only the direction.",
         )
         stream.moves_turtle()
+        change(rate=TINY)
 
 
 def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
-    """Set allowed rates and measure two of them, try impossible rates, and return the last allowed rate."""
-    fast, slow = context.random.number(20.0, 40.0), context.random.number(5.0, 9.0)
-    for wanted, before in ((fast, AT_FIRST), (slow, fast), (fast, slow)):
+    """Set allowed rates and measure some of them, try impossible rates, and return the last allowed rate.
+
+    The slow rate is below 1 Hz and far from a whole number. The number of rates is random.
+    """
+    fast, slow = context.random.number(40.0, 50.0), context.random.number(0.6, 0.7)
+    others = context.random.numbers(context.random.integer(1, 4), 5.0, 90.0)
+    before = AT_FIRST
+    for wanted in (fast, *others, 100.0, slow, fast):
         _returns_the_old_rate(context, change, wanted, before)
-        stream.has_rate(
-            wanted,
-            "the program publishes at the rate that /change_rate sets",
-            "You cannot change the rate of a Rate object. When the number has changed, "
-            "create a new Rate object.",
-        )
-    for allowed in (100.0, 0.5, fast):
-        change(rate=allowed)
+        before = wanted
+        if wanted in (fast, slow):
+            stream.has_rate(
+                wanted,
+                "the program publishes at the rate that /change_rate sets",
+                "You cannot change the rate of a Rate object. When the number has changed, "
+                "create a new Rate object.",
+            )
     for impossible in (0.0, -slow, 100.5, float("nan")):
         refuses(context, change, "impossible rates are refused", rate=impossible)
     context.expect(

@@ -42,6 +42,9 @@ if __name__ == "__main__":
     response = spawn(3, 3, 0, "MyTurtle")
     print("spawned", response.name)
 """
+SPAWNED = "Wait for /spawn, spawn the turtle, and print its name."
+ENDS = "End with 1 if no turtle was spawned."
+SPAWN_GOALS = {SPAWNED: 3, ENDS: 1}
 
 
 @part(
@@ -51,6 +54,7 @@ if __name__ == "__main__":
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
+    goals=SPAWN_GOALS,
 )
 def wait_and_spawn(context: CheckContext) -> None:
     """Run the program with a server, without a server, and with a server that starts later."""
@@ -68,6 +72,7 @@ def spawns(context: CheckContext, program: TurtleProgram) -> None:
         began, early_end = _served_late(context, early, running_early)
         _prints_the_name(context, served)
         _waits_for_the_service(context, early_end)
+        context.fulfilled(SPAWNED)
         _gives_up(context, alone, running_alone, began)
         _spawns_in_the_simulator(context, real)
         _is_refused(context, served)
@@ -80,6 +85,7 @@ def _served_late(context: CheckContext, world: World, running: Running) -> tuple
     """
     began = world.begins(running)
     wait_until(lambda: running.status is not None, at_this_load(WITHOUT_A_WAIT), 0.05)
+    world.runs_own_program()
     server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": "MyTurtle"})
     done = world.ends(running, LIMIT)
     server.leave()

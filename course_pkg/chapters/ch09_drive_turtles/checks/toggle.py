@@ -12,6 +12,8 @@ from course_pkg.checking.peers.service_calls import Service
 PROGRAM = script("pubvel_toggle")
 RATE = 2.0  # messages per second
 STRAIGHT, TURNING = (1.0, 0.0), (0.0, 1.0)  # m/s, rad/s
+ONE_CALL = "after a call, the turtle turns at 1.0 rad/s"
+NEXT_CALL = "after the next call, the turtle goes straight ahead again"
 AT_FIRST: Hints = [
     (TURNING, "Before the first call, the turtle has to go straight ahead: begin with `forward = True`."),
     (ANYTHING, "Straight ahead is linear.x = 1.0. Leave the other fields at 0."),
@@ -52,6 +54,8 @@ if __name__ == "__main__":
         publisher.publish(message)
         rate.sleep()
 """
+TOGGLED_BY_CALL = "Go straight ahead, and change the direction with each call."
+TOGGLE_GOALS = {TOGGLED_BY_CALL: 3, "Publish twice per second, and move the turtle.": 1}
 
 
 @part(
@@ -61,6 +65,7 @@ if __name__ == "__main__":
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
+    goals=TOGGLE_GOALS,
 )
 def toggle_direction(context: CheckContext) -> None:
     """Toggle the direction a few times, and check the velocities that the program publishes."""
@@ -76,6 +81,8 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.becomes(STRAIGHT, "before the first call, the turtle goes straight ahead at 1.0 m/s", AT_FIRST)
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
+        _counts_each_call(toggle, stream)
+        context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(
             RATE,
             "the program publishes twice per second",
@@ -84,12 +91,22 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.moves_turtle()
 
 
+def _counts_each_call(toggle: Service, stream: Stream) -> None:
+    """Call several times in a row, so that several calls come between two messages."""
+    for _ in range(2):
+        toggle()
+    stream.becomes(STRAIGHT, NEXT_CALL, BACK)
+    for _ in range(3):
+        toggle()
+    stream.becomes(TURNING, ONE_CALL, TOGGLED)
+
+
 def toggles_the_stream(
     toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
 ) -> None:
     """Toggle to turning and back to straight ahead, `times` times."""
     for _ in range(times):
         toggle()
-        stream.becomes(TURNING, "after a call, the turtle turns at 1.0 rad/s", TOGGLED)
+        stream.becomes(TURNING, ONE_CALL, TOGGLED)
         toggle()
-        stream.becomes(straight, "after the next call, the turtle goes straight ahead again", BACK)
+        stream.becomes(straight, NEXT_CALL, BACK)

@@ -12,6 +12,7 @@ from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.result import Finished
 from course_pkg.checking.shared.catkin_package import BuiltPackage
+from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.waiting import wait_until
 from course_pkg.workspace import explain
 
@@ -92,6 +93,11 @@ class World:
                 self._serves_not(running, assertion, missing)
             time.sleep(POLL)
         self._context.require(assertion, holds=True)
+        self.runs_own_program()
+
+    def runs_own_program(self) -> None:
+        """Assert that the node is not one of the course's own turtle programs."""
+        require_own_nodes(self._context, self._space, [self.name(SIMULATOR)])
 
     def _serves_not(self, running: Running, assertion: str, missing: list[str]) -> None:
         others = self._own_services(loggers=False)

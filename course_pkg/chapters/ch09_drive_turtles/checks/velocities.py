@@ -10,6 +10,7 @@ from course_pkg.checking import CheckContext
 from course_pkg.checking.assertions import Hints, same
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
+from course_pkg.checking.plain_values import Fields
 from course_pkg.waiting import wait_until
 
 TWIST = "geometry_msgs/Twist"
@@ -64,10 +65,16 @@ class Stream:
         ):
             arrival = self.next(1)[-1]
         self._context.expect(assertion, expected=wanted, actual=velocity(arrival), near=1e-6, hints=hints)
+        self._context.expect(
+            assertion,
+            expected=[0.0] * 4,
+            actual=_other_fields(arrival),
+            hints="Set only linear.x and angular.z. All other fields have to be 0.",
+        )
 
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
         """Assert that `wanted` messages per second arrive, possibly after a few messages at the old rate."""
-        count = max(3, int(wanted))
+        count = max(2, int(wanted))
         measured = rate(self.next(count + 2)[1:])
         if abs(measured - wanted) > NEAR * wanted:
             measured = rate(self.next(count)[1:])
@@ -98,7 +105,18 @@ class Stream:
 
 def velocity(arrival: Arrival) -> tuple[float, float]:
     """Return the speed (m/s) and the angular velocity (rad/s) in a message."""
+    linear, angular = _vectors(arrival)
+    return float(linear["x"]), float(angular["z"])
+
+
+def _other_fields(arrival: Arrival) -> list[float]:
+    """Return linear.y, linear.z, angular.x and angular.y of a message."""
+    linear, angular = _vectors(arrival)
+    return [float(number) for number in (linear["y"], linear["z"], angular["x"], angular["y"])]
+
+
+def _vectors(arrival: Arrival) -> tuple[Fields, Fields]:
     linear, angular = arrival.fields["linear"], arrival.fields["angular"]
     assert isinstance(linear, dict)
     assert isinstance(angular, dict)
-    return float(linear["x"]), float(angular["z"])
+    return linear, angular

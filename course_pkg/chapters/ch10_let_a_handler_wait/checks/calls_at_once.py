@@ -8,6 +8,7 @@ import time
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Message, Value
@@ -21,12 +22,15 @@ PROMPT = 0.3  # s after the last response; a function that returns later may not
 LONGER = 1.0  # s by which the calls of an additional round last longer than this delay
 
 # This code reports each call of a persistent proxy, from the thread that makes the call.
-KERNEL_CODE = """
+KERNEL_CODE = (
+    SMALL_STACKS
+    + """
 import rospy
 
 
 class ProxyWatch:
     def begin(self):
+        small_stacks.begin()
         self.proxies, self.original = [], rospy.ServiceProxy.call
 
         def call(proxy, *args, **named):
@@ -40,10 +44,12 @@ class ProxyWatch:
     def end(self):
         rospy.ServiceProxy.call = self.original
         self.proxies = []
+        small_stacks.end()
 
 
 proxy_watch = ProxyWatch()
 """
+)
 SHARED = (
     "Two threads call the same persistent proxy, so they use one connection at the same time. Create a proxy "
     "in each thread, or share one without persistent=True."
@@ -132,7 +138,7 @@ def calls_at_once(context: CheckContext) -> None:
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
-        counts = context.random.shuffled([context.random.integer(3, 4), context.random.integer(5, 8)])
+        counts = [context.random.integer(3, 4), context.random.integer(24, 36)]
         late = max([_round(context, count) for count in counts])
         if late > PROMPT:
             _round(context, counts[0], late + LONGER)

@@ -87,6 +87,7 @@ ERRORS = [
         "If no customer came, do not raise an error. Return an ordinary response with detected=False.",
     ),
 ]
+FOUND = "Respond as soon as a customer is there, and after request.patience at the latest."
 
 
 @part(
@@ -95,6 +96,7 @@ ERRORS = [
     goal="Respond as soon as a customer is there, and after request.patience seconds at the latest.",
     needs=["handle_detect"],
     deadline=45.0,
+    goals={FOUND: 2, "Respond to several clients at the same time.": 1},
 )
 def wait_for_a_customer(context: CheckContext) -> None:
     """Call without a customer; with a present, a known and a late customer; then from several clients."""
@@ -111,6 +113,7 @@ def wait_for_a_customer(context: CheckContext) -> None:
             "shop.watch.changed.waits"
         )
         _somebody(context, detect, shop, rarely=rarely)
+        context.fulfilled(FOUND)
         _several(context, detect, shop)
     finally:
         context.run("shop.close")

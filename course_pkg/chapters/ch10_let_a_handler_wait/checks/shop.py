@@ -23,12 +23,17 @@ from course_pkg.errors import GraphError
 from course_pkg.ros.node.proxy import BoundedProxy
 
 CHARGE = "course_pkg/Charge"
+MEETING = 2.0  # s for which a call of the till waits for another call
 ABSENT = 4.0  # s for a sale without a server of the till, on a busy machine
 CALL_BACK = 2.0  # s after which the till continues without a response of the shop
 LOCKED = (
     "The till called /left while it was charging, but got no response: your handler "
     "holds the lock during the call, and /left needs this lock. Release the lock "
     "before you call the till."
+)
+SERIAL = (
+    "The till never had two calls at the same time, so your handler holds a lock during the call. Release "
+    "the lock before you call the till."
 )
 STUCK = (
     "A client waits forever, because a lock was acquired but not released. `with` "
@@ -63,11 +68,31 @@ class Till:
         self.answers: list[str] = []
         self._first = context.random.integer(1000, 9000)
         self._left, self._kind = left, context.service_class(TRIGGER)
-        self._lock = threading.Lock()
+        self._inside, self._meets = 0, False
+        self.together = 0  # the largest number of simultaneous calls
+        self._changed = threading.Condition()
+
+    def await_crowd(self) -> None:
+        """Let the next call wait, but only for a limited time, until there is another call."""
+        self._meets = True
 
     def __call__(self, request: Message) -> Act:
         """Handle a request of a scripted server."""
-        with self._lock:
+        with self._changed:
+            self._inside += 1
+            self.together = max(self.together, self._inside)
+            self._changed.notify_all()
+            if self._meets:
+                self._meets = False
+                self._changed.wait_for(lambda: self._inside > 1, MEETING)
+        try:
+            return self._act(request)
+        finally:
+            with self._changed:
+                self._inside -= 1
+
+    def _act(self, request: Message) -> Act:
+        with self._changed:
             calls_back = not self.answers
             if calls_back:
                 self.answers.append("")
@@ -87,6 +112,10 @@ class Till:
             return f"{type(error).__name__}"
 
 
+SOLD = "Sell one thing, and call the till without the lock."
+PUT_BACK = "Put the thing back if the till fails."
+
+
 @part(
     "10.5",
     points=3,
@@ -94,6 +123,7 @@ class Till:
     "if the till fails.",
     needs=["Shop"],
     deadline=60.0,
+    goals=[SOLD, PUT_BACK, "Sell to 50 clients at the same time."],
 )
 def no_lock_across_a_call(context: CheckContext) -> None:
     """Buy once, with a till that calls /left; then with failing tills; then in 50 threads."""
@@ -117,7 +147,9 @@ def no_lock_across_a_call(context: CheckContext) -> None:
         buying = context.service(buy, TRIGGER, hints=failed, timeout=MANY)
         looking = context.service(left, TRIGGER, hints=ERRORS, timeout=ONE)
         _sells(context, buying, till, cents, count)
+        context.fulfilled(SOLD)
         _fails_to_sell(context, buying, looking, till, count - 1)
+        context.fulfilled(PUT_BACK)
         _sells_to_fifty(context, buying, looking, till, shelf, count - 1)
     finally:
         context.run("checked_shop.close")
@@ -278,12 +310,20 @@ def _sells_to_fifty(
     till.charged.clear()
     till.acts = [Refuse("no money on this card")] * 5
     shelf.await_crowd()
+    till.await_crowd()
     replies = [reply.response for reply in buying.at_once([{}] * CALLERS)]
     sold = sum(reply.success for reply in replies)
     context.expect(
         f"{CALLERS} clients at the same time: as many charges as sales",
         expected=sold,
         actual=len(till.charged),
+    )
+    context.require(
+        f"{CALLERS} clients at the same time: as many charges as sales",
+        holds=till.together > 1,
+        expected="several clients pay at the same time",
+        actual="one client pays after the other",
+        hints=SERIAL,
     )
     context.require(
         f"{CALLERS} clients at the same time: each purchase has its own request_id",

@@ -35,6 +35,7 @@ TWICE = (
     "Two handlers read the same number, so one of the sales was lost. Hold a lock "
     "while you read, decide and write, and use the same lock in all calls."
 )
+EMPTIED = "Sell the things to one client after the other, and then respond with sold out."
 
 
 @part(
@@ -46,6 +47,7 @@ TWICE = (
     ),
     needs=["Stock"],
     deadline=60.0,
+    goals=[EMPTIED, "Sell each thing only once to 50 clients at the same time."],
 )
 def safe_with_fifty_clients(context: CheckContext) -> None:
     """Empty a small shelf with single calls; then make fifty calls at the same time for fewer things."""
@@ -58,6 +60,7 @@ def safe_with_fifty_clients(context: CheckContext) -> None:
             _takes_one(context, take, left)
     finally:
         context.run("checked_shop.close")
+    context.fulfilled(EMPTIED)
     count = context.random.integer(28, 36)
     shelf = CheckedShelf(count)
     take = _opened(context, name, shelf, MANY)

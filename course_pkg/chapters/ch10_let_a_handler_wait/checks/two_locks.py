@@ -231,6 +231,7 @@ UNLOCKED_READ = (
     "change it in the meantime. First acquire the locks in the order of the "
     "shelves' numbers, and then read."
 )
+MOVED = "Move a thing in one thread, but not from an empty shelf."
 
 
 @part(
@@ -239,6 +240,7 @@ UNLOCKED_READ = (
     goal="Move a thing between two shelves under both locks, without a deadlock in either direction.",
     needs=["move"],
     deadline=30.0,
+    goals=[MOVED, "Move things in both directions at the same time, without a deadlock."],
 )
 def move_without_deadlock(context: CheckContext) -> None:
     """Move things in one thread, even from an empty shelf; then in both directions at the same time."""
@@ -251,6 +253,7 @@ def move_without_deadlock(context: CheckContext) -> None:
     _moves_one(context, pair, 1, [few, 0], possible=True)
     for moved in range(1, few + 2):
         _moves_one(context, pair, 0, [max(few - moved, 0), min(moved, few)], possible=moved <= few)
+    context.fulfilled(MOVED)
     counts = context.random.integers(2, 20, 40)
     pair = CheckedPair(numbers, counts, crowd=True)
     context.place("checked_pair", pair)

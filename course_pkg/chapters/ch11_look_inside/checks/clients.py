@@ -29,6 +29,8 @@ REFUSED = (
     "The server refused with an error message: raise this error.",
     "The connection works, but the server refused. Call again only if the connection broke.",
 )
+ONE_FOR_ALL = "Use one connection for all calls, even after a refusal."
+STORED = "Look the address up once, and use the stored address for all calls."
 
 
 @part(
@@ -37,6 +39,7 @@ REFUSED = (
     goal="Use one connection for all calls; if it breaks, open a new connection and call once more.",
     needs=["Keeper"],
     deadline=20.0,
+    goals=[ONE_FOR_ALL, "Open a new connection when the old one breaks or the server moves."],
 )
 def persistent_client(context: CheckContext) -> None:
     """Respond, refuse, break the connection, stop the server, and start the server at another address."""
@@ -53,6 +56,7 @@ def persistent_client(context: CheckContext) -> None:
     acts.pop(0)
     _measures(context, client, "the connection still works after a refusal", volumes[3])
     _one_connection(context, server, "after a refusal, the client uses the same connection")
+    context.fulfilled(ONE_FOR_ALL)
     acts.insert(0, HangUp())
     _measures(context, client, "a broken connection is replaced", volumes[4])
     _breaks_twice(context, client, server)
@@ -209,6 +213,7 @@ SAID_NO = (
     ),
     needs=["Remembering"],
     deadline=20.0,
+    goals=[STORED, "Look the address up again if no server is there any more."],
 )
 def client_with_a_known_address(context: CheckContext) -> None:
     """Call, remove the name from the master, refuse, and start the server at another address."""
@@ -223,6 +228,7 @@ def client_with_a_known_address(context: CheckContext) -> None:
     _measures_both(context, client, "a call with a known address needs no master", numbers[1], LOST)
     _keeps_the_address(context, name, client, numbers[1])
     _reports_a_refusal(context, client, server, *SAID_NO)
+    context.fulfilled(STORED)
     server.leave()
     moved = context.serve(name, GEOMETRY, lambda _: answers[2])
     _measures_both(context, client, "a server that moved is found again", numbers[2], MOVED)

@@ -57,6 +57,9 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
     ]
 
 
+RECEIVED = "Return exactly `count` bytes, even if they arrive in pieces."
+
+
 @part(
     "11.1",
     points=2,
@@ -172,6 +175,7 @@ NOT_RAISED: Hints = [
         "raise ConnectionError if the connection ends earlier."
     ),
     needs=["receive"],
+    goals={RECEIVED: 3, "Raise ConnectionError if the connection ends earlier.": 1},
 )
 def exact_read(context: CheckContext) -> None:
     """Send the bytes together, in pieces, and with additional bytes; then close the connection too early."""
@@ -183,6 +187,7 @@ def exact_read(context: CheckContext) -> None:
     joined = [whole[:5], whole[5:] + following]
     _receives(context, "no bytes of the next message, even if a piece contains some", joined, [12, 12])
     _receives(context, "no bytes for a count of 0", [whole], [0, 12])
+    context.fulfilled(RECEIVED)
     with OtherEnd([whole[:7]], closes=True) as other:
         context.prepare(YOUR_END.format(name=other.name))
         context.run("receive", Its("your_end"), 12, within=WITHIN, hints=_receive_errors()).raised(
@@ -190,6 +195,12 @@ def exact_read(context: CheckContext) -> None:
             "ConnectionError",
             hints=NOT_RAISED,
         )
+
+
+TAKEN = (
+    "The function read more than `count` bytes from the socket. The later bytes belong to the next message: "
+    "leave them in the socket."
+)
 
 
 class OtherEnd:
@@ -209,6 +220,7 @@ class OtherEnd:
         self._listener.listen(1)
         self._listener.settimeout(CONNECTING)
         self._over = threading.Event()
+        self._sock: socket.socket | None = None
         self._sending = threading.Thread(target=self._send, daemon=True)
 
     def __enter__(self) -> OtherEnd:
@@ -222,10 +234,17 @@ class OtherEnd:
         self._sending.join()
         self._listener.close()
 
+    def has_more(self) -> bool:
+        """Return whether the client's socket contains bytes that the client has not read."""
+        with suppress(OSError):
+            return bool(self._sock and _unread(self._sock))
+        return False
+
     def _send(self) -> None:
         with suppress(OSError):  # the kernel has closed its socket, or does not connect
             sock, _ = self._listener.accept()
             with sock:
+                self._sock = sock
                 for piece in self._pieces:
                     sock.sendall(piece)
                     wait_until(lambda: not _unread(sock), PEEKING, 0.005, self._over)
@@ -240,7 +259,7 @@ def _unread(sock: socket.socket) -> int:
 
 
 def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: list[int]) -> None:
-    whole, at = b"".join(pieces), 0
+    whole, at, left = b"".join(pieces), 0, True
     with OtherEnd(pieces) as other:
         context.prepare(YOUR_END.format(name=other.name))
         for count in counts:
@@ -254,6 +273,10 @@ def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: lis
                 ).returned(),
                 hints=_not_received(count),
             )
+            left = left and (at == len(whole) or bool(wait_until(other.has_more, PEEKING)))
+    context.require(
+        what, holds=left, expected="the later bytes in the socket", actual="an empty socket", hints=TAKEN
+    )
 
 
 def _not_received(count: int) -> Hints:

@@ -7,6 +7,7 @@ import rospy
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.plain_values import Message, ServiceClass
+from course_pkg.checking.shared.own_program import require_kernel
 from course_pkg.ros.node.proxy import BoundedProxy
 
 NAME, KIND = "/my_add_up", "course_pkg/AddUp"
@@ -15,6 +16,7 @@ REFUSED = (
     'The header had the field "session", but your handler refused the call. Check '
     "the name of the field in your code."
 )
+TOTALS = "Keep a separate total for each session."
 
 
 @part(
@@ -24,18 +26,20 @@ REFUSED = (
         "Keep a separate total for each session in the connection header; refuse a call without a session."
     ),
     needs=["Sessions"],
+    goals={TOTALS: 2, "Refuse a call without a session.": 1},
 )
 def totals_of_sessions(context: CheckContext) -> None:
     """Call in two sessions; continue one of them from another node; then call without a session."""
     kind = context.service(NAME, KIND).kind
+    require_kernel(context, [service.node for service in context.look().services if service.name == NAME])
     first, second = context.random.word(), context.random.word()
-    amounts = context.random.integers(
-        6, 10, 900
-    )  # larger than the number of calls, so that the check can distinguish a total from a number of calls
-    totals = {first: 0, second: 0}
-    counts = {first: 0, second: 0}
+    others = [first.upper(), *(context.random.word() for _ in range(context.random.integer(4, 9)))]
+    turns = [first, second, first, first, second, second, *others, first]
+    # larger than the number of calls, so that the check can distinguish a total from a number of calls
+    amounts = context.random.integers(len(turns), 20, 900)
+    totals = dict.fromkeys(turns, 0)
+    counts = dict.fromkeys(turns, 0)
     everything = 0
-    turns = [first, second, first, first, second, second]
     for session, amount in zip(turns, amounts, strict=True):
         totals[session] += amount
         everything += amount
@@ -63,6 +67,7 @@ def totals_of_sessions(context: CheckContext) -> None:
             )
         ],
     )
+    context.fulfilled(TOTALS)
     _refuses_without_a_session(context, kind)
 
 

@@ -89,6 +89,7 @@ IN_ORDER = (
     "After the whole header of the server, read one byte for success, then 4 bytes "
     "of length, and then as many bytes as this length."
 )
+ANSWERED = "Return the response, even if it arrives byte by byte."
 
 
 @part(
@@ -97,6 +98,7 @@ IN_ORDER = (
     goal="Call a geometry service with only a socket; raise ServiceException if the server refuses.",
     needs=["ask"],
     deadline=40.0,
+    goals={ANSWERED: 3, "Raise ServiceException if the server refuses.": 1},
 )
 def call_over_a_socket(context: CheckContext) -> None:
     """Send a response in one piece or byte by byte, or refuse the connection or the request."""
@@ -112,6 +114,7 @@ def call_over_a_socket(context: CheckContext) -> None:
     try:
         for slowly in (False, True):
             _answers(context, slowly=slowly)
+        context.fulfilled(ANSWERED)
         reason = f"no {context.random.word()} today"
         _refuses(context, f"request from [/you]: {reason}", reason, in_handshake=True)
         _refuses(context, f"service cannot process request: {reason}", reason, in_handshake=False)

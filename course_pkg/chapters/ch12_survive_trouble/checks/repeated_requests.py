@@ -51,6 +51,10 @@ RACE = (
     "once. Hold one lock while you check for a receipt, take the money and store "
     "the receipt."
 )
+TOO_SOON = (
+    "A request failed and was repeated, but nothing was charged. Store the request_id after take has "
+    "returned, not before."
+)
 REFUSED = (
     "A repeated request was refused. The client did not get the first response, so send the same "
     "receipt again."
@@ -70,6 +74,8 @@ STUCK = (
     "not released. Use `with self.lock:`, which also releases the lock after an "
     "error."
 )
+CHARGED = "Charge a new request, and send the same receipt when it comes again."
+FAILED = "Charge again after the purse has failed, and refuse a request without an id."
 
 
 @part(
@@ -78,6 +84,7 @@ STUCK = (
     goal="Charge each request only once, even if it comes again, and send the same receipt each time.",
     needs=["Till"],
     deadline=60.0,
+    goals={CHARGED: 2, FAILED: 1, "Charge only once when 50 requests come at the same time.": 1},
 )
 def charge_once(context: CheckContext) -> None:
     """Send new and repeated requests; let the purse fail; omit the id; send 50 requests at the same time."""
@@ -95,13 +102,16 @@ def charge_once(context: CheckContext) -> None:
     crowd = context.service(name, CHARGE, hints=hints, timeout=MANY)
     try:
         known = _charges_new_requests(context, purse, charge)
+        context.fulfilled(CHARGED)
         _fails_once(context, purse, charge)
         _refuses_without_an_id(context, charge)
+        context.fulfilled(FAILED)
         _at_once(context, purse, crowd)
         _gives_different_receipts(context, purse, crowd)
+        _remembers(context, charge, *known)
     finally:
         context.run("checked_desk.close")
-    _is_new_to_another_till(context, hints, known)
+    _is_new_to_another_till(context, hints, known[0])
 
 
 class CheckedPurse:
@@ -158,8 +168,8 @@ ANOTHER_RECEIPT: Hints = [
 ]
 
 
-def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> str:
-    """Send new requests, and repeat them; return the id of a request that was charged."""
+def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> tuple[str, int]:
+    """Send new requests, and repeat them; return the id and the receipt of a request that was charged."""
     cents = context.random.integer(100, 900)
     first, second = context.random.word(12), context.random.word(12)
     receipt = charge(request_id=first, cents=cents).receipt
@@ -192,7 +202,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
         ),
     )
     for again, before in ((first, receipt), (second, other), (first, receipt)):
-        repeated = charge(request_id=again, cents=cents).receipt
+        repeated = charge(request_id=again, cents=context.random.integer(100, 900)).receipt
         _purse_has(context, purse, "a repeated request is not charged again", [cents, cents], AGAIN)
         context.expect(
             "a repeated request gets the same receipt again",
@@ -200,7 +210,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
             actual=repeated,
             hints=ANOTHER_RECEIPT,
         )
-    return first
+    return first, receipt
 
 
 def _only_one(words: str) -> Hints:
@@ -221,16 +231,28 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
         ),
     )
     charge(request_id=request_id, cents=cents)
-    _purse_ends_with(
-        context,
-        purse,
+    _purse_ends_with(context, purse, "a request that failed can be sent again", cents, TOO_SOON)
+    _fails_for_twins(context, purse, charge)
+
+
+def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
+    """Send a request twice at the same time, and let the purse fail once: a receipt needs a charge.
+
+    If the two requests share one call of take(), both clients get an error.
+    """
+    before, cents = len(purse.took), context.random.integer(10_000, 19_000)
+    purse.stuck = True
+    purse.await_crowd()
+    replies = charge.replies([{"request_id": context.random.word(12), "cents": cents}] * 2)
+    charged = len(purse.took) - before
+    context.require(
         "a request that failed can be sent again",
-        cents,
-        (
-            "A request failed and was repeated, but nothing was charged. Store the request_id after "
-            "take has returned, not before."
-        ),
+        holds=charged == 1 or all(reply.error for reply in replies),
+        expected="one charge for a receipt",
+        actual=f"a receipt, and {charged} charges",
+        hints=TOO_SOON,
     )
+    purse.stuck = False
 
 
 NOT_REFUSED: Hints = [
@@ -302,6 +324,16 @@ def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge
         expected=f"{AT_ONCE} receipts for {AT_ONCE} requests",
         actual=f"{len(set(receipts))} different receipts",
         hints=SAME_NUMBER,
+    )
+
+
+def _remembers(context: CheckContext, charge: Service, request_id: str, receipt: int) -> None:
+    """Repeat the first request after all other requests."""
+    context.expect(
+        "a repeated request gets the same receipt again",
+        expected=receipt,
+        actual=charge(request_id=request_id, cents=context.random.integer(100, 900)).receipt,
+        hints=ANOTHER_RECEIPT,
     )
 
 

@@ -42,6 +42,8 @@ FAULTS = {
     "killed after it charged, and started again": [Fault(Crash(AWAY), worked=True)],
     "shut down and started again": [Fault(Crash(AWAY, unregisters=True))],
 }
+PAID = "Pay at a till that works, and do not repeat a refused payment."
+REPEATED = "Pay exactly once at a till that fails and recovers."
 
 
 @part(
@@ -53,6 +55,7 @@ FAULTS = {
     ),
     needs=["pay"],
     deadline=60.0,
+    goals={PAID: 1, REPEATED: 2, "Limit each try, let the pauses grow, and keep the deadline.": 1},
 )
 def a_robust_client(context: CheckContext) -> None:
     """Pay at a till that works, refuses, fails and recovers, or never responds."""
@@ -60,6 +63,7 @@ def a_robust_client(context: CheckContext) -> None:
     till = context.faulty(name, CHARGE, books.work)
     _pays(context, name, till, books)
     _refused(context, name, till)
+    context.fulfilled(PAID)
     first, *others = FAULTS
     tries = {}
     for words in (first, *context.random.shuffled(others)):
@@ -67,6 +71,7 @@ def a_robust_client(context: CheckContext) -> None:
         tries[words] = pays_after(context, name, till, books, words)
     _in_a_random_order(context, name, till, books)
     _repeats_a_bad_return(context, name, till)
+    context.fulfilled(REPEATED)
     _limits_each_try(context, name, till, tries[SLOW])
     _pauses_grow(context, name, till, books)
     _gives_up(context, name, till)

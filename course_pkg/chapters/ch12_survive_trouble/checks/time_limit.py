@@ -14,14 +14,28 @@ LONG = 4.0  # s; a time limit that no call reaches
 WORK = 0.3  # s that a slow handler takes
 SLACK = 1.2  # s that a busy machine may add
 KERNEL_CODE = """
+import threading
+import time
+
 import rospy
 from course_pkg.srv import AddTwoInts
 
 
-def checked_call(function, name, seconds, a, b):
-    response = function(seconds, rospy.ServiceProxy(name, AddTwoInts), a, b)
-    return None if response is None else [response.sum]
+class CheckedCall:
+    def call(self, function, name, seconds, a, b):
+        threads, began = threading.enumerate(), time.process_time()
+        try:
+            response = function(seconds, rospy.ServiceProxy(name, AddTwoInts), a, b)
+        finally:
+            self.busy = time.process_time() - began  # s of processor time
+            new = [thread for thread in threading.enumerate() if thread not in threads]
+            self.daemon = all(thread.daemon for thread in new)
+        return None if response is None else [response.sum]
+
+
+checked_call = CheckedCall()
 """
+BUSY = 0.8  # s of processor time; a thread that waits without a pause uses more in LONG s
 ERRORS = [
     (
         matches("TimesUp"),
@@ -102,7 +116,9 @@ def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
 def _call(context: CheckContext, name: str, seconds: float, a: int, b: int) -> Result:
     function, worded = Its("call_within"), f"call_within({seconds:g}, proxy, a, b)"
     arguments = (function, name, seconds, a, b)
-    return context.run("checked_call", *arguments, within=seconds + 2 * SLACK, hints=ERRORS, worded=worded)
+    return context.run(
+        "checked_call.call", *arguments, within=seconds + 2 * SLACK, hints=ERRORS, worded=worded
+    )
 
 
 def _responds(context: CheckContext, name: str, adder: Adder) -> None:
@@ -187,4 +203,18 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         expected=f"TimeoutError after {limit:g} s",
         actual=f"after {result.took:.1f} s",
         hints="The function did not wait for `seconds`. Pass `seconds` to join().",
+    )
+    context.require(
+        "the time limit is kept",
+        holds=context.read("checked_call.daemon", bool),
+        expected="a daemon thread that still waits",
+        actual="a thread that is not a daemon thread",
+        hints="At the end of a program, Python waits for this thread. Create the thread with daemon=True.",
+    )
+    context.require(
+        "the time limit is kept",
+        holds=context.read("checked_call.busy", float) < BUSY,
+        expected="almost no processor time",
+        actual=f"{context.read('checked_call.busy', float):.1f} s of processor time in {limit:g} s",
+        hints="The function needs processor time while it waits. Use join(seconds), which sleeps.",
     )

@@ -11,7 +11,6 @@ from course_pkg.ros.protocol.xmlrpc import XmlRpcClient
 
 TIMEOUT = 5.0  # s; time limit of a call of the master
 PAUSE = 5.0  # s; longest time for which a registration waits
-STOPPING = 0.3  # s after which a registration continues if stop() waits for it
 
 # A service in the kernel, and the student's watchdog. The watchdog's calls of the master go through the check
 # runner.
@@ -53,17 +52,17 @@ class CheckedMaster:
 
     After a call of `hold`, the master seems to know no service, so the watchdog registers its service. This
     registration waits until stop() has returned. If stop() waits for the registration, the registration waits
-    only for a short time.
+    only for `slow` s.
     """
 
-    def __init__(self, uri: str) -> None:
+    def __init__(self, uri: str, slow: float) -> None:
         self.addresses: list[list[str]] = []  # the last arguments of each registration
         self.registered: list[float] = []  # times of the registrations, by time.monotonic()
         self.looks = 0  # number of calls of the master
         self.gap = 60.0  # s; the shortest time between two calls of the same kind
         self.inside = threading.Event()  # set while a registration waits
         self.stopped_at: float | None = None  # when stop() returned
-        self._uri = uri
+        self._uri, self._slow = uri, slow
         self._times: dict[str, float] = {}
         self._holds = False
         self._go = threading.Event()
@@ -90,7 +89,7 @@ class CheckedMaster:
     @remote
     def stopping(self) -> None:
         """Record that stop() is called now."""
-        threading.Timer(STOPPING, self._release).start()
+        threading.Timer(self._slow, self._release).start()
 
     @remote
     def stopped(self) -> None:

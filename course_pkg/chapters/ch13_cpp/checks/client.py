@@ -42,6 +42,7 @@ int main(int argc, char** argv) {{
   return 0;
 }}
 """
+REPEATS = "Call at most 3 times, with pauses, and end with 1 after the last refusal."
 
 
 @part(
@@ -54,6 +55,7 @@ int main(int argc, char** argv) {{
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
+    goals=[REPEATS, "Wait at most 2 s for the service."],
 )
 def patient_client(context: CheckContext) -> None:
     """Run it with servers that respond, refuse twice, refuse always or start late, and without a server."""
@@ -61,6 +63,7 @@ def patient_client(context: CheckContext) -> None:
     shapes = _prints_the_answer(context, folder)
     calls = _asks_again(context, folder)
     _pauses_between_calls(context, calls, _gives_up_after_refusals(context, folder, shapes))
+    context.fulfilled(REPEATS)
     _waits_for_a_late_server(context, folder)
     _gives_up_without_a_server(context, folder, shapes)
 

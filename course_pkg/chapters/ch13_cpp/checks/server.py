@@ -73,6 +73,8 @@ def box_server(context: CheckContext) -> None:
         for sides in ([wrong[0]], [wrong[1]], [wrong[2]], wrong[:2]):
             _measures(context, box)
             _refuses(context, box, sides)
+        for number in range(context.random.integer(1, 20)):
+            _measures(context, box, 0.01 if number == 0 else 1.0)
         _measures_empty_boxes(
             context, context.service(name, BOX, hints=[(matches("responded with an error"), ZERO_IS_ALLOWED)])
         )
@@ -97,8 +99,8 @@ def _wrong_volume(area: float, height: float) -> Hints:
     ]
 
 
-def _measures(context: CheckContext, box: Service) -> None:
-    length, width, height = (side + 0.37 for side in context.random.numbers(3, 1.0, 9.0))
+def _measures(context: CheckContext, box: Service, scale: float = 1.0) -> None:
+    length, width, height = (scale * (side + 0.37) for side in context.random.numbers(3, 1.0, 9.0))
     response = box(length=length, width=width, height=height)
     area = length * width
     expect_geometry(

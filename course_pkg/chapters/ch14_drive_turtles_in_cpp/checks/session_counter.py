@@ -15,6 +15,7 @@ from course_pkg.checking.plain_values import ServiceClass
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
 WITHIN = 4.0  # s for a call
+COUNTED = "Count the calls of each session separately."
 
 
 @part(
@@ -27,6 +28,7 @@ WITHIN = 4.0  # s for a call
     needs=[f"file:{PROGRAM.path}"],
     deadline=150.0,
     start=f"%%writefile {PROGRAM.path}\n...",
+    goals={COUNTED: 2, "Refuse a call without a session.": 1},
 )
 def count_sessions(context: CheckContext) -> None:
     """Call the service in two sessions, and without a session."""
@@ -34,11 +36,13 @@ def count_sessions(context: CheckContext) -> None:
     with world.run() as running:
         world.serves(running, "count")
         service = context.service(world.name("count"), TRIGGER, timeout=WITHIN)
-        sessions = [context.random.word(), context.random.word()]
+        first = context.random.word()
+        sessions = [first, first.upper(), f"{first}{context.random.word()}"]
         counts = dict.fromkeys(sessions, 0)
         for session in context.random.shuffled(sessions * 3):
             counts[session] += 1
             _counts(context, service.name, service.kind, session, counts)
+        context.fulfilled(COUNTED)
         service.refused(
             'a call without the field "session" is refused',
             hints=(
@@ -57,7 +61,7 @@ def _counts(
     context.expect(
         "the message is the number of calls in this session",
         expected=str(counts[session]),
-        actual=_call(name, kind, session),
+        actual=_call(name, kind, session, f"/{context.random.word()}"),
         hints=[
             (
                 str(sum(counts.values())),
@@ -78,13 +82,14 @@ def _counts(
     )
 
 
-def _call(name: str, kind: ServiceClass, session: str) -> str:
-    """Call in the given session with a time limit; return the message of the response, or the error."""
+def _call(name: str, kind: ServiceClass, session: str, caller: str) -> str:
+    """Call as the node `caller` in the given session; return the message of the response, or the error."""
     inbox: queue.Queue[str] = queue.Queue()
+    headers = {"session": session, "callerid": caller}
 
     def call() -> None:
         try:
-            inbox.put(rospy.ServiceProxy(name, kind, headers={"session": session})().message)
+            inbox.put(rospy.ServiceProxy(name, kind, headers=headers)().message)
         except (rospy.ServiceException, rospy.ROSException) as error:
             inbox.put(f"{type(error).__name__}: {error}")
 

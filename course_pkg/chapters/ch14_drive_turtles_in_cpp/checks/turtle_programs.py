@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from course_pkg.chapters.ch09_drive_turtles.checks.follow import follows
-from course_pkg.chapters.ch09_drive_turtles.checks.improved import is_improved
+from course_pkg.chapters.ch09_drive_turtles.checks.follow import FOLLOW_GOALS, follows
+from course_pkg.chapters.ch09_drive_turtles.checks.improved import IMPROVED_GOALS, is_improved
 from course_pkg.chapters.ch09_drive_turtles.checks.launch_file import LaunchFile, launches
-from course_pkg.chapters.ch09_drive_turtles.checks.rate import changes_its_rate
-from course_pkg.chapters.ch09_drive_turtles.checks.spawn import spawns
-from course_pkg.chapters.ch09_drive_turtles.checks.toggle import toggles
+from course_pkg.chapters.ch09_drive_turtles.checks.rate import RATE_GOALS, changes_its_rate
+from course_pkg.chapters.ch09_drive_turtles.checks.spawn import SPAWN_GOALS, spawns
+from course_pkg.chapters.ch09_drive_turtles.checks.toggle import TOGGLE_GOALS, toggles
 from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.cpp_program import cpp
 from course_pkg.checking import CheckContext, part
 
@@ -27,6 +27,7 @@ DEADLINE = 150.0  # s; the compiler alone may need 90 s on a busy machine
     needs=[f"file:{SPAWN.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {SPAWN.path}\n...",
+    goals=SPAWN_GOALS,
 )
 def wait_and_spawn(context: CheckContext) -> None:
     """Compile the program, and check it as in chapter 09."""
@@ -40,6 +41,7 @@ def wait_and_spawn(context: CheckContext) -> None:
     needs=[f"file:{TOGGLE.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {TOGGLE.path}\n...",
+    goals=TOGGLE_GOALS,
 )
 def toggle_direction(context: CheckContext) -> None:
     """Compile the program, and check it as in chapter 09."""
@@ -53,6 +55,7 @@ def toggle_direction(context: CheckContext) -> None:
     needs=[f"file:{RATE.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {RATE.path}\n...",
+    goals=RATE_GOALS,
 )
 def change_the_rate(context: CheckContext) -> None:
     """Compile the program, and check it as in chapter 09."""
@@ -69,6 +72,7 @@ def change_the_rate(context: CheckContext) -> None:
     needs=[f"file:{IMPROVED.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {IMPROVED.path}\n...",
+    goals=IMPROVED_GOALS,
 )
 def change_speed_and_stop(context: CheckContext) -> None:
     """Compile the program, and check it as in chapter 09."""
@@ -85,6 +89,7 @@ def change_speed_and_stop(context: CheckContext) -> None:
     needs=[f"file:{FOLLOW.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {FOLLOW.path}\n...",
+    goals=FOLLOW_GOALS,
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
     """Compile the program, and check it as in chapter 09."""

@@ -66,6 +66,7 @@ FOREVER = (
 )
 CATCH_TIMEOUT = "After its timeout, rospy.wait_for_service raises rospy.ROSException: catch this error, too."
 NO_WORD = "There was no service, but the program ended without a message: print the reason before it ends."
+ASKED = "Wait for detect_customer, call it once, and print customer or nobody."
 
 
 @part(
@@ -78,6 +79,7 @@ NO_WORD = "There was no service, but the program ended without a message: print 
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
+    goals={ASKED: 3, "End with the right status after a refusal or without a service.": 1},
 )
 def the_client(context: CheckContext) -> None:
     """Start the program before its service; use a service that responds or refuses, and no service."""
@@ -97,6 +99,7 @@ def the_client(context: CheckContext) -> None:
         context.serve(f"{early.space}/{DETECT}", AWAIT, detector.answer)
         _calls(context, early.end(), detector)
         _finds_nobody(context, default.end(), usual)
+        context.fulfilled(ASKED)
         _is_refused(context, refused.end())
         alone.is_on_the_graph()
         _gives_up(context, alone.end(LIMIT + 2.0))

@@ -56,6 +56,9 @@ FAILED: Hints = [
     (matches("error processing"), BUG),
     (matches("TimesUp"), TOO_LONG),
 ]
+WAITED = "Wait for a customer, with a limit."
+SEVERAL = "Respond to several callers at the same time."
+SILENT_CAMERA = "Refuse before the first message, and after 1 s without a message."
 
 
 @part(
@@ -65,6 +68,7 @@ FAILED: Hints = [
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
+    goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible patience.": 1},
 )
 def the_detector(context: CheckContext) -> None:
     """Publish on customer_seen; call with and without a customer; then make several calls at once."""
@@ -80,7 +84,9 @@ def the_detector(context: CheckContext) -> None:
         vision.show(False)
         _finds_nobody(context, detect, 0.0)
         _finds_nobody(context, detect, context.random.number(1.2, 1.5))
+        context.fulfilled(WAITED)
         _serves_several_callers(context, detect, vision)
+        context.fulfilled(SEVERAL)
         _refuses_impossible_patience(context, detect, vision)
 
 
@@ -185,6 +191,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
+    goals={SILENT_CAMERA: 3, "Notice a camera that becomes silent or comes back during a call.": 1},
 )
 def the_silent_camera(context: CheckContext) -> None:
     """Call before the first message, shortly and long after the last message, and while new messages come."""
@@ -201,6 +208,7 @@ def the_silent_camera(context: CheckContext) -> None:
         while vision.silent_for() < 1.2:
             time.sleep(0.05)
         _refuses(context, detect, 0.3, "after 1 s without a message, the node refuses")
+        context.fulfilled(SILENT_CAMERA)
         vision.show(False)
         vision.customer = None
         _refuses(context, detect, 1.5, "if the camera becomes silent during the call, the node refuses")

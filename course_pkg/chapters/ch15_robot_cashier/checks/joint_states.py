@@ -82,7 +82,7 @@ def _joint_state(context: CheckContext, number: int) -> JointState:
         nsecs=context.random.integer(1, 999_999_999),
         frame_id="arm",
         name=["base", "shoulder", "elbow"],
-        position=context.random.numbers(3, -3.0, 3.0),
-        velocity=context.random.numbers(3, -3.0, 3.0) if number % 5 else [],
+        position=context.random.numbers(3, -3.0, 3.0, digits=12),
+        velocity=context.random.numbers(3, -3.0, 3.0, digits=12) if number % 5 else [],
         effort=context.random.numbers(3, 1.0, 9.0) if number % 2 else [],
     )

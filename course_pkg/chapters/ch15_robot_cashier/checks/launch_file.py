@@ -25,7 +25,7 @@ import re, sys
 from roslaunch.config import load_config_default
 config = load_config_default([(sys.argv[1], sys.argv[2:])], None)
 for node in config.nodes:
-    print("node", node.namespace + node.name, node.package, node.type)
+    print("node", node.namespace + node.name, node.package, node.type, node.launch_prefix or "")
     for key, value in re.findall(r"(?<!\\S)_(\\w+):=(\\S+)", node.args or ""):
         print(f"{node.namespace}{node.name}/{key}: {value}")
 for parameter in config.params.values():
@@ -70,6 +70,7 @@ DEFAULT_WAIT = 'Without an argument, the value of wait has to be 2 s: write defa
 NOT_PASSED = (
     'The parameter has a fixed value. Write value="$(arg wait)", so that it gets the value of the argument.'
 )
+LISTED = "Start all nodes, and those of the hardware only with hardware:=true."
 
 
 @part(
@@ -79,6 +80,7 @@ NOT_PASSED = (
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals=[LISTED, "Pass the argument wait to the nodes, and start the right programs."],
 )
 def the_launch_file(context: CheckContext) -> None:
     """Compare the nodes, programs and parameters that roslaunch would start."""
@@ -89,10 +91,11 @@ def the_launch_file(context: CheckContext) -> None:
         listed = [ending.enter_context(_roslaunch(package, words)) for words in ([], given)]
         for command, words, wanted in zip(listed, ([], given), ((*HARDWARE, *NODES), NODES), strict=True):
             _lists(context, _read(context, command), " ".join(words) or "no argument", wanted)
+    context.fulfilled(LISTED)
     for words, value in (([], 2.0), (given, wait)):
         printed = package.run(f"python3 -c '{READER}' {FILE} {' '.join(words)}", within=READING).out
         _passes_the_argument(context, printed, value, words)
-        _starts_programs(context, printed)
+        starts_programs(context, printed)
 
 
 def _roslaunch(package: BuiltPackage, words: list[str]) -> Running:
@@ -172,14 +175,16 @@ def _number(text: str) -> float | None:
         return None
 
 
-def _starts_programs(context: CheckContext, printed: str) -> None:
-    """Assert that each node runs the program with the node's name."""
-    for node, package, program in re.findall(r"^node /(\S+) (\S+) (\S+)", printed, re.MULTILINE):
+def starts_programs(
+    context: CheckContext, printed: str, assertion: str = "each node has its own program"
+) -> None:
+    """Assert that each node in the output of READER runs the program with the node's name."""
+    for node, started in re.findall(r"^node /(\S+) (.*\S)", printed, re.MULTILINE):
         wanted = f"my_cashier {node}.py" if node in NODES else f"course_pkg {node}"
         context.require(
-            "each node has its own program",
-            holds=f"{package} {program}" == wanted,
+            assertion,
+            holds=started == wanted,
             expected=wanted,
-            actual=f"{package} {program}",
+            actual=started,
             hints=PROGRAMS,
         )

@@ -20,6 +20,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.packages import MY_CASHIER, f
 from course_pkg.checking import CheckContext, matches
 from course_pkg.checking.commands.folder import Running
 from course_pkg.checking.shared.catkin_package import BuiltPackage, copied
+from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.ros import Snapshot
 from course_pkg.workspace import explain
 
@@ -130,6 +131,7 @@ def complete(
         time.sleep(POLL)
         seen = context.look()
     context.require(assertion, holds=True)
+    require_own_nodes(context, space)
 
 
 def still(started: float, least: float) -> float:

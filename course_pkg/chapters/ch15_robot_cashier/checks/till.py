@@ -100,6 +100,9 @@ BIG = (
     "The sum of amounts above 2147483647 has to be right, too. An int in Python has "
     "no limit, so do not convert the numbers."
 )
+SUMMED = "Store the price of each item, and return the sum."
+EMPTIED = "Remove all items, and return the sum that was paid."
+PRINTED = "Print one line for each item, and count an item only after its line."
 
 
 @part(
@@ -111,6 +114,7 @@ BIG = (
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
+    goals={SUMMED: 3, "Refuse negative cents, with the item and the cents in the message.": 1},
 )
 def the_sum(context: CheckContext) -> None:
     """Set items, some of them twice; compare the total; send items that the till has to refuse."""
@@ -131,6 +135,7 @@ def the_sum(context: CheckContext) -> None:
             prices[item] = cents
             _sets(context, till, item, cents, sum(prices.values()), hint)
             _totals(context, total, prices, FREE if not cents else COUNT, SUM)
+        context.fulfilled(SUMMED)
         amount = -context.random.integer(1, 900)
         item = context.random.word()
         for word in (str(amount), item):
@@ -197,6 +202,7 @@ ORDER = (
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.7, extended.\n..."),
+    goals={PRINTED: 2, "Print one line at a time, and refuse an item without a printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
     """Set items with a printer that works or refuses; then many items at once; then without a printer."""
@@ -230,6 +236,7 @@ def the_printed_till(context: CheckContext) -> None:
             hints="The item had this price before. Print a line for each call of till/set.",
         )
         _prints_no_illegal_item(context, till)
+        context.fulfilled(PRINTED)
         _adds_up_in_order(context, till, {**prices, other: more})
         _refuses_without_printer(context, till, third, rest)
 
@@ -337,6 +344,7 @@ LEFT = (
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.8, extended.\n..."),
+    goals={EMPTIED: 3, "Wait for a line that is being printed, and reset without a printer.": 1},
 )
 def the_reset(context: CheckContext) -> None:
     """Reset a till with and without items, with a free item, and while a line is being printed."""
@@ -352,6 +360,7 @@ def the_reset(context: CheckContext) -> None:
         _resets(context, reset, "already empty", EMPTY)
         till.set(item=items[0][0], cents=0)
         _resets(context, reset, "paid 0 cents", FREE_ITEM)
+        context.fulfilled(EMPTIED)
         _waits_for_a_line(context, till, reset, total)
         till.set(item=items[0][0], cents=items[0][1])
         till.server.leave()

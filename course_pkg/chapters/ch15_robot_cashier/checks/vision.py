@@ -47,6 +47,7 @@ BROKE = (
     "After a malformed frame, the node published nothing for a valid frame. Check "
     "each frame before you read its points."
 )
+SHOWN = "Publish for each valid frame whether it shows a customer."
 
 
 @part(
@@ -59,6 +60,7 @@ BROKE = (
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
+    goals={SHOWN: 3, "Leave out malformed frames.": 1},
 )
 def the_vision(context: CheckContext) -> None:
     """Send frames with dark points around the limit, frames with padding, and malformed frames."""
@@ -70,6 +72,7 @@ def the_vision(context: CheckContext) -> None:
         width, height = (10 * number for number in context.random.integers(2, 2, 5))
         for frame in _valid_frames(context, width, height):
             _shows(context, camera, seen, frame)
+        context.fulfilled(SHOWN)
         for what, malformed, hint in _malformed_frames(context, width, height):
             _leaves_out(context, camera, seen, malformed, what, hint)
 

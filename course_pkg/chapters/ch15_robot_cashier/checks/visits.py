@@ -30,7 +30,7 @@ STRING = "std_msgs/String"
 GREETING = "Good day!"
 STANDING = 1.2  # s for which the first call waits
 PAUSE, TOO_LONG = 0.4, 2.0  # s; limits for a pause of half a second, measured on a busy machine
-BETWEEN = 0.1  # s, the shortest time between two calls while a customer is there
+BETWEEN = 0.18  # s, the shortest time between two calls while a customer is there
 NEXT_CALL = 6.0  # s for the next call, on a busy machine
 
 
@@ -117,6 +117,7 @@ STANDS_STILL = (
     "While a call waits, no joint state is mirrored. Make the call in the main "
     "thread, and publish in the callback of the subscriber."
 )
+GREETED = "Greet each customer once, and mirror the arm at the same time."
 
 
 @part(
@@ -129,6 +130,7 @@ STANDS_STILL = (
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.5, extended.\n..."),
+    goals={GREETED: 3, "Call detect_customer in a loop, with a patience of 2 s without the parameter.": 1},
 )
 def the_visits(context: CheckContext) -> None:
     """Serve a detector that responds, refuses and breaks a connection, and a till that refuses once."""
@@ -154,6 +156,7 @@ def the_visits(context: CheckContext) -> None:
         context.serve(f"{other}/{DETECT}", AWAIT, alone.answer)
         _makes_the_calls(context, detector, mirrored)
         _greets(context, greetings, till)
+        context.fulfilled(GREETED)
         wait_until(lambda: alone.patiences or default.status is not None, NEXT_CALL)
         context.expect(
             "without the parameter, the patience is 2 s",

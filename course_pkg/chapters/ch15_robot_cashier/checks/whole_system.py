@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from sensor_msgs.msg import Image
 
 from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import JOINTS
-from course_pkg.chapters.ch15_robot_cashier.checks.launch_file import FILE
+from course_pkg.chapters.ch15_robot_cashier.checks.launch_file import FILE, READER, READING, starts_programs
 from course_pkg.chapters.ch15_robot_cashier.checks.packages import LAUNCH, MY_CASHIER, NODES
 from course_pkg.chapters.ch15_robot_cashier.checks.printer import Printer
 from course_pkg.chapters.ch15_robot_cashier.checks.refusals import refused
@@ -42,6 +42,7 @@ SERVICES = {
 }
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
+SYSTEM = "roslaunch starts the whole system"  # an assertion
 VISITS = 2  # largest number of customers after the restart until one of them is greeted
 MANY = 6  # calls at the same time, by two customers
 
@@ -87,6 +88,8 @@ AFTERWARDS = (
 def the_whole_system(context: CheckContext) -> None:
     """Be two customers at once, with faults of the printer and of the camera; then kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
+    command = f"python3 -c '{READER}' {FILE} hardware:=false"
+    programs = package.start(command, worded="roslaunch")
     space = f"/{context.random.word()}"
     printer = Printer()
     context.serve(f"{space}/print_line", "course_pkg/PrintLine", printer.answer)
@@ -99,6 +102,8 @@ def the_whole_system(context: CheckContext) -> None:
     line = f"roslaunch my_cashier cashier.launch hardware:=false wait:={WAIT}"
     with package.start(f"env ROS_NAMESPACE={space} {line}", worded=line) as running:
         took = _comes_up(context, running, space)
+        wait_until(lambda: programs.status is not None, READING)
+        starts_programs(context, programs.stop().out, SYSTEM)
         greetings.published()
         mirrored.published()
         shop = Shop(context, space, printer, greetings, seen, counter)
@@ -143,7 +148,7 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
             status, printed = running.status, running.stop().out
             name, node = missing[0]
             context.fail(
-                "roslaunch starts the whole system",
+                SYSTEM,
                 expected=f"{name} of the node {node}",
                 actual=telling_line(printed) if status is not None else f"no {name}",
                 hint=NOT_LAUNCHED
@@ -153,7 +158,7 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
                 ),
             )
         time.sleep(POLL)
-    context.require("roslaunch starts the whole system", holds=True)
+    context.require(SYSTEM, holds=True)
     return time.monotonic() - started
 
 

@@ -12,6 +12,7 @@ import actionlib
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.checking.result import Result
 from course_pkg.msg import FetchAction, FetchGoal, FetchResult
 from course_pkg.ros.node.action_server import ActionServer
@@ -76,6 +77,10 @@ class Robot:
             server.set_succeeded(FetchResult(fetched=self._fetched))
 
 
+FETCHED = "Send a goal, and return the number of fetched things."
+CANCELLED = "Cancel the goal when the limit is over, and return the number."
+
+
 @part(
     "16.2",
     points=3,
@@ -85,12 +90,15 @@ class Robot:
     ),
     needs=["fetch_within"],
     deadline=60.0,
+    goals=[FETCHED, CANCELLED, "Wait for the action server, with the same limit."],
 )
 def bounded_goal(context: CheckContext) -> None:
     """Offer a fast, a slow, a stubborn and a late robot, one after the other; then offer no robot."""
     _in_time(context)
+    context.fulfilled(FETCHED)
     _too_late(context)
     _goes_on(context)
+    context.fulfilled(CANCELLED)
     _comes(context)
     _nobody(context)
 
@@ -171,10 +179,12 @@ def _sends_the_goal(context: CheckContext, goal: FetchGoal, things: int) -> None
 def _too_late(context: CheckContext) -> None:
     name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
     robot = Robot(fetched, LONG)
+    cancel = context.subscribe(f"{name}/cancel", "actionlib_msgs/GoalID")
     with _serving(name, robot):
         result = _fetch(context, robot, name, 5, SECONDS)
         if not result.error:
             _is_cancelled(context, robot)
+            _cancels_one_goal(context, cancel)
         context.expect(
             "after a cancellation, the number of things fetched so far is returned",
             expected=fetched,
@@ -187,6 +197,18 @@ def _too_late(context: CheckContext) -> None:
                 ),
             ],
         )
+
+
+def _cancels_one_goal(context: CheckContext, cancel: Subscription) -> None:
+    ids = [arrival.fields["id"] for arrival in cancel.wait()]
+    context.require(
+        "a robot that does not finish in time is cancelled",
+        holds=all(ids),
+        expected="a cancellation of the own goal",
+        actual="a cancellation of all goals",
+        hints="The function cancelled the goals of other clients, too. Use cancel_goal(), which cancels only "
+        "its own goal.",
+    )
 
 
 def _is_cancelled(context: CheckContext, robot: Robot) -> None:

@@ -14,6 +14,7 @@ from actionlib_msgs.msg import GoalStatus
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.subscription import Subscription
+from course_pkg.checking.shared.own_program import require_kernel
 from course_pkg.msg import FetchAction, FetchGoal
 from course_pkg.waiting import Deadline, at_this_load, wait_until
 
@@ -38,6 +39,7 @@ NO_STATE = (
     "set_preempted or set_aborted of the server; the return value of the function "
     "is ignored."
 )
+EXECUTED = "Publish feedback after each thing, and the result at the end."
 
 
 @part(
@@ -46,6 +48,7 @@ NO_STATE = (
     goal="Write an action server: feedback after each thing, the result at the end, and cancellation.",
     needs=["Fetcher"],
     deadline=60.0,
+    goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal without things.": 1},
 )
 def executed_goal(context: CheckContext) -> None:
     """Create an object of the student's class; send goals with different times, and cancel one of them."""
@@ -55,8 +58,11 @@ def executed_goal(context: CheckContext) -> None:
     context.run("begin", Its("Fetcher"), name, worded="Fetcher(name)").returned()
     client = actionlib.SimpleActionClient(name, FetchAction)
     _is_served(context, client)
+    status = [topic.publishers for topic in context.look().topics if topic.name == f"{name}/status"]
+    require_kernel(context, [node for publishers in status for node in publishers])
     _carries_out(context, client, feedback)
     _takes_long_for_a_long_thing(context, client)
+    context.fulfilled(EXECUTED)
     _cancels(context, client, feedback)
     _fetches_nothing(context, client)
 

@@ -21,6 +21,7 @@ TEXT = "A parameter can also be a text. Check that the value is a number."
 LIST = "A parameter can also be a list. Check that the value is a number, instead of excluding single types."
 TRUTH = "In Python, True is an int with the value 1. Check for bool separately."
 NEGATIVE = "The value was negative, but a speed has to be above 0. Return the default."
+SET = "The function has set the parameter. Only read the parameter, and return the default."
 ZERO = "The value was 0, but a speed has to be above 0. Return the default."
 
 
@@ -66,12 +67,19 @@ def speed_parameter(context: CheckContext) -> None:
             holds=not rospy.has_param(f"/{robot}/speed"),
             expected="no parameter, as before the call",
             actual="a parameter that the function has set",
-            hints="The function has set the parameter. Only read the parameter, and return the default.",
+            hints=SET,
         )
         again = context.random.shuffled(cases)[: context.random.integer(3, 5)]  # the order is random
         for value, assertion, expected, hint in (*cases, *again):
             rospy.set_param(f"/{robot}/speed", value)
             _returns(context, robot, default, assertion, expected, hint)
+            context.require(
+                assertion,
+                holds=str(rospy.get_param(f"/{robot}/speed", None)) == str(value),
+                expected="the same parameter as before the call",
+                actual="another value of the parameter",
+                hints=SET,
+            )
     finally:
         with suppress(KeyError):
             rospy.delete_param(f"/{robot}")

@@ -42,6 +42,9 @@ if __name__ == "__main__":
     rospy.init_node("parcel_robot")
     # Write your node: imports above, functions or a class above this block, the rest here.
 """
+DELIVERED = "Deliver parcels with feedback, and publish the charge of the battery."
+STOPPED = "Stop when the delivery is cancelled."
+LIMITED = "Refuse more parcels than the parameter capacity allows."
 
 
 @part(
@@ -53,6 +56,7 @@ if __name__ == "__main__":
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
+    goals=[DELIVERED, STOPPED, LIMITED, "Open and close the door."],
 )
 def parcel_robot(context: CheckContext) -> None:
     """Start robots with and without a capacity; read the battery, move the door, deliver and cancel."""
@@ -65,11 +69,14 @@ def parcel_robot(context: CheckContext) -> None:
         client = _client(first)
         feedback.published()
         _delivers(context, client, feedback, battery)
+        context.fulfilled(DELIVERED)
         charge = _cancels(context, client, feedback, battery)
+        context.fulfilled(STOPPED)
         _refuses_too_many(context, client, FEW)
         _delivers_nothing_impossible(context, battery, charge - FEW)
         offers_what_fits(context, second)
         _refuses_too_many(context, _client(second), USUAL)
+        context.fulfilled(LIMITED)
         _moves_the_door(context, first)
 
 

@@ -1,4 +1,4 @@
-"""Answers that read files or run programs, where the exercise does not ask for it."""
+"""Answers that read files or run programs, although the exercise does not require this."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ SYSTEM = frozenset(
 PROGRAMS = ("subprocess.", "os.exec", "os.spawn", "os.posix_spawn", "os.fork", "pty.", "multiprocessing.")
 METHODS = frozenset(
     ["read_text", "read_bytes", "iterdir", "rglob"]
-)  # no other objects have methods of these names
+)  # no other objects have methods with these names
 PATH_METHODS = frozenset(
     [
         "exists",
@@ -87,7 +87,7 @@ PLACES = re.compile(
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each way of reading files that the exercise's own solution does not use."""
+    """Yield a flag for each way of reading files that the exercise's solution does not use."""
     yield from unusual(group, "files", _observe, whole_notebook=False)
 
 

@@ -1,4 +1,4 @@
-"""Answers that touch the course's own code, or look into other code that runs in their process."""
+"""Answers that use internals of the course, or that inspect other code in their process."""
 
 from __future__ import annotations
 
@@ -79,15 +79,15 @@ ATTRIBUTES = frozenset(
         "user_ns",
     ]
 )
-PUBLIC = re.compile(r"course_pkg(\.(srv|msg)\b.*)?")  # packages of types have no internals
+PUBLIC = re.compile(r"course_pkg(\.(srv|msg)\b.*)?")  # these packages contain only types, and no internals
 COMMANDS = frozenset(
     ["system", "getoutput", "run_line_magic", "run_cell_magic"]
-)  # of get_ipython(), as IPython writes them
+)  # attributes of get_ipython() as IPython spells them
 MODULE = re.compile(r"course_pkg(\.[a-z_]+)+")
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each way in which an answer looks into other code."""
+    """Yield a flag for each way in which an answer inspects other code."""
     for work, answer in group.answers():
         if is_python(answer) and is_too_long(answer):
             yield work, Flag("internals", answer.where, "It is too long, so its code was not searched.")
@@ -133,13 +133,16 @@ def _is_shell(node: ast.expr) -> bool:
 
 
 def _is_internal(name: str) -> bool:
-    """Return whether this is the name of a module that shows other code, or of a part of the course."""
+    """Return whether `name` is a module for inspecting code, or a part of the course."""
     first = name.partition(".")[0]
     return first in MODULES or (first == "course_pkg" and not PUBLIC.fullmatch(name))
 
 
 def _named(text: str, line: int) -> Iterator[Observation]:
-    """Yield what a string names: a module of the course, or an attribute for getattr()."""
+    """Yield an observation for a string that is the name of a module or an attribute.
+
+    It must be a module of the course, or an attribute for getattr().
+    """
     if MODULE.fullmatch(text) and not PUBLIC.fullmatch(text):
         yield Observation(text, line, f"It names {text}.")
     elif text in ATTRIBUTES:

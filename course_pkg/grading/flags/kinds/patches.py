@@ -17,7 +17,7 @@ UPDATES = frozenset(["update", "setdefault", "pop", "clear", "__setitem__"])
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each attribute of an imported object that an answer changes."""
+    """Yield a flag for each attribute of an imported object to which an answer assigns."""
     yield from unusual(group, "patches", _observe, whole_notebook=True)
 
 
@@ -32,7 +32,7 @@ def _observe(program: Program) -> Iterator[Observation]:
 
 
 def _changed(node: ast.Attribute | ast.Subscript, program: Program) -> str:
-    """Return the name of the imported object that an assignment changes, or an empty string."""
+    """Return the name of the imported object that an assignment changes, or ""."""
     if isinstance(node, ast.Attribute):
         return _name(node, program)
     inside = _name(node.value, program)
@@ -46,7 +46,7 @@ def _changed(node: ast.Attribute | ast.Subscript, program: Program) -> str:
 
 
 def _name(node: ast.expr, program: Program) -> str:
-    """Return the full name of an imported object, also inside type(…) and behind an index."""
+    """Return the full name of an imported object, even inside type(…) or before an index."""
     if isinstance(node, ast.Attribute) and not dotted(node, program.names):
         inside = _name(node.value, program)
         return f"{inside}.{node.attr}" if inside else ""
@@ -71,7 +71,7 @@ def _called(node: ast.Call, program: Program) -> Iterator[Observation]:
 
 
 def _replaced(program: Program) -> Iterator[Observation]:
-    """Yield the modules whose names the answer gives to something else, such as `rospy = Fake()`."""
+    """Yield the modules whose names the answer assigns to another object, such as `rospy = Fake()`."""
     modules = {name for name, full in program.names.items() if name == full}
     for node in program.module.body:
         targets = node.targets if isinstance(node, ast.Assign) else []

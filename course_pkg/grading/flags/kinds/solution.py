@@ -19,11 +19,11 @@ CHANGED = "It is the solution of the course, except for names, comments, texts o
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each answer that is the course's solution.
+    """Yield a flag for each answer that is the same as the course's solution.
 
-    The solution of a short exercise is what many students write. So identical short answers are not evidence:
-    they are reported only if together they have at least ten statements that are not in the handed-out cells.
-    A changed answer needs as many by itself.
+    For a short exercise, many students write the same code as the solution. Therefore, identical short
+    answers are reported only if all of them together have at least ten statements that are not in the
+    handed-out cells. A similar answer is reported only if it has this number of statements by itself.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}
@@ -45,13 +45,13 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _written(answer: Fingerprint, given: Fingerprint) -> int:
-    """Return how many statements are not in the handed-out cell."""
+    """Return the number of statements that are not in the handed-out cell."""
     forms = {form for form, _ in given.lines}
     return sum(form not in forms for form, _ in answer.lines)
 
 
 def _plain(answer: Answer) -> str:
-    """Return the program without layout and comments; only without layout if it is not Python."""
+    """Return the program without layout and comments. If it is not Python, remove only the layout."""
     with suppress(*UNREADABLE):
         if is_python(answer):
             return ast.dump(tree(answer))

@@ -1,12 +1,13 @@
 """canvas.csv and canvas/NN.csv, which the gradebook of Canvas imports (Grades, Import).
 
-Layout, from Canvas's source: lib/gradebook_exporter.rb writes the columns Student, ID, SIS User ID, SIS Login
-ID, Section and the assignments, and the row "    Points Possible". lib/gradebook_importer.rb finds a student
-by the ID (the Canvas user id), else by SIS User ID, else by SIS Login ID, else by the name; an assignment by
-its name, with or without its number in parentheses. If it does not know the name, it offers to create the
-assignment. The row "    Points Possible" sets the points of the assignment. A grade is removed if its cell is
-empty, and stays if the student has no row. So canvas.csv has no row for a student without a grade, and
-canvas/NN.csv contains one chapter, with only those who handed it in.
+Layout, from Canvas's source: lib/gradebook_exporter.rb writes the columns Student, ID, SIS User ID, SIS
+Login ID and Section, one column for each assignment, and the row "    Points Possible".
+lib/gradebook_importer.rb finds a student by the ID (the Canvas user id), otherwise by the SIS User ID,
+the SIS Login ID or the name. It finds an assignment by its name, with or without its number in
+parentheses. If it does not know the name, it offers to create the assignment. The row "    Points Possible"
+sets the points of the assignment. If a cell is empty, the student's grade is removed; if the student has
+no row, the grade stays. Therefore, canvas.csv has no row for a student without a grade, and canvas/NN.csv
+contains only the students who handed in this chapter.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import Book, name_of, points
 
 HEAD = ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
-SIS = "sis user id"  # the column of a roster that was exported from Canvas
+SIS = "sis user id"  # a column of a roster that was exported from Canvas
 
 
 def write(book: Book, out: Path) -> None:
@@ -30,7 +31,7 @@ def write(book: Book, out: Path) -> None:
     files = {folder / f"{clean.file_name(chapter)}.csv": chapter for chapter in book.chapters}
     for path, chapter in files.items():
         _put(path, book, [chapter])
-    # Files of an earlier run, which graded other chapters.
+    # These files are from an earlier run, which graded other chapters.
     for path in set(folder.glob("*.csv")) - files.keys():
         path.unlink()
 
@@ -55,7 +56,7 @@ def _identity(book: Book, student: str) -> list[str]:
     if person is None:
         return [clean.cell(name_of(student)), "", "", clean.cell(name_of(student)), ""]
     number = person.id if re.fullmatch(r"\d{1,19}", person.id) else ""
-    # An id that is not a number cannot be a Canvas user id, so it is from the student information system
+    # If an id is not a number, it is not a Canvas user id; then it belongs to the student information system
     # (SIS).
     further = [person.more.get(SIS, "" if number else person.id), person.username, person.section]
     return [clean.cell(person.name or name_of(student)), number, *map(clean.cell, further)]

@@ -10,11 +10,11 @@ from course_pkg.checking.report import Verdict
 from course_pkg.files import write_atomically
 from course_pkg.grading import clean
 from course_pkg.grading.reports import roster
+from course_pkg.grading.reports.asked import Column
 from course_pkg.grading.reports.flags import flag_sections
 from course_pkg.grading.reports.gradebook import (
     WITHOUT_SANDBOX,
     Book,
-    Column,
     attention,
     name_of,
     not_handed_in,
@@ -69,8 +69,13 @@ def _summary(book: Book) -> str:
     count = len([student for student in book.students if student])
     if not book.total:
         return f"{count} students"
-    shares = [book.earned(student) / book.total for student in book.students if student]
-    mean = f", {sum(shares) / len(shares):.0%} of {book.total} points on average" if shares else ""
+    shares = [
+        book.earned(student) / possible
+        for student in book.students
+        if student and (possible := book.possible_for(student))
+    ]
+    share = f"{sum(shares) / len(shares):.0%}" if shares else ""
+    mean = f", {share} of the possible points on average" if shares else ""
     named = f"Chapter {book.chapters[0]}" if len(book.chapters) == 1 else f"{len(book.chapters)} chapters"
     return f"{clean.line(named)}: {count} {'student' if count == 1 else 'students'}{mean}"
 
@@ -192,10 +197,12 @@ def _everybody(book: Book) -> str:
     chapters = book.chapters if len(book.chapters) > 1 else ()
     head = ["Student", *(f"Chapter {chapter}" for chapter in chapters), "Points"]
     rows = [_row(book, student, chapters) for student in book.students]
-    return table(f"Points, of {book.total}", head, rows, len(chapters) + 1)
+    return table(f"Points, of {points(book.total)}", head, rows, len(chapters) + 1)
 
 
 def _row(book: Book, student: str, chapters: Sequence[str]) -> list[str]:
     grades = [book.grade(student, chapter) for chapter in chapters]
     cells = [ABSENT if grade is None else points(grade.earned) for grade in grades]
-    return [_link(student), *cells, points(book.earned(student))]
+    possible = book.possible_for(student)
+    other = f" of {points(possible)}" if possible != book.total else ""
+    return [_link(student), *cells, f"{points(book.earned(student))}{other}"]

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from course_pkg.checking.report import Assertion, Report, Verdict
+from course_pkg.checking.report import GOALS, Assertion, Report, Verdict
 from course_pkg.files import write_atomically
 from course_pkg.grading import clean
 from course_pkg.grading.grade import Grade
-from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, of_points
+from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, not_handed_in, of_points
 from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, text
 
 CODE = 20_000  # maximum number of characters of a student's code
@@ -24,14 +24,14 @@ def write(book: Book, out: Path) -> None:
         grades = [grade.for_student() for grade in book.of(student)]
         title = f"Feedback for {name_of(student)}"
         path = out / "feedback" / f"{clean.file_name(student or 'nobody')}.html"
-        write_atomically(path, frame.page(title, _body(title, grades)))
+        write_atomically(path, frame.page(title, _body(title, grades, book, student)))
 
 
-def _body(title: str, grades: list[Grade]) -> Iterator[str]:
+def _body(title: str, grades: list[Grade], book: Book, student: str) -> Iterator[str]:
     yield f"<h1>{text(title)}</h1>"
-    if len([grade for grade in grades if grade.reports]) > 1:
-        earned, possible = sum(grade.earned for grade in grades), sum(grade.possible for grade in grades)
-        yield paragraph(of_points(earned, possible), "lead")
+    if len(book.counted(student)) > 1:
+        yield paragraph(of_points(book.earned(student), book.possible_for(student)), "lead")
+    yield paragraph(not_handed_in(book, student))
     for grade in grades:
         yield f"<section>{''.join(_chapter(grade))}</section>"
 
@@ -60,7 +60,8 @@ def _part(report: Report, code: str) -> str:
     )
     return (
         f'<article class="part {kind}"><header>{head}<span class="muted">{score}</span></header>'
-        f"{paragraph(report.goal)}{_code(code)}{sections}{paragraph(report.note)}{_printed(report)}{_review(report)}</article>"
+        f"{paragraph(report.goal)}{_code(code)}{sections}{paragraph(report.note)}{_credits(report)}"
+        f"{_printed(report)}{_review(report)}</article>"
     )
 
 
@@ -75,6 +76,12 @@ def _review(report: Report) -> str:
     """Return what the instructor decided and wrote about this part."""
     sentences = (f"<p>{clean.html(sentence)}</p>" for sentence in report.about_review())
     return f'<div class="review">{"".join(sentences)}</div>' if report.review else ""
+
+
+def _credits(report: Report) -> str:
+    """Return the points of each goal."""
+    items = "".join(f"<li>{text(line, 600)}</li>" for line in report.credits())
+    return f"{paragraph(GOALS)}<ul>{items}</ul>" if items else ""
 
 
 def _assertion(assertion: Assertion) -> str:

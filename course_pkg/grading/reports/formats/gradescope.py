@@ -1,7 +1,7 @@
 """gradescope/<student>/results.json, in the format of an autograder of Gradescope.
 
-Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/. Gradescope stores the data in
-`extra_data`, but does not show them. Here, they are the identity of the student, under the names of
+Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/. Gradescope stores `extra_data`, but
+does not show them. Here, they contain the identity of the student, with the names of
 https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
 """
 
@@ -47,7 +47,7 @@ def _results(grades: list[Grade]) -> dict[str, Plain]:
         text for grade in grades for text in (grade.problem, about_lateness(grade), *grade.notes) if text
     ]
     return {
-        # This total replaces the sum, because it contains the deduction for lateness.
+        # This score replaces the sum of the tests, because it contains the deduction for lateness.
         "score": round(sum(grade.earned for grade in grades), 2),
         "output": "\n".join(clean.line(text) for text in words),
         "output_format": "text",

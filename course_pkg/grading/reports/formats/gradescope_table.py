@@ -37,7 +37,7 @@ def write(book: Book, out: Path) -> None:
 
 def _row(book: Book, student: str) -> list[str]:
     person = book.person(student) or Person(name=name_of(student))
-    score = [points(book.earned(student)), points(book.total), "Graded"]
+    score = [points(book.earned(student)), points(book.possible_for(student)), "Graded"]
     reports = [report_of(book.grade(student, column.chapter), column.check) for column in book.columns]
     cells = ["" if report is None else points(report.points) for report in reports]
     return [*_identity(person), *score, submission_id(book, student), *cells]

@@ -1,6 +1,8 @@
-"""junit.xml: a suite for each submission and a case for each part, for programs that show test results.
+"""junit.xml, for programs that show test results.
 
-A part that was not examined is an error and not a skipped case, because readers overlook skipped cases.
+Each submission is a test suite, and each part is a test case.
+
+A part that was not examined is an error, not a skipped case, because readers do not notice skipped cases.
 """
 
 from __future__ import annotations

@@ -1,10 +1,12 @@
-"""moodle.csv, for Moodle's menu Grades, Import, CSV file; Moodle asks for the meaning of each column.
+"""moodle.csv, for Moodle's menu Grades, Import, CSV file.
 
-Map the column `username` or `email` to the student: Moodle cannot identify a student by a full name or by a
-participant number. A roster or Moodle's worksheet provides both columns for submissions from Moodle. Map each
-chapter to its grade item, and its feedback to "Feedback for". Always map both: Moodle deletes the grade of an
-item if only its feedback is imported (https://docs.moodle.org/en/Grade_import). For the grades of one
-assignment, the copy of Moodle's worksheet is simpler (moodle_worksheet.py).
+During the import, Moodle asks what each column means.
+
+Map the column `username` or `email` to the student: Moodle cannot find a student by a full name or by a
+participant number. For submissions from Moodle, both columns come from a roster or from Moodle's worksheet.
+Map each chapter to its grade item, and its feedback to "Feedback for". Always map both: Moodle deletes the
+grade of an item if only its feedback is imported (https://docs.moodle.org/en/Grade_import). For the grades of
+only one assignment, use the copy of Moodle's worksheet, which is simpler (moodle_worksheet.py).
 """
 
 from __future__ import annotations
@@ -49,7 +51,7 @@ def _cells(grade: Grade) -> tuple[str, str]:
 
 
 def feedback(grade: Grade) -> str:
-    """Return the feedback for a student about a grade, in one line; Moodle reads feedback as HTML."""
+    """Return the feedback about a grade in one line; Moodle reads feedback as HTML."""
     sentences = [grade.problem, about_lateness(grade), *grade.notes, *map(_sentence, grade.reports)]
     words = " ".join(clean.line(text, 600) for text in sentences if text)
     return escape(clean.line(words, LONG), quote=False)

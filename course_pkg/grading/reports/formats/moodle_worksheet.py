@@ -33,13 +33,14 @@ def write(book: Book, out: Path) -> None:
 def _grade(book: Book, student: str, maximum: float | None) -> str:
     """Return the points for Moodle; without a maximum grade, they are not scaled."""
     earned = book.earned(student)
-    return points(earned if maximum is None else min(maximum, earned * maximum / book.total))
+    possible = book.possible_for(student)
+    return points(earned if maximum is None or not possible else min(maximum, earned * maximum / possible))
 
 
 def _feedback(book: Book, student: str) -> str:
     grades = [grade.for_student() for grade in book.of(student)]
     several = len(grades) > 1
-    parts = [f"{of_points(book.earned(student), book.total)}."]
+    parts = [f"{of_points(book.earned(student), book.possible_for(student))}."]
     for grade in grades:
         title = f"Chapter {grade.chapter}: " if several and grade.chapter else ""
         parts.append(f"{title}{feedback(grade)}")

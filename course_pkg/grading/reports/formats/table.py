@@ -64,5 +64,5 @@ def _row(book: Book, student: str) -> list[str]:
         *reviews(book, student),
     ]
     words = " | ".join(filter(None, found))
-    totals = [points(book.earned(student)), points(book.total)]
+    totals = [points(book.earned(student)), points(book.possible_for(student))]
     return [*cells, *totals, clean.cell(words, 3000), clean.cell(flag_words(book, student), 3000)]

@@ -1,0 +1,33 @@
+"""The words of a command line that a student's function returned, as a shell reads them."""
+
+from __future__ import annotations
+
+import shlex
+
+from course_pkg.ros.protocol.json_channel import Json
+
+OPERATORS = "();<>|&"
+
+
+def commands_of(line: Json) -> list[list[str]]:
+    """Return the words of each command in a pipe, without comments and without & at the end of the line.
+
+    The list is empty if `line` is not a string, if a quotation mark is not closed, or if the line contains
+    another operator, such as `;` or `&&`. With these, another program could do the work of the command.
+    """
+    if not isinstance(line, str):
+        return []
+    lexer = shlex.shlex(line.strip().removesuffix("&"), posix=True, punctuation_chars=OPERATORS)
+    lexer.whitespace_split = True
+    commands: list[list[str]] = [[]]
+    try:
+        for word in lexer:
+            if word == "|":
+                commands.append([])
+            elif word and not word.strip(OPERATORS):
+                return []
+            else:
+                commands[-1].append(word)
+    except ValueError:
+        return []
+    return commands

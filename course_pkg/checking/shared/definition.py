@@ -1,0 +1,32 @@
+"""A student's definition of a service type, read as ROS reads it, and the hint if ROS cannot read it."""
+
+from __future__ import annotations
+
+from course_pkg.checking.context import CheckContext
+from course_pkg.errors import BrokenDefinition
+from course_pkg.types import ServiceType, compile_service
+
+MARK = "\ufeff"
+
+
+def read_definition(context: CheckContext, name: str, text: str) -> ServiceType:
+    """Assert that ROS can read the definition `text` of the type `name`, such as "my_geometry/geometry"."""
+    assertion = "ROS can read the definition"
+    if text.startswith(MARK):
+        hint = "Line 1 begins with an invisible mark of Windows. Save the file as UTF-8 without BOM."
+        context.fail(assertion, expected="a definition", actual="an invisible mark", hint=hint)
+    try:
+        given = compile_service(name, text)
+    except BrokenDefinition as error:
+        seen = f"line {error.line}: {error.text.strip()}" if error.text.strip() else f"line {error.line}"
+        hint = f"{_sentence(error.problem)} {_sentence(error.remedy)}"
+        hint = "Remove the line with the three dots." if error.text.strip() == "..." else hint
+        if "\t" in error.text.split("#")[0].strip():
+            hint = "There is a tab between type and name. ROS separates them only at spaces, so use a space."
+        context.fail(assertion, expected="a definition", actual=seen, hint=hint)
+    context.require(assertion, holds=True)
+    return given
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}."

@@ -1,0 +1,53 @@
+"""Recognise the programs of the course, so that they do not earn points in place of the student's program."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Collection
+
+from course_pkg.checking.context import CheckContext
+from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient
+from course_pkg.ros.trace.recording import GET_RECORD
+
+TIMEOUT = 2.0  # s for the answer of a node
+
+
+def require_own_nodes(context: CheckContext, space: str, besides: Collection[str] = ()) -> None:
+    """Assert that no node in the namespace `space` is a program of the course, except the nodes `besides`.
+
+    Every program of the course records its calls, and its slave API returns the record. A program that uses
+    only rospy or roscpp does not know this method. A report shows this assertion only if it fails.
+    """
+    for node in context.look().nodes:
+        if node.name.startswith(f"{space}/") and node.name not in besides and _returns_a_record(node.uri):
+            context.fail(
+                "the node is your own program",
+                expected="a program that does the work itself",
+                actual="a program of the course",
+                hint="Your program starts or imports a program of the course. Write the node yourself.",
+            )
+
+
+def require_kernel(context: CheckContext, nodes: Collection[str]) -> None:
+    """Assert that all `nodes`, which do what the exercise asks for, are the student's kernel.
+
+    The code of the exercise could otherwise start another program. A report shows this assertion only if it
+    fails.
+    """
+    kernel = context.run("rospy.get_name").value
+    others = [node for node in nodes if node != kernel]
+    if others:
+        context.fail(
+            "your own code does the work",
+            expected=f"the node {kernel}",
+            actual=f"the node {others[0]}",
+            hint="Another program does the work. Use only the code of this cell, and start no program.",
+        )
+
+
+def _returns_a_record(uri: str) -> bool:
+    try:
+        XmlRpcClient(uri, TIMEOUT).ask(GET_RECORD, "/check", time.monotonic())
+    except (OSError, *NO_ANSWER):
+        return False
+    return True

@@ -1,0 +1,45 @@
+"""Assert which process serves a name. Otherwise, another process could do the work of the student's code.
+
+A report shows these assertions only if they fail.
+"""
+
+from __future__ import annotations
+
+from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.context import CheckContext
+
+SERVED_HERE = """
+from rospy.impl.registration import get_service_manager
+
+
+def served_at(name):
+    service = get_service_manager().get_service(name)
+    return service.uri if service else ""
+"""
+
+
+def require_served_by_program(context: CheckContext, program: Running, *services: str) -> None:
+    """Assert that the program, or a process that it started, listens at the address of each service."""
+    seen = context.look()
+    for service in filter(None, map(seen.service, services)):
+        if not program.listens_at(service.uri):
+            context.fail(
+                "the program itself serves its services",
+                expected="a server in the process of the program",
+                actual=f"{service.name} is served by another process, as the node {service.node}",
+                hint="Another process serves this name. Create the service in the program.",
+            )
+
+
+def require_served_by_notebook(context: CheckContext, *services: str) -> None:
+    """Assert that the kernel's own node serves each service."""
+    context.prepare(SERVED_HERE)
+    for service in filter(None, map(context.look().service, services)):
+        here = context.run("served_at", service.name, worded=f"rospy.Service({service.name})")
+        if here.value != service.uri:
+            context.fail(
+                "the node of the notebook serves the service",
+                expected="a server in the kernel of the notebook",
+                actual=f"{service.name} is served by another process, as the node {service.node}",
+                hint="Another program serves this name. Stop it, and create the service in your cell.",
+            )

@@ -1,0 +1,57 @@
+"""The chapters that students were asked for; each counts for a student even if it was not handed in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from course_pkg.checking.parts import chapters, parts_of
+from course_pkg.grading.grade import Grade
+from course_pkg.grading.points import PointsTable
+
+
+def _always(_student: str, _chapter: str) -> bool:
+    return True
+
+
+@dataclass(frozen=True)
+class Column:
+    """A part that was graded, or that students were asked for."""
+
+    check: str
+    chapter: str
+    goal: str
+    possible: float
+
+
+@dataclass(frozen=True)
+class Asked:
+    """The chapters of a run, the parts that were selected, and whether a student's chapter is due.
+
+    A report also contains chapters of earlier runs. Before its deadline, a chapter counts only for the
+    students who handed it in.
+    """
+
+    chapters: frozenset[str] = frozenset()
+    columns: tuple[Column, ...] = ()
+    due: Callable[[str, str], bool] = _always  # arguments: student, or "" for others, and chapter
+
+    def counted(self, student: str, grades: Sequence[Grade], asked: Sequence[str]) -> list[str]:
+        """Return the chapters of `asked` that count for a student with these `grades`.
+
+        A student who withdrew, so that all results are from earlier runs, was asked for nothing else.
+        """
+        there = {grade.chapter for grade in grades}
+        if there and all(grade.absent for grade in grades):
+            return [chapter for chapter in asked if chapter in there]
+        return [chapter for chapter in asked if chapter in there or self.due(student, chapter)]
+
+
+def columns_of(selected: Sequence[str], table: PointsTable) -> tuple[Column, ...]:
+    """Return the parts of the `selected` chapters, with their points."""
+    return tuple(
+        Column(part.check, chapter, part.goal, table.parts[part.check].possible)
+        for chapter in selected
+        if chapter in chapters()
+        for part in parts_of(chapter)
+    )

@@ -1,0 +1,96 @@
+"""Partial credit: the points of wrong answers, and of answers that do nothing.
+
+usage: ./course run python tests/bench/credit.py [few] [PART …]
+
+PART is the beginning of a part's id, such as 05 or 05.3. The first right answer has to earn full points, and
+all wrong example answers less. An answer that does nothing is made from the first right answer: all of its
+functions return the same value or raise an exception, or the answer cannot be run. It has to earn nothing.
+The exit status is the number of answers with wrong points. With `few`, only two wrong answers of each part
+run. Parts without goals are left out, because only a pass earns points.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+
+from course_pkg.checking.parts import every_part
+from course_pkg.sandbox.job import PartJob
+from tests.checking.example_answers import Answer, every_answer
+from tests.checking.workers import WorkerPool
+
+NOTHING = {
+    "returns None": "return None",
+    "returns True": "return True",
+    "returns False": "return False",
+    "returns 0": "return 0",
+    "returns an empty list": "return []",
+    "raises": "raise RuntimeError('nothing')",
+}  # the only statement of each function, by its description
+IDLE = "does nothing: "
+UNABLE = {"is not Python": "this is not Python\n", "raises at its start": "raise RuntimeError('nothing')\n"}
+
+
+def main() -> int:
+    """Run the answers, print those with points, and return the number of answers with wrong points."""
+    words = sys.argv[1:]
+    few = "few" in words
+    asked = tuple(word for word in words if word != "few") or ("",)
+    parts = {part.check: part for part in every_part() if part.goals and part.check.startswith(asked)}
+    examples = [answer for answer in every_answer() if answer.check in parts]
+    answers: list[Answer] = []
+    for check in parts:
+        wrong = [each for each in examples if each.check == check and not each.right]
+        right = next(each for each in examples if each.check == check and each.right)
+        answers += [right, *wrong[: 2 if few else None], *_doing_nothing(right)]
+    earned: Counter[str] = Counter()
+    unfair = 0
+    with WorkerPool(2 * (os.cpu_count() or 1)) as pool:
+        jobs = [
+            PartJob(each.check, each.before, (each.source,), each.after, 1, parts[each.check].deadline)
+            for each in answers
+        ]
+        pool.submit(jobs)
+        for answer, job in zip(answers, jobs, strict=True):
+            report = pool.result(job).report
+            points = report.points if report else 0
+            full = parts[answer.check].points
+            idle = answer.title.startswith(IDLE)
+            fair = points == full if answer.right else points == 0 if idle else points < full
+            unfair += not fair
+            earned["nothing" if not points else "some points" if points < full else "full points"] += 1
+            if not fair or 0 < points < full:
+                sign = "  " if fair else "!!"
+                print(f"{sign} {answer.check} {points:g} of {full}: {answer.title}", flush=True)
+    counts = ", ".join(f"{count} {name}" for name, count in earned.items())
+    print(f"{len(parts)} parts, {len(answers)} answers: {counts}; {unfair} with wrong points")
+    return unfair
+
+
+def _doing_nothing(right: Answer) -> Iterator[Answer]:
+    """Yield answers that do nothing, with the names of `right`; some need functions in it."""
+    magic = right.source.startswith("%%")
+    first, _, text = right.source.partition("\n") if magic else ("", "", right.source)
+    head = f"{first}\n" if magic else ""
+    for title, statement in UNABLE.items():
+        yield replace(right, right=False, title=f"{IDLE}{title}", source=f"{head}{statement}{text}")
+    try:
+        functions = any(isinstance(node, ast.FunctionDef) for node in ast.walk(ast.parse(text)))
+    except SyntaxError:
+        functions = False
+    if not functions:
+        return
+    for title, statement in NOTHING.items():
+        tree = ast.parse(text)
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef) and node.name != "__init__":
+                node.body = ast.parse(statement).body
+        yield replace(right, right=False, title=f"{IDLE}{title}", source=f"{head}{ast.unparse(tree)}\n")
+
+
+if __name__ == "__main__":
+    sys.exit(min(main(), 100))
