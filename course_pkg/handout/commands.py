@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from argparse import ArgumentParser
 
 NO_COMMANDS = frozenset(
-    {"release", "collect", "grade", "grade-one", "points", "site", "sync", "test"}
+    {"release", "collect", "grade", "grade-one", "points", "review", "site", "sync", "test"}
 )  # for students
 
 

@@ -97,7 +97,7 @@ function listStudents() {
 function progress() {
   const numbers = [...$("students").options].map((option) => Number(option.value));
   const reviewed = numbers.filter((number) => rows[number]).length;
-  return `${numbers.indexOf(current) + 1} of ${numbers.length}; ${reviewed} reviewed`;
+  return `${items[current].name}: ${numbers.indexOf(current) + 1} of ${numbers.length}; ${reviewed} reviewed`;
 }
 
 function refresh() {
@@ -258,6 +258,7 @@ async function look() {
   if (document.hidden || Object.keys(drafts).length) return;
   try {
     const answer = await request("rows");
+    complain("");
     if (answer.reloaded) adopt(answer, "");
   } catch (error) {
     complain(error.message);

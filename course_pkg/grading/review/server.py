@@ -55,6 +55,7 @@ def application(session: Session, token: str, port: Callable[[], int]) -> Applic
         ],
         default_handler_class=Unknown,
         default_handler_args=shared,
+        log_function=lambda _handler: None,  # the page shows what is refused
     )
 
 

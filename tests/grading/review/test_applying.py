@@ -48,7 +48,7 @@ def test_every_report_has_the_points_and_the_comment(tmp_path: Path) -> None:
 
 
 def test_a_review_can_be_applied_again_and_taken_back(tmp_path: Path) -> None:
-    """The records keep the points of the check, so a review without regrading changes nothing twice."""
+    """The records keep the points of the check, so a review can be applied to them again."""
     before = class_of_four()
     once = reviewed(before, _overrides(Override("s01", "05.1", 1.5, COMMENT)))
     _reports(tmp_path, once)

@@ -149,7 +149,7 @@ def test_only_a_selection_is_shown(browser: Browser, tmp_path: Path) -> None:
     """With --flagged, the page shows only answers with flags, and the flag with its evidence."""
     out = write_class(tmp_path)
     with serving(out, Wanted(flagged=True)) as url, opened(browser, url) as (page, _words):
-        expect(page.locator("#progress")).to_have_text("1 of 1; 0 reviewed")
+        expect(page.locator("#progress")).to_have_text("s03: 1 of 1; 0 reviewed")
         expect(page.get_by_role("article")).to_contain_text("Similar: s01")
 
 
