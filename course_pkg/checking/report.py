@@ -57,6 +57,15 @@ class Assertion:
 
 
 @dataclass(frozen=True)
+class Review:
+    """What an instructor decided about an answer after the check."""
+
+    comment: str = ""  # for the student
+    computed: float | None = None  # the points of the check, if the instructor set the points
+    outdated: bool = False  # whether the answer has changed since the instructor reviewed it
+
+
+@dataclass(frozen=True)
 class Report:
     """The result of one check."""
 
@@ -70,12 +79,26 @@ class Report:
     printed: str = field(default="", compare=False)  # the text that student code printed during the check
     goals: tuple[Goal, ...] = ()  # the goals among which the points are divided; none for all or nothing
     inconclusive: bool = False  # True if grading counts a check that did not finish as failed
+    review: Review | None = None  # in grading, if an instructor has reviewed the answer
 
     def headline(self) -> str:
         """Return the first line, which contains the result."""
         if not self.possible:
             return f"{self.check} {self.verdict.value}"
         return f"{self.check} {self.verdict.value}: {self.points:g} of {self.possible:g} points"
+
+    def about_review(self) -> list[str]:
+        """Return sentences for the student: who decided the points, and the instructor's comment."""
+        if self.review is None:
+            return []
+        computed, comment = self.review.computed, self.review.comment
+        if computed is None:
+            about = ""
+        elif computed == self.points:
+            about = "The instructor confirmed the points."
+        else:
+            about = f"The instructor changed the points from {computed:g} to {self.points:g}."
+        return [*filter(None, [about, comment and f"The instructor's comment: {comment}"])]
 
     def credits(self) -> list[str]:
         """Return a line for each goal with its points.
@@ -111,6 +134,8 @@ class Report:
         lines += _block("  ", self.note)
         if shown := self.credits():
             lines += [f"  {GOALS}", *(line for each in shown for line in _block("    ", each))]
+        for sentence in self.about_review():
+            lines += _block("  ", sentence)
         if self.verdict is not Verdict.PASSED and self.goal:
             lines += _block("  The goal: ", self.goal)
         return "\n".join(lines)
@@ -143,7 +168,9 @@ def report_from(data: Mapping[str, Value]) -> Report:
     """Return the report from `data`, the result of `as_dict`."""
     assertions = tuple(Assertion(**each) for each in data["assertions"])
     goals = tuple(Goal(**each) for each in data.get("goals", ()))
-    return Report(**{**data, "assertions": assertions, "goals": goals, "verdict": Verdict(data["verdict"])})
+    review = Review(**data["review"]) if data.get("review") else None
+    known = {"assertions": assertions, "goals": goals, "review": review, "verdict": Verdict(data["verdict"])}
+    return Report(**{**data, **known})
 
 
 def _block(label: str, text: str) -> list[str]:

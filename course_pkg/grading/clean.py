@@ -16,6 +16,7 @@ from course_pkg.types.fields import Plain
 LONG = 4_000  # maximum number of characters of a text with several lines
 SHORT = 300  # maximum number of characters of one line
 NAME = 60  # maximum number of characters of a file name
+CODE = 20_000  # maximum number of characters of a part's code
 LINES = 200
 ITEMS = 1_000  # maximum number of entries of a list in a record
 
@@ -56,6 +57,12 @@ def text(value: object, limit: int = LONG) -> str:
 def line(value: object, limit: int = SHORT) -> str:
     """Return `value` as readable text on one line."""
     return " ".join(text(value, limit).split())
+
+
+def code(value: object, limit: int = CODE) -> str:
+    """Return the readable text of an answer, with at most `limit` characters; LINES does not limit it."""
+    lines = BREAKS.sub("\n", str(value)[:limit]).split("\n")
+    return "\n".join(ILLEGAL.sub("\ufffd", UNSEEN.sub("", ANSI.sub("", line))) for line in lines)
 
 
 def html(value: object, limit: int = LONG) -> str:

@@ -29,6 +29,8 @@ from course_pkg.grading.reports import write_reports
 from course_pkg.grading.reports.asked import Asked, columns_of
 from course_pkg.grading.reports.records import RESULTS
 from course_pkg.grading.required import require_references
+from course_pkg.grading.review.applying import about_reviews, reviewed
+from course_pkg.grading.review.overrides import read_overrides
 from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of, read_lists
 from course_pkg.grading.run.changes import changes, described, worth_changes, write_changes
 from course_pkg.grading.run.earlier import Earlier, read_earlier
@@ -94,6 +96,10 @@ def grade(options: Options) -> int:
     if options.sandboxed:
         require_sandbox()
     store, earlier = Store(options.out), read_earlier(options.out)
+    overrides = read_overrides(options.out)
+    overrides.require_students(
+        {each.student for each in everyone} | {each.student for each in earlier.grades}
+    )
     if options.fresh and selected.everything:
         store.forget()
     began = time.monotonic()
@@ -109,13 +115,16 @@ def grade(options: Options) -> int:
     graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
     rest = [points.weighed(each) for each in rest]
+    overrides.require_parts([*graded, *rest])
+    graded, rest = reviewed(graded, overrides), reviewed(rest, overrides)
     class_list = _class_list(lists, options.source, [*everyone, *rest])
     chapters = frozenset({*selected.chapters, *(each.chapter for each in graded)})
     asked = Asked(chapters, columns_of(selected.chapters, points), due.is_over)
     reported = with_flags([*graded, *rest], everyone, kinds)
     _report(_in_order(reported), options.out, class_list, asked)
     earlier.forget_files(graded, selected)
-    sys.stdout.writelines(f"{sentence}\n" for sentence in [*class_list.summary(), *about_flags(reported)])
+    about = [*class_list.summary(), *about_flags(reported), *about_reviews(reported)]
+    sys.stdout.writelines(f"{sentence}\n" for sentence in about)
     _print_end(options.out, earlier, graded, rest, time.monotonic() - began)
     return status_of(graded)
 

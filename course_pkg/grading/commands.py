@@ -1,4 +1,4 @@
-"""The command-line arguments of `course grade` and `course grade-one`."""
+"""The command-line arguments of `course grade`, `course grade-one` and `course review`."""
 
 from __future__ import annotations
 
@@ -151,6 +151,35 @@ def _add_common(parser: ArgumentParser) -> None:
     )
 
 
+def _review(options: SimpleNamespace) -> int:
+    from course_pkg.grading.review.command import review, wanted_of
+
+    wanted = wanted_of(options.parts, flagged=options.flagged, unfinished=options.unfinished)
+    return review(options.grades, wanted, options.port, browser=options.browser)
+
+
+def _review_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("grades", type=Path, help="the folder that `course grade` wrote")
+    parser.add_argument(
+        "--part",
+        dest="parts",
+        type=_names,
+        action="extend",
+        default=[],
+        metavar="03.3,03.4",
+        help="only the answers to these parts",
+    )
+    parser.add_argument("--flagged", action="store_true", help="only the answers with flags")
+    parser.add_argument(
+        "--unfinished",
+        action="store_true",
+        help="only the answers that need a look: their check gave no result, or they have changed since "
+        "their review",
+    )
+    parser.add_argument("--port", type=int, default=0, help="the port of the page (default: a free port)")
+    parser.add_argument("--no-browser", dest="browser", action="store_false", help="open no browser")
+
+
 def _points(options: SimpleNamespace) -> int:
     from course_pkg.grading.points import write_points
 
@@ -199,5 +228,11 @@ COMMANDS = {
         _autograde,
         NEEDS,
         _autograde_arguments,
+    ),
+    "review": Command(
+        "review answers by hand: change points, and write comments, on a page",
+        _review,
+        frozenset({"course", "libraries", "solutions"}),
+        _review_arguments,
     ),
 }

@@ -125,6 +125,10 @@ class Grade:
         """The points that could be earned."""
         return round(sum(report.possible for report in self.reports), 2)
 
+    def unreviewed(self) -> Grade:
+        """Return the grade with the points of the checks, without an instructor's points and comments."""
+        return replace(self, reports=tuple(map(_unreviewed, self.reports)))
+
     def for_student(self) -> Grade:
         """Return the grade without flags, and without the data that show how a private part is examined."""
         shown = (
@@ -139,6 +143,12 @@ class Grade:
     def as_dict(self) -> dict[str, Any]:
         """Return the grade as plain data."""
         return {**asdict(self), "reports": [report.as_dict() for report in self.reports]}
+
+
+def _unreviewed(report: Report) -> Report:
+    known = report.review
+    points = report.points if known is None or known.computed is None else known.computed
+    return replace(report, points=points, review=None)
 
 
 def grade_from(data: dict[str, Any]) -> Grade:

@@ -11,8 +11,9 @@ from course_pkg.setup.commands import Command
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-NO_COMMANDS = frozenset(  # for students
-    {"release", "collect", "grade", "grade-one", "points", "autograder", "autograde", "site", "sync", "test"}
+# These commands do not work in the students' edition.
+NO_COMMANDS = frozenset(
+    "release collect grade grade-one points review autograder autograde site sync test".split()
 )
 
 

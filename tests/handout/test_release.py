@@ -128,7 +128,15 @@ def test_the_readme_is_for_students(edition: Path) -> None:
 
 @pytest.mark.parametrize(
     "words",
-    [["grade", "x"], ["grade-one", "x", "--out", "y"], ["release", "x"], ["sync"], ["test"], ["site"]],
+    [
+        ["grade", "x"],
+        ["grade-one", "x", "--out", "y"],
+        ["review", "x"],
+        ["release", "x"],
+        ["sync"],
+        ["test"],
+        ["site"],
+    ],
 )
 def test_what_needs_the_solutions_says_so_in_one_message(edition: Path, words: list[str]) -> None:
     """The message comes before the set-up.

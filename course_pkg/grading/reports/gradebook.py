@@ -127,9 +127,15 @@ def attention(book: Book, student: str) -> list[str]:
     """Return why an instructor should look at a student's work, the most serious reason first."""
     grades = book.of(student)
     return [
-        *(clean.line(grade.problem) for grade in grades if grade.problem),
+        *(clean.line(problem) for grade in grades if (problem := _problem(grade))),
         *(reason for grade in grades if (reason := _about(grade))),
         *(reason for grade in grades for reason in _inconclusive(grade)),
+        *(
+            f"{report.check}: the answer has changed since it was reviewed. The reviewed points stay."
+            for grade in grades
+            for report in grade.reports
+            if report.review and report.review.outdated
+        ),
     ]
 
 
@@ -150,9 +156,25 @@ def notes(book: Book, student: str) -> list[str]:
     return list(dict.fromkeys(clean.line(note) for note in found))
 
 
+def reviews(book: Book, student: str) -> list[str]:
+    """Return a line for each part of a student that an instructor has reviewed."""
+    return [
+        clean.line(f"{report.check}: {' '.join(report.about_review())}", 600)
+        for grade in book.of(student)
+        for report in grade.reports
+        if report.review
+    ]
+
+
 def needs_look(grade: Grade) -> bool:
     """Return whether an instructor should look at this submission."""
-    return bool(grade.problem or _about(grade) or _inconclusive(grade))
+    outdated = any(report.review and report.review.outdated for report in grade.reports)
+    return bool(_problem(grade) or _about(grade) or _inconclusive(grade) or outdated)
+
+
+def _problem(grade: Grade) -> str:
+    """Return the problem of a submission, unless an instructor has reviewed all parts of it."""
+    return "" if grade.reports and all(report.review for report in grade.reports) else grade.problem
 
 
 def _about(grade: Grade) -> str:
@@ -160,7 +182,9 @@ def _about(grade: Grade) -> str:
         return (
             f"Chapter {grade.chapter}: the results are from an earlier run, nothing was handed in this time."
         )
-    undecided = [report for report in grade.reports if report.verdict is Verdict.UNDECIDED]
+    undecided = [
+        report for report in grade.reports if report.verdict is Verdict.UNDECIDED and not report.review
+    ]
     if grade.problem or not grade.reports:
         return ""
     if undecided:
@@ -168,7 +192,8 @@ def _about(grade: Grade) -> str:
         return f"{', '.join(report.check for report in undecided)} not examined: {clean.line(why, 160)}"
     if NO_TIME in grade.notes:
         return f"Chapter {grade.chapter}: {NO_TIME}"
-    return "" if grade.earned else f"No points in chapter {grade.chapter}."
+    reviewed = any(report.review for report in grade.reports)
+    return "" if grade.earned or reviewed else f"No points in chapter {grade.chapter}."
 
 
 def _inconclusive(grade: Grade) -> list[str]:
@@ -177,7 +202,7 @@ def _inconclusive(grade: Grade) -> list[str]:
         f"{report.check} earned no points, but its check could not finish. Look at the answer. "
         f"{clean.line(report.note, 160)}"
         for report in grade.reports
-        if report.inconclusive
+        if report.inconclusive and not report.review
     ]
 
 

@@ -25,11 +25,14 @@ class Earlier:
     unreadable: int = 0
 
     def find(self, student: str, chapter: str) -> Grade | None:
-        """Return the earlier grade of a student for a chapter, or None."""
-        return self._by_chapter.get((student, chapter)) if chapter else None
+        """Return the earlier grade of a student for a chapter, or None; it has the points of the checks."""
+        found = self._by_chapter.get((student, chapter)) if chapter else None
+        return found.unreviewed() if found else None
 
     def rest(self, graded: Sequence[Grade], selected: Selection) -> list[Grade]:
         """Return the earlier grades that stay in the reports in addition to `graded`.
+
+        They have the points of the checks.
 
         An earlier grade that is selected is marked as absent: there is a record, but nothing was handed in
         this time. If everything was selected, and no student handed in anything for a chapter, the chapter
@@ -39,7 +42,7 @@ class Earlier:
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}
         files = {(grade.student, grade.origin) for grade in graded if not grade.chapter}
         kept = []
-        for grade in self.grades:
+        for grade in (each.unreviewed() for each in self.grades):
             covered = selected.covers(grade.student, grade.chapter)
             if (grade.student, grade.chapter) in now or (grade.student, grade.origin) in files:
                 continue

@@ -22,6 +22,7 @@ from course_pkg.grading.reports.gradebook import (
     of_points,
     points,
     report_of,
+    reviews,
 )
 from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, table, text
 
@@ -52,6 +53,7 @@ def _body(book: Book) -> Iterator[str]:
     yield "<h2>Students who need attention</h2>"
     yield _looks(book)
     yield _absent(book)
+    yield _reviewed(book)
     yield from roster.section(book)
     yield from flag_sections(book)
     yield "<h2>Most frequent hints</h2>"
@@ -157,6 +159,17 @@ def _absent(book: Book) -> str:
     items = "".join(f"<li>{_link(student)}{_listed([sentence])}</li>" for student, sentence in found)
     count = f"{len(found)} {'student' if len(found) == 1 else 'students'}"
     return f'<details><summary>Missing chapters of {count}</summary><ul class="looks">{items}</ul></details>'
+
+
+def _reviewed(book: Book) -> str:
+    """Return the points and comments of instructors, in a list that the reader can unfold."""
+    found = [(student, lines) for student in book.students if (lines := reviews(book, student))]
+    if not found:
+        return ""
+    items = "".join(f"<li>{_link(student)}{_listed(lines)}</li>" for student, lines in found)
+    count = sum(len(lines) for _, lines in found)
+    parts = "1 part" if count == 1 else f"{count} parts"
+    return f'<details><summary>{parts} reviewed by hand</summary><ul class="looks">{items}</ul></details>'
 
 
 def _gravity(book: Book, student: str) -> int:

@@ -60,7 +60,8 @@ def _part(report: Report, code: str) -> str:
     )
     return (
         f'<article class="part {kind}"><header>{head}<span class="muted">{score}</span></header>'
-        f"{paragraph(report.goal)}{_code(code)}{sections}{paragraph(report.note)}{_credits(report)}{_printed(report)}</article>"
+        f"{paragraph(report.goal)}{_code(code)}{sections}{paragraph(report.note)}{_credits(report)}"
+        f"{_printed(report)}{_review(report)}</article>"
     )
 
 
@@ -69,6 +70,12 @@ def _code(code: str) -> str:
     return (
         f"<details><summary>Your code</summary><pre>{clean.html(code, CODE)}</pre></details>" if code else ""
     )
+
+
+def _review(report: Report) -> str:
+    """Return what the instructor decided and wrote about this part."""
+    sentences = (f"<p>{clean.html(sentence)}</p>" for sentence in report.about_review())
+    return f'<div class="review">{"".join(sentences)}</div>' if report.review else ""
 
 
 def _credits(report: Report) -> str:

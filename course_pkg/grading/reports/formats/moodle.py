@@ -58,7 +58,8 @@ def feedback(grade: Grade) -> str:
 
 
 def _sentence(report: Report) -> str:
+    review = report.about_review()
     if report.verdict is Verdict.PASSED:
-        return f"{report.headline()}."
+        return " ".join([f"{report.headline()}.", *review])
     hints = [assertion.hint or assertion.text for assertion in report.assertions if not assertion.holds]
-    return f"{report.headline()}. {' '.join([*hints, report.note])}"
+    return f"{report.headline()}. {' '.join([*hints, report.note, *review])}"

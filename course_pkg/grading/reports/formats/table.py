@@ -16,6 +16,7 @@ from course_pkg.grading.reports.gradebook import (
     notes,
     points,
     report_of,
+    reviews,
 )
 from course_pkg.grading.reports.roster import MISSING, about_identity, identity_cells
 from course_pkg.grading.roster.people import FIELDS
@@ -60,6 +61,7 @@ def _row(book: Book, student: str) -> list[str]:
         *attention(book, student),
         not_handed_in(book, student),
         *notes(book, student),
+        *reviews(book, student),
     ]
     words = " | ".join(filter(None, found))
     totals = [points(book.earned(student)), points(book.possible_for(student))]

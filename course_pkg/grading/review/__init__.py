@@ -1,0 +1,1 @@
+"""Review by hand: an instructor's points and comments, a page to enter them, and how they are applied."""

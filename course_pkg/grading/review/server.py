@@ -1,0 +1,206 @@
+"""The server of the review page: it answers only requests with its token, from its own page."""
+
+from __future__ import annotations
+
+import asyncio
+import hmac
+import json
+import os
+from collections.abc import Callable
+from http import HTTPStatus
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader
+from tornado.web import Application, RequestHandler
+
+from course_pkg.errors import GradingError
+from course_pkg.grading.reports.gradebook import name_of
+from course_pkg.grading.reports.page import KINDS
+from course_pkg.grading.review.items import marked_lines
+from course_pkg.grading.review.session import Session
+from course_pkg.types.fields import Plain
+
+HERE = Path(__file__).parent
+ASSETS = {"page.js": "text/javascript", "page.css": "text/css"}
+POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+HEADERS = {
+    "Content-Security-Policy": POLICY,
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cache-Control": "no-store",
+}
+LARGEST = 100_000  # bytes of a request
+WAIT = 0.05  # s
+
+
+def application(session: Session, token: str, port: Callable[[], int]) -> Application:
+    """Return the application; `port` returns the port at which it listens."""
+    loader = FileSystemLoader(HERE)
+    templates = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    shared = {"session": session, "token": token, "port": port, "templates": templates}
+    return Application(
+        [
+            (r"/", Page, shared),
+            (r"/(page\.js|page\.css)", Asset, shared),
+            (r"/items", Items, shared),
+            (r"/items/(\d{1,6})", OneItem, shared),
+            (r"/rows", Rows, shared),
+            (r"/save", Save, shared),
+            (r"/undo", Undo, shared),
+        ],
+        default_handler_class=Unknown,
+        default_handler_args=shared,
+        log_function=lambda _handler: None,  # the page shows what is refused
+    )
+
+
+class Handler(RequestHandler):
+    """Refuses requests without the token, from other pages, or for another host."""
+
+    def initialize(
+        self, session: Session, token: str, port: Callable[[], int], templates: Environment
+    ) -> None:
+        """Keep what all handlers share."""
+        self.session, self.token, self.port, self.templates = session, token, port, templates
+
+    def set_default_headers(self) -> None:
+        """Add the policies to each response, also to errors."""
+        self.clear_header("Server")
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+
+    def prepare(self) -> None:
+        """Refuse a request that does not come from the page."""
+        hosts = [f"{host}:{self.port()}" for host in ("127.0.0.1", "localhost")]
+        origin = self.request.headers.get("Origin")
+        known = self.request.host in hosts and origin in (None, f"http://{self.request.host}")
+        near = self.request.headers.get("Sec-Fetch-Site", "none") in ("none", "same-origin")
+        header = self.request.headers.get("Authorization", "").removeprefix("token ")
+        given = header or self.get_query_argument("token", "")
+        if not (known and near and hmac.compare_digest(given.encode(), self.token.encode())):
+            self.set_status(HTTPStatus.FORBIDDEN)
+            self.set_header("Content-Type", "text/plain; charset=utf-8")
+            self.finish("Open the address that `course review` printed, with its token.\n")
+
+    def answer(self, data: Plain) -> None:
+        """Send plain data as JSON."""
+        self.set_header("Content-Type", "application/json")
+        self.finish(json.dumps(data))
+
+    async def attempt(self, action: Callable[[], dict[str, Plain]]) -> None:
+        """Send the result of `action`, or the reason why it is not possible."""
+        while self.session.is_being_written():
+            await asyncio.sleep(WAIT)
+        try:
+            self.answer(action())
+        except (ValueError, GradingError) as error:
+            self.set_status(HTTPStatus.CONFLICT)
+            self.answer({"problem": str(error)})
+        except OSError as error:
+            self.set_status(HTTPStatus.INSUFFICIENT_STORAGE)
+            why = os.strerror(error.errno) if error.errno else str(error)
+            self.answer({"problem": f"overrides.csv cannot be written: {why}"})
+
+    def sent(self) -> dict[str, Plain]:
+        """Return the data of the request; empty if it is not an object."""
+        try:
+            data = json.loads(self.request.body)
+        except ValueError:
+            return {}
+        return data if isinstance(data, dict) else {}
+
+
+class Unknown(Handler):
+    """Answers all other addresses."""
+
+    def get(self) -> None:
+        """Send 404."""
+        self.set_status(HTTPStatus.NOT_FOUND)
+        self.finish("There is no such page.\n")
+
+
+class Page(Handler):
+    """The page."""
+
+    def get(self) -> None:
+        """Send the page."""
+        self.finish(self.templates.get_template("page.html").render(token=self.token))
+
+
+class Asset(Handler):
+    """The page's script and style sheet."""
+
+    def get(self, name: str) -> None:
+        """Send a file."""
+        self.set_header("Content-Type", f"{ASSETS[name]}; charset=utf-8")
+        self.finish((HERE / name).read_bytes())
+
+
+class Items(Handler):
+    """All answers and rows."""
+
+    def get(self) -> None:
+        """Send them."""
+        self.answer(self.session.describe())
+
+
+class OneItem(Handler):
+    """One answer as a part of the page."""
+
+    def get(self, number: str) -> None:
+        """Send the answer with its code, assertions and flags."""
+        if int(number) >= len(self.session.items):
+            self.send_error(HTTPStatus.NOT_FOUND)
+            return
+        item = self.session.items[int(number)]
+        kind, sign = KINDS[item.report.verdict]
+        self.finish(
+            self.templates.get_template("item.html").render(
+                item=item,
+                report=item.report,
+                name=name_of(item.grade.student),
+                kind=kind,
+                sign=sign,
+                lines=list(marked_lines(item)) if item.code else [],
+                alike=len(self.session.alike(int(number))),
+                name_of=name_of,
+            )
+        )
+
+
+class Rows(Handler):
+    """The rows, after another program has changed the file."""
+
+    async def get(self) -> None:
+        """Send all rows if they have changed since the page last saw them, else none."""
+        session = self.session
+        await self.attempt(lambda: {"rows": session.rows(), "reloaded": True} if session.refresh() else {})
+
+
+class Save(Handler):
+    """The points and the comment of an answer."""
+
+    async def post(self) -> None:
+        """Store them."""
+        sent = self.sent()
+        number, points, comment = sent.get("number"), sent.get("points"), sent.get("comment")
+        whole = isinstance(number, int) and 0 <= number < len(self.session.items)
+        if not (whole and isinstance(points, str) and isinstance(comment, str)):
+            self.send_error(HTTPStatus.BAD_REQUEST)
+            return
+        assert isinstance(number, int)
+        identical = sent.get("identical") is True
+        await self.attempt(lambda: self.session.decide(number, points, comment, also_identical=identical))
+
+
+class Undo(Handler):
+    """The last change."""
+
+    async def post(self) -> None:
+        """Undo it."""
+        await self.attempt(self.session.undo)

@@ -1,0 +1,160 @@
+"""A review: the answers, the overrides as the page last saw them, and the changes that can be undone."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from course_pkg.errors import GradingError
+from course_pkg.grading import clean
+from course_pkg.grading.grade import Grade
+from course_pkg.grading.reports.gradebook import name_of
+from course_pkg.grading.review.applying import is_outdated
+from course_pkg.grading.review.items import Item, Wanted, identical, items_of
+from course_pkg.grading.review.overrides import (
+    LONG,
+    Key,
+    Override,
+    Overrides,
+    points_of,
+    read_overrides,
+    save,
+)
+from course_pkg.types.fields import Plain
+
+QUIET = 0.3  # s; a file that another program changed a shorter time ago may not be complete
+Rows = Mapping[Key, Override | None]
+
+
+@dataclass(frozen=True)
+class Step:
+    """One change that can be undone: the rows before and after it."""
+
+    before: Rows
+    after: Rows
+
+
+class Session:
+    """The review of one folder of results.
+
+    Each method that changes a row first reads overrides.csv again, so that it keeps the changes of a
+    spreadsheet. The methods raise GradingError if the file has a wrong row, and OSError if it cannot be
+    written.
+    """
+
+    def __init__(self, out: Path, grades: Sequence[Grade], wanted: Wanted) -> None:
+        self._grades = grades
+        self._all = items_of(grades)
+        self._out = out
+        self._overrides = self._read()
+        self._steps: list[Step] = []
+        self.items = [item for item in self._all if wanted.includes(item, self._overrides)]
+        self._numbers = {item.key: number for number, item in enumerate(self.items)}
+
+    def describe(self) -> dict[str, Plain]:
+        """Return the answers and all rows for the page."""
+        items = [
+            {
+                "name": name_of(item.grade.student),
+                "part": item.report.check,
+                "verdict": item.report.verdict.value,
+                "points": item.report.points,
+                "possible": item.report.possible,
+                "flagged": bool(item.flags),
+            }
+            for item in self.items
+        ]
+        return {"items": items, "rows": self.rows(), "undo": len(self._steps)}
+
+    def rows(self) -> dict[str, Plain]:
+        """Return all rows about the answers of this review, by the number of the answer."""
+        return self._shown(self._overrides.rows)
+
+    def alike(self, number: int) -> list[Item]:
+        """Return the answers of other students that are identical to an answer."""
+        return identical(self.items[number], self._all)
+
+    def is_being_written(self) -> bool:
+        """Return whether another program has changed the file just now, so that it may not be complete."""
+        try:
+            written = self._overrides.path.stat().st_mtime
+        except OSError:
+            return False
+        return -QUIET < time.time() - written < QUIET and self._is_changed()
+
+    def refresh(self) -> bool:
+        """Read the file again; return whether another program has changed it."""
+        before, self._overrides = self._overrides, self._read()
+        if before.rows and not self._overrides.digest:
+            self._overrides = before
+            raise GradingError(
+                f"{before.path} was deleted, or is empty, but it had {len(before.rows)} rows. Put it back, "
+                "or end this review and start it again without the file."
+            )
+        return before.digest != self._overrides.digest
+
+    def decide(self, number: int, points: str, comment: str, *, also_identical: bool) -> dict[str, Plain]:
+        """Store points and a comment, and return the changed rows; without both, the row is removed.
+
+        Raises ValueError if the points are not a number, or more than possible.
+        """
+        item = self.items[number]
+        value, words = points_of(points), clean.text(comment, LONG).strip()
+        if value is not None and value > item.report.possible:
+            raise ValueError(f"{value:g} points are more than the possible {item.report.possible:g}")
+        items = [item, *(self.alike(number) if also_identical else ())]
+        changes: dict[Key, Override | None] = {
+            each.key: Override(each.grade.student, each.report.check, value, words, each.answer)
+            if value is not None or words
+            else None
+            for each in items
+        }
+        return self._change(changes, undoing=False)
+
+    def undo(self) -> dict[str, Plain]:
+        """Restore the rows before the last change; `shown` is the number of an answer that it concerns.
+
+        Raises ValueError if there is nothing to undo, or if another program has changed a row since.
+        """
+        if not self._steps:
+            raise ValueError("there is no change to undo")
+        reloaded, step = self.refresh(), self._steps[-1]
+        if any(self._overrides.rows.get(key) != row for key, row in step.after.items()):
+            self._steps.pop()
+            raise ValueError("another program has changed this row since, so it stays as it is")
+        done = self._change(step.before, undoing=True)
+        self._steps.pop()
+        shown = self._numbers.get(next(iter(step.before)))
+        return {**done, "reloaded": reloaded or done["reloaded"], "shown": shown, "undo": len(self._steps)}
+
+    def _change(self, changes: Rows, *, undoing: bool) -> dict[str, Plain]:
+        reloaded = self.refresh()
+        before = {key: self._overrides.rows.get(key) for key in changes}
+        self._overrides = save(self._overrides, changes)
+        if not undoing and before != changes:
+            self._steps.append(Step(before, changes))
+        rows = self.rows() if reloaded else self._shown(changes)
+        return {"rows": rows, "reloaded": reloaded, "count": len(changes), "undo": len(self._steps)}
+
+    def _read(self) -> Overrides:
+        found = read_overrides(self._out)
+        found.require_parts(self._grades)
+        return found
+
+    def _is_changed(self) -> bool:
+        try:
+            return read_overrides(self._out).digest != self._overrides.digest
+        except GradingError:
+            return True  # a file that is not complete may contain a wrong row
+
+    def _shown(self, rows: Rows) -> dict[str, Plain]:
+        numbered = ((self._numbers.get(key), row) for key, row in rows.items())
+        return {str(number): self._row(number, row) for number, row in numbered if number is not None}
+
+    def _row(self, number: int, row: Override | None) -> Plain:
+        if row is None:
+            return None
+        outdated = is_outdated(row, self.items[number].grade)
+        return {"points": row.points, "comment": row.comment, "outdated": outdated}

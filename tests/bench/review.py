@@ -1,0 +1,55 @@
+"""Measures how fast the review page shows the next of 300 answers, in a browser.
+
+usage: ./course run python tests/bench/review.py next
+"""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+from pathlib import Path
+
+from commands import run_command
+
+from tests.browser.chromium import chromium
+from tests.grading.review.classes import TOKEN, graded, serving, write_class
+
+STUDENTS = 300
+LINES = 60  # of each answer
+STEPS = 200
+# Presses a key, and returns the time in ms until the next frame after the answer was put into the page.
+PRESS = """
+async (key) => {
+  const before = document.body.dataset.shown;
+  const began = performance.now();
+  document.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  while (document.body.dataset.shown === before) await new Promise((resolve) => setTimeout(resolve));
+  await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+  return performance.now() - began;
+}
+"""
+
+
+def next_main() -> None:
+    """Print the median, the 95th percentile and the maximum: one key after another, without a pause."""
+    grades = [
+        graded(f"s{number:03}", "\n".join(f"value_{line} = {number + line}" for line in range(LINES)))
+        for number in range(STUDENTS)
+    ]
+    with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
+        out = write_class(Path(folder), grades)
+        with serving(out) as url, chromium() as browser:
+            page = browser.new_page()
+            page.goto(f"{url}/?token={TOKEN}")
+            page.wait_for_selector("body[data-shown='0']")
+            times = sorted(page.evaluate(PRESS, "n") for _ in range(STEPS))
+            times_back = sorted(page.evaluate(PRESS, "N" if step % 2 == 0 else "P") for step in range(20))
+    for name, values in (("next answer", times), ("other part", times_back)):
+        print(
+            f"{name}: median {statistics.median(values):.0f} ms, "
+            f"95 % {values[int(0.95 * len(values))]:.0f} ms, maximum {values[-1]:.0f} ms"
+        )
+
+
+if __name__ == "__main__":
+    run_command({"next": next_main})

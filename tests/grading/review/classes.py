@@ -1,0 +1,75 @@
+"""A class with results of `course grade`, and a running `course review`."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+from tornado.httpserver import HTTPServer
+from tornado.ioloop import IOLoop
+from tornado.netutil import bind_sockets
+
+from course_pkg.checking.report import Verdict
+from course_pkg.grading.grade import Flag, Grade
+from course_pkg.grading.reports import read_grades, write_reports
+from course_pkg.grading.review.items import Wanted
+from course_pkg.grading.review.server import application
+from course_pkg.grading.review.session import Session
+from tests.grading.grades import NASTY, nasty, report
+
+TOKEN = "secret"  # noqa: S105 -- only this test's server knows it
+RIGHT = 'mistakes = {"A": "polls too rarely"}\n'
+
+
+def graded(student: str, code: str = RIGHT, **more: object) -> Grade:
+    """Return a grade with two failed parts: 05.1, and 05.2 whose check did not finish."""
+    reports = (
+        report("05.1", Verdict.FAILED),
+        report("05.2", Verdict.FAILED, assertions=(), inconclusive=True),
+    )
+    made = Grade(student, "05", reports, origin=f"{student}/05.ipynb", code={"05.1": code, "05.2": "x = 1"})
+    return replace(made, **more)  # type: ignore[arg-type]
+
+
+def class_of_four() -> list[Grade]:
+    """Return four grades: two identical answers, a flagged one, and one full of harmful text."""
+    flag = Flag("copies", "05.1", "The code is almost the same.", 1, RIGHT.strip(), ("s01",))
+    hostile = nasty("=evil", code={"05.1": f"</code><img src=x onerror=alert(1)>{NASTY}"})
+    return [graded("s01"), graded("s02"), graded("s03", "other = 1", flags=(flag,)), hostile]
+
+
+def write_class(out: Path, grades: list[Grade] | None = None) -> Path:
+    """Write the reports of a class into a folder, and return it."""
+    write_reports(class_of_four() if grades is None else grades, out)
+    return out
+
+
+@contextmanager
+def serving(out: Path, wanted: Wanted | None = None) -> Iterator[str]:
+    """Serve the review page of a folder in a thread; yield its address without the token."""
+    session = Session(out, read_grades(out), wanted or Wanted())
+    (listening,) = bind_sockets(0, "127.0.0.1")
+    port = listening.getsockname()[1]
+    ready, loops = threading.Event(), list[IOLoop]()
+
+    def serve() -> None:
+        loop = IOLoop(make_current=True)
+        server = HTTPServer(application(session, TOKEN, lambda: port))
+        server.add_socket(listening)
+        loops.append(loop)
+        loop.add_callback(ready.set)
+        loop.start()
+        server.stop()
+        loop.close(all_fds=True)
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    assert ready.wait(10)
+    try:
+        yield f"http://127.0.0.1:{port}"
+    finally:
+        loops[0].add_callback(loops[0].stop)
+        thread.join(10)

@@ -1,0 +1,119 @@
+"""The server refuses foreign requests; the command refuses wrong folders; SIGKILL loses no saved points."""
+
+from __future__ import annotations
+
+import json
+import signal
+import socket
+import subprocess
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from course_pkg.grading.review.overrides import read_overrides
+from course_pkg.setup import Places
+from tests.grading.review.classes import TOKEN, serving, write_class
+
+COURSE = Places.of().checkout / "course"
+FOREIGN: list[dict[str, str]] = [
+    {},
+    {"Authorization": "token wrong"},
+    {"Authorization": f"token {TOKEN}", "Origin": "http://evil.example"},
+    {"Authorization": f"token {TOKEN}", "Host": "evil.example"},
+    {"Authorization": f"token {TOKEN}", "Sec-Fetch-Site": "cross-site"},
+]
+
+
+def _ask(url: str, headers: dict[str, str], data: object = None) -> tuple[int, dict[str, str]]:
+    body = None if data is None else json.dumps(data).encode()
+    request = urllib.request.Request(url, body, headers)  # noqa: S310 -- our own server
+    try:
+        with urllib.request.urlopen(request, timeout=10) as answer:  # noqa: S310
+            return answer.status, dict(answer.headers)
+    except urllib.error.HTTPError as error:
+        with error:
+            return error.code, dict(error.headers)
+
+
+def test_foreign_requests_are_refused(tmp_path: Path) -> None:
+    """Every address needs the token, the right host and the right origin, and sends the policy."""
+    out = write_class(tmp_path)
+    change = {"number": 1, "points": "1", "comment": ""}
+    with serving(out) as url:
+        for headers in FOREIGN:
+            for path in ("/", "/page.js", "/page.css", "/items", "/items/0", "/rows", "/nothing"):
+                assert _ask(url + path, headers)[0] == 403, (path, headers)
+            for path in ("/save", "/undo"):
+                assert _ask(url + path, headers, change)[0] == 403, (path, headers)
+        assert not (out / "overrides.csv").exists()
+        own = {"Authorization": f"token {TOKEN}", "Origin": url}
+        for path, status in {"/": 200, "/items/99": 404, "/nothing": 404, "/items/x": 404}.items():
+            status_seen, headers = _ask(url + path, own)
+            assert status_seen == status
+            assert headers["Content-Security-Policy"].startswith("default-src 'none'; script-src 'self';")
+        for wrong in ({}, [], {**change, "number": 99}, {**change, "points": 1}, {**change, "number": -1}):
+            assert _ask(f"{url}/save", own, wrong)[0] == 400
+        assert _ask(f"{url}/save", own, change)[0] == 200
+
+
+@contextmanager
+def _review(out: Path, *options: str) -> Iterator[tuple[subprocess.Popen[str], str, str]]:
+    """Run `course review`; yield the process, its address and its token."""
+    command = [COURSE, "review", out, "--no-browser", *options]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout
+            address = process.stdout.readline().split()[-1]
+            url, _, token = address.partition("/?token=")
+            yield process, url, token
+        finally:
+            process.kill()
+
+
+def _refused(out: Path, *options: str) -> str:
+    command = [COURSE, "review", out, "--no-browser", *options]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 1, done
+    return done.stderr
+
+
+def test_the_command(tmp_path: Path) -> None:
+    """A second review is refused; SIGKILL loses nothing that was saved; Ctrl-C ends with one line."""
+    out = write_class(tmp_path / "grades")
+    with _review(out, "--part", "5.1") as (process, url, token):
+        own = {"Authorization": f"token {token}"}
+        assert _ask(f"{url}/save", own, {"number": 1, "points": "1", "comment": "kept"})[0] == 200
+        assert "Another `course review` uses" in _refused(out)
+        process.kill()
+    assert [(row.points, row.comment) for row in read_overrides(out).rows.values()] == [(1, "kept")]
+    with _review(out) as (process, _url, _token):
+        process.send_signal(signal.SIGINT)
+        ended, said = process.communicate(timeout=30)
+    assert process.returncode == 0, said
+    assert "The review has ended; all saved points are in" in ended.splitlines()[-1]
+    assert said == ""
+
+
+def test_the_command_explains_what_is_wrong(tmp_path: Path) -> None:
+    """No folder, no results, a busy port and an unknown part each give one message."""
+    assert "There is no folder" in _refused(tmp_path / "none")
+    assert "contains no results" in _refused(tmp_path)
+    out = write_class(tmp_path / "grades")
+    assert "The results have no part 05.7" in _refused(out, "--part", "05.7")
+    with socket.create_server(("127.0.0.1", 0)) as busy:
+        assert f"Port {busy.getsockname()[1]} cannot be used" in _refused(
+            out, "--port", str(busy.getsockname()[1])
+        )
+
+
+@pytest.mark.parametrize("content", ["student,part\n", "\xff"])
+def test_a_wrong_file_stops_the_review(tmp_path: Path, content: str) -> None:
+    """The message names the line, and the file stays as it is."""
+    out = write_class(tmp_path / "grades")
+    (out / "overrides.csv").write_bytes(content.encode("latin-1"))
+    assert "line 1" in _refused(out)
+    assert (out / "overrides.csv").read_bytes() == content.encode("latin-1")
