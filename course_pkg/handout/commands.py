@@ -13,7 +13,10 @@ if TYPE_CHECKING:
 
 # These commands do not work in the students' edition.
 NO_COMMANDS = frozenset(
-    "release collect grade grade-one points review autograder autograde site sync test".split()
+    (
+        *("release", "collect", "site", "sync", "test"),
+        *("grade", "grade-one", "points", "review", "autograder", "autograde"),
+    )
 )
 
 
