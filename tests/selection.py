@@ -156,7 +156,7 @@ def digest_of(group: str) -> str:
 def _packages_below(folder: str) -> list[str]:
     """Return the packages on which a folder of tests depends.
 
-    These are the package of this name, and all packages that it may import.
+    The result contains the package of this name and all packages that it may import.
 
     If no package has the name of the folder, the folder depends on all packages.
     """

@@ -26,9 +26,10 @@ def validate(
     """Run nbval with `notebooks` on `workers` workers, and return the exit status and the output.
 
     Each notebook has its own master. All cells of a notebook run on the same worker (`--dist loadfile`),
-    because two workers cannot share a kernel of nbval. nbval starts the kernel in the folder of the notebook,
-    so it gets a copy of the notebook in an empty folder. If `compare` is false, nbval does not compare
-    outputs; then a notebook passes if it runs to its end. Raises subprocess.TimeoutExpired after `timeout` s.
+    because two workers cannot share a kernel of nbval. nbval starts the kernel in the folder of the notebook.
+    Therefore, the notebook is copied into an empty folder first. If `compare` is false, nbval does not
+    compare outputs; then a notebook passes if it runs to its end. Raises subprocess.TimeoutExpired after
+    `timeout` s.
     """
     with tempfile.TemporaryDirectory(prefix="course-nbval-", ignore_cleanup_errors=True) as folder:
         copies = [_copied(path, Path(folder)) for path in notebooks]

@@ -10,7 +10,7 @@ from course_pkg.overview.reading import learning_paths
 
 
 def chosen_chapters(path: str = "", listed: Sequence[str] = ()) -> tuple[str, ...]:
-    """Return the chapters of the path called `path`, the chapters `listed`, or all chapters.
+    """Return the chapters of the learning path `path`, the chapters in `listed`, or all chapters.
 
     Sorted, such as ("05", "06").
 

@@ -55,7 +55,7 @@ def _state(prediction: Prediction) -> str:
 
 
 def _cell(value: str | float) -> str | float:
-    """Return the value on one line; a text that could be a formula begins with a quote."""
+    """Return the value on one line; put a quote before a text that a spreadsheet could read as a formula."""
     if isinstance(value, (int, float)):
         return value
     line = " ".join(value.split())

@@ -18,10 +18,13 @@ TOGETHER = 768 << 20  # maximum memory of all processes of a part together (byte
 PROCESSES = 200  # maximum number of processes and threads; a launch file with three nodes has about 60
 DISK = 128 << 20  # maximum size of all files in /student, and of all files in /tmp (bytes)
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
-SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"  # a folder with copies of paths, and the list of these paths
+# a folder with copies of files, and the list of these files' paths
+SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"
 FILES = 20_000  # maximum number of files in each of these folders
 FILE = 64 << 20  # maximum size of one file (bytes)
-OPEN = 256  # maximum number of open files and sockets; no other limit applies to the buffers of sockets
+# maximum number of open files and sockets; this also limits the memory for socket buffers, which has no limit
+# of its own
+OPEN = 256
 PROCESSOR = 120  # maximum CPU time (s)
 
 TIOCSTI, TIOCLINUX = 0x5412, 0x541C  # asm-generic/ioctls.h: they write input into another user's terminal

@@ -100,7 +100,7 @@ class PartResult:
 
     @property
     def report(self) -> Report | None:
-        """The check runner's report, or None if there is no record."""
+        """The check runner's report, or None if the check runner has sent no record."""
         if self.record is None:
             return None
         fields = Report.__dataclass_fields__

@@ -84,7 +84,7 @@ def mount_memory(target: str, *, size: int = 0, files: int = 0, read_only: bool 
 
 
 def hide(path: str) -> None:
-    """Cover a folder with an empty folder, or a file with an empty file."""
+    """Hide a folder or a file: mount an empty folder or file over it."""
     if os.path.isdir(path):
         mount_memory(path, read_only=True)
     else:

@@ -60,7 +60,7 @@ def _linked_packages(places: Places) -> Iterator[tuple[str, Path]]:
 
 
 def _link(package: Path, folder: Path) -> None:
-    """Link `package` to the files of the catkin package in `folder`, but not to the checkout's other files.
+    """Create links to the files of the catkin package in `folder`, but not to other files of the checkout.
 
     rosrun searches a package's whole folder for a program, and follows links. With a link to the whole
     checkout, rosrun would also find the programs in the student's own packages.
@@ -92,7 +92,7 @@ def _tool(places: Places, name: str) -> Path:
 
 
 def _build_environment(places: Places) -> dict[str, str]:
-    """Return an environment without those of the user's settings that could break the build."""
+    """Return the environment, but remove the user's settings that could break the build."""
     if places.conda:  # catkin finds the compilers through variables that `conda activate` sets
         return {**os.environ, "PATH": f"{places.conda}/bin:{SYSTEM_PATH}"}
     return {"PATH": SYSTEM_PATH, "HOME": os.path.expanduser("~"), "LANG": "C.UTF-8"}

@@ -43,7 +43,7 @@ class Pen:
 class Velocity:
     """A velocity command: m/s forwards and sideways, and rad/s.
 
-    `since` is the time at which the command arrived, in s of the clock of World.tick().
+    `since` is the time (s) at which the command arrived, on the clock that World.tick() advances.
     """
 
     forward: float = 0.0

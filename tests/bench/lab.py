@@ -37,7 +37,7 @@ from course_pkg.lab.jupyterlab import free_port
 from tests.lab.commands import ADDRESS, ROOT, alive, below, can_connect, having, lab, user_environment
 from tests.support import eventually
 
-START_RATIO, START_BAR = 0.75, 3.0  # maximum ratio to `jupyter lab`, and maximum duration (s)
+START_RATIO, START_BAR = 0.75, 3.0  # maximum start time: as a ratio to that of `jupyter lab`, and in s
 CLICK_RATIO, CLICK_BAR = 0.3, 12.0  # maximum ratio to `jupyter lab`, and maximum duration (ms)
 WARM_UP = 10  # clicks
 TIMEOUT = 20.0  # s; a process that still runs after this time counts as left behind

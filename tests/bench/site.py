@@ -68,7 +68,7 @@ def pages_main() -> None:
 def write_notebooks(root: Path) -> None:
     """Write 14 executed notebooks: the last run of each chapter.
 
-    Some chapters are written twice if necessary.
+    If the course has fewer than 14 chapters, some chapters are written twice.
     """
     runs, solutions = Runs(), NotebookStore().solutions()
     (root / "solutions").mkdir()

@@ -234,7 +234,7 @@ def test_nothing_was_recorded(page: Page, tmp_path: Path) -> None:
 def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> None:
     """Each text has enough contrast, and nothing is wider than the page.
 
-    This is true in both themes and on a narrow page.
+    The text can be read in both themes and on a narrow page.
     """
     page.set_viewport_size({"width": width, "height": 1000})
     failed = [

@@ -59,7 +59,10 @@ def test_search_open_and_copy_by_keyboard(lab: Lab, lab_page: Page) -> None:
 def test_a_saved_browser_keeps_what_was_open(
     master: PrivateMaster, page: Page, tmp_path: Path, theme: str, width: int
 ) -> None:
-    """Without a kernel, the reader can search the list; a sentence explains why other types do not open."""
+    """Without a kernel, the reader can search the list.
+
+    A sentence explains why other types cannot be opened.
+    """
     assert master.uri
     page.set_viewport_size({"width": width, "height": 1000})
     page.goto(save(TypeBrowser("sensor_msgs/SetCameraInfo"), tmp_path / "page.html", theme))

@@ -24,7 +24,7 @@ SCRIPT = Program("scripts/server.py")
 
 
 class Replying:
-    """A folder in which each command has the same result."""
+    """A fake folder: each command that is run in it returns the same result."""
 
     def __init__(self, reply: Reply) -> None:
         self.reply = reply

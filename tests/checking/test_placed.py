@@ -88,7 +88,7 @@ class Drawer:
 
 @pytest.fixture
 def placed() -> Iterator[PlacedObjects]:
-    """Return the check runner's side of the proxies."""
+    """Return the object that executes the calls of the proxies."""
     with PlacedObjects() as placed:
         yield placed
 

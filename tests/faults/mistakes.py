@@ -30,7 +30,7 @@ class Shows:
 
 @dataclass(frozen=True)
 class Builds:
-    """A mistake in a build.
+    """A build that fails because of one mistake.
 
     `slip` is its name in the tables of test_mistakes.py. `said` is a part of the output, and `cause` is a
     part of the explanation.

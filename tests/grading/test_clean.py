@@ -122,7 +122,10 @@ def test_changed_names_stay_different() -> None:
 
 
 def test_a_student_keeps_the_name() -> None:
-    """A name is stored in one form of Unicode; two names stay different even if characters are removed."""
+    """A name is stored in a normalised form of Unicode.
+
+    Different names stay different even if characters are removed from them.
+    """
     assert clean.identity("Größe_12") == clean.identity("Gro\u0308ße_12") == "Größe_12"
     assert clean.identity("a\x00") != clean.identity("a")
     assert clean.identity("a\ud800") != clean.identity("a\ud801")

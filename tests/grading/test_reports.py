@@ -85,7 +85,10 @@ def _two() -> list[Grade]:
 
 
 def test_the_table(tmp_path: Path) -> None:
-    """Each student has a row, each part a column; missing work is empty; late days reduce the totals."""
+    """The table has a row for each student and a column for each part. Missing work is an empty cell.
+
+    Late days reduce the totals.
+    """
     write_reports(_two(), tmp_path)
     head, first, second = _rows(tmp_path / "grades.csv")
     five = ["05.1", "05.2", "05.3", "05.4", "05.5", "05 days late", "05 total"]

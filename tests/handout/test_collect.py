@@ -58,7 +58,10 @@ def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "
 
 
 def give(path: Path, uid: int) -> None:
-    """If this process may, make a user the owner of everything below `path`; other users cannot read it."""
+    """Make a user the owner of everything below `path`, if this process has permission to do so.
+
+    Other users cannot read it.
+    """
     for each in [path, *path.rglob("*")]:
         if ROOT:
             os.chown(each, uid, uid, follow_symlinks=False)

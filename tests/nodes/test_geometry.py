@@ -19,7 +19,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def server() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg server` until it answers."""
+    """Start `rosrun course_pkg server`, and wait until the server answers."""
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         process.wait_for_service("/getGeometry")
         yield process

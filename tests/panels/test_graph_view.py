@@ -70,7 +70,7 @@ def test_a_rate_appears_while_a_page_shows_the_panel(panel: GraphPanel, kernel: 
 def test_the_recording_is_sent_once_when_no_page_shows_the_panel(panel: GraphPanel) -> None:
     """While a page shows the panel, the recording is not sent.
 
-    When it is hidden, the recording is sent once.
+    When no page shows the panel, the recording is sent once.
     """
     told: list[object] = []
     panel.observe(lambda change: told.append(change["new"]), "history")

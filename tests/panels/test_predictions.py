@@ -45,7 +45,7 @@ def test_an_answer_outlives_the_kernel(model: PredictionModel, store: Prediction
 
 
 def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
-    """The answer at the time of the comparison is the prediction.
+    """The student's answer at the time of the comparison is stored as the prediction.
 
     The page shows if the answer was changed later.
     """

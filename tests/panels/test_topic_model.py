@@ -274,7 +274,7 @@ def test_equal_types_cause_no_warning(seen: Connections) -> None:
 
 
 def test_one_name_with_two_definitions_is_a_mismatch() -> None:
-    """If a connected publisher has reported an MD5, this MD5 is compared."""
+    """If a connected publisher has reported an MD5 sum, this sum decides whether the types are equal."""
     said = mismatches(FLOAT, seen("std_msgs/Float64", md5="0" * 32), "/panel", message_type)
     assert "std_msgs/Float64 (MD5 00000000…)" in said[0]
 

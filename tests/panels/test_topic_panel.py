@@ -30,7 +30,7 @@ def panel(master: PrivateMaster) -> Iterator[TopicPanel]:
 
 
 def click(panel: TopicPanel, action: str, data: str, **settings: object) -> None:
-    """Click in the same way as the page."""
+    """Simulate a click: send the message that the page sends for a click."""
     content = {"action": action, "draft": {"data": data}, "settings": {**SETTINGS, **settings}}
     panel.received("act", content)
 

@@ -59,7 +59,7 @@ def attacked(attack: str) -> str:
 
 
 def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
-    """Check a package with an attack and a wrong server.
+    """Check a package that contains an attack and a wrong server.
 
     It must earn no points, and the result must contain a reason.
     """

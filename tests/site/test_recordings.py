@@ -27,7 +27,10 @@ from tests.site.notebook_stores import result
 
 
 class Noted:
-    """A panel that stores the calls of its methods in `done`; `record` raises `trouble` if it is given."""
+    """A panel that stores the calls of its methods in `done`.
+
+    If `trouble` is not None, `record` raises it.
+    """
 
     def __init__(self, trouble: CourseError | None = None) -> None:
         self.done: list[str | list[dict[str, Plain]] | tuple[str, dict[str, Plain]]] = []

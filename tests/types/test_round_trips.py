@@ -42,7 +42,7 @@ def sent(message: genpy.Message) -> genpy.Message:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_text_and_wire_give_every_value_back(seed: int) -> None:
-    """parse(format(value)) is the same value, and so is a value that is sent as bytes."""
+    """A value does not change if it is formatted and parsed, or sent as bytes and read."""
     for kind, chance in drawn(seed):
         for half in (kind.request, kind.response):
             for _ in range(VALUES):

@@ -119,9 +119,9 @@ def held_back(number: int) -> Iterator[list[int]]:
 class FakeNode:
     """A node that is registered as a publisher of `topic` during the block, but never publishes.
 
-    With `alive`, the node replies to a ping, because it is registered with the address of the check's own
-    node. Without `alive`, it is like a killed node, because it is registered with the address of a closed
-    port. If the port was `reused`, another program listens there, which closes each connection.
+    With `alive`, the fake node is registered with the address of the check's own node, so a ping is answered.
+    Without `alive`, it is like a killed node, because it is registered with the address of a closed port. If
+    the port was `reused`, another program listens there, which closes each connection.
     """
 
     def __init__(

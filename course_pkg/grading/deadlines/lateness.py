@@ -79,7 +79,7 @@ def attempts_to_grade(
 def best_attempts(grades: Sequence[Grade]) -> list[Grade]:
     """Return one grade for each student and chapter: the one with the most points.
 
-    If two have the same points, the later one.
+    If two attempts have the same points, the later attempt is used.
     """
     by_chapter: dict[tuple[str, str, str], list[Grade]] = {}
     for grade in grades:

@@ -75,7 +75,7 @@ def root_of(path: tuple[str, ...], packages: set[tuple[str, ...]]) -> tuple[str,
 
 
 def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
-    """Read the files of one package, within its limits."""
+    """Read the files of one package, up to the limits for the number and size of files."""
     inside = "/".join(members[0].path[len(root) :])
     origin = clean.line(members[0].entry.path.removesuffix(f"/{inside}"), 500)
     found = Found(Package(root[-1], (), origin), root[-1], max(each.entry.modified for each in members))

@@ -18,7 +18,7 @@ Writer = Callable[[Book, Path], None]
 # These reports also contain empty folders, and earlier results without a new submission. The other files
 # leave such students out, so that a platform keeps its own points.
 WITH_ABSENT = ("class_page", "feedback", "records", "table")
-# A platform has one score for these reports, so they contain only the chapters of this run.
+# A platform stores only one score for each report, so a report contains only the chapters of this run.
 OF_ASSIGNMENT = ("gradescope", "gradescope_table", "moodle_worksheet")
 
 

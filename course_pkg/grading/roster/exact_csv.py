@@ -45,8 +45,8 @@ class Record:
 def records(text: str, separator: str) -> Iterator[Record]:
     """Yield the records of a CSV file.
 
-    Moodle is written in PHP, which does not double a quote that comes after a backslash. Therefore, a quote
-    ends a cell only if a separator or a line break follows it.
+    Moodle is written in PHP, and PHP's CSV writer does not double a quote that comes after a backslash.
+    Therefore, a quote ends a cell only if a separator or a line break follows it.
     """
     ends = rf"{re.escape(separator)}|{BREAK}|\Z"
     cell = re.compile(

@@ -48,7 +48,7 @@ class Person:
     section: str = ""
     number: str = ""  # the number of a participant in one assignment of Moodle, such as "12345"
     line: int = 0  # number of the line in the file; 0 if the person is not from a file
-    more: Mapping[str, str] = field(default_factory=dict)  # other columns, by their names in small letters
+    more: Mapping[str, str] = field(default_factory=dict)  # other columns, by their lowercase names
 
     @property
     def label(self) -> str:

@@ -28,7 +28,8 @@ FILES = (
     *(".gitignore", "CMakeLists.txt", "LICENSE", "course", "environment.yml", "package.xml", "postBuild"),
     *("pyproject.toml", "setup.py", "start"),
 )
-# in a chapter's folder: example answers, grading fixtures, the site's recordings, and private checks
+# files in a chapter's folder that are left out: example answers, grading fixtures, the site's recordings, and
+# private checks
 LEFT_OUT = re.compile(
     r"course_pkg/chapters/(?:ch\d\d_\w+/(?:(?:answers|fixtures)(?:\.py$|/)|recordings\.json$)|private_)"
 )

@@ -161,7 +161,10 @@ def _received(pipe: _Pipe) -> Iterator[WorkFile | Problem]:
 
 
 def _stays_inside(file: WorkFile) -> bool:
-    """Return whether the file's path stays in the student's folder; its owner can choose any name."""
+    """Return whether the file's path stays in the student's folder.
+
+    The student can choose any file name, such as "../x".
+    """
     names = [*file.path.split("/"), *([file.package] if file.package else [])]
     safe = all(name not in ("", ".", "..") and "\0" not in name for name in names)
     return safe and "/" not in file.package and (bool(file.package) or len(names) == 1)

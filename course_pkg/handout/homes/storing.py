@@ -18,7 +18,7 @@ from course_pkg.handout.homes.work import WorkFile
 
 
 def store(folder: Path, files: Sequence[WorkFile]) -> None:
-    """Write the work of one student to `folder`, with the times of the files.
+    """Write the work of one student to `folder`, and keep the modification times of the files.
 
     Other notebooks and packages in the folder are not changed. Raises OSError if a file cannot be written.
     """

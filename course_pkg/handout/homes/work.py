@@ -1,7 +1,7 @@
 """A student's work in a home folder: the chapters' notebooks, and the catkin packages that parts require.
 
 Each folder and file is opened relative to its parent folder, and links are not followed. Therefore, it is
-harmless if a folder is replaced by a link meanwhile. All amounts are limited.
+harmless if a folder is replaced by a link meanwhile. The number and the size of the files are limited.
 """
 
 from __future__ import annotations

@@ -40,7 +40,7 @@ class Finding(Enum):
     NOTHING = "nothing"
     UNDRAWN = "undrawn"  # the pen was up since the previous observation
     CLEARED = "cleared"  # the paper is empty again
-    RESET = "reset"  # the paper is empty, and the turtles are in the state of the start
+    RESET = "reset"  # the paper is empty, and the turtles are in their initial state
 
 
 @dataclass

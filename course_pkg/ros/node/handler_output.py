@@ -34,7 +34,7 @@ class Printed(io.TextIOBase):
 class RoutedStream(io.TextIOBase):
     """Replaces sys.stdout or sys.stderr. Text that a handler's thread prints is stored.
 
-    All other text goes to the replaced stream.
+    All other text goes to the original stream, which this object replaces.
 
     Each thread has its own destination for text; the destination is therefore stored in a context variable.
     """

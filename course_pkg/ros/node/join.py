@@ -1,4 +1,7 @@
-"""Make a kernel a node. A cell may call join() many times, although rospy starts only once in a process."""
+"""Turn a Jupyter kernel into a ROS node.
+
+A cell may call join() many times, although rospy starts only once in a process.
+"""
 
 from __future__ import annotations
 

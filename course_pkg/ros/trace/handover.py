@@ -42,7 +42,7 @@ def hand_over_at_exit() -> None:
 
 @contextmanager
 def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
-    """During the block, nodes that end send their records to the node at `uri`."""
+    """During the block, each node sends its records to the node at `uri` before it ends."""
     parameter = f"{PARAMETER}{node}_{next(recorder().numbers)}"
     own, announced = recorder(), False
     own.recordings += 1

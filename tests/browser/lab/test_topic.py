@@ -65,7 +65,7 @@ def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
 def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
     """Messages that are published at 50 Hz arrive at about 50 Hz, until a click stops them.
 
-    They are also plotted.
+    The messages that are published at this rate are also plotted.
     """
     with running_notebook(lab_page, lab, "rate", JOIN, PANEL):
         topic = listening(lab_page)

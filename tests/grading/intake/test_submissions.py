@@ -223,7 +223,9 @@ def test_a_notebook_of_this_edition_under_a_name_of_the_first(
 
 
 def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
-    """The file with the platform's highest number, or the newest file, is used.
+    """If the platform numbers the files, the file with the highest number is used.
+
+    Otherwise, the newest file is used.
 
     A note contains the other file.
     """

@@ -44,7 +44,7 @@ def test_it_reads_as_the_csv_module_does() -> None:
 
 
 def test_quotes_of_php() -> None:
-    """PHP writes a quote after a backslash without doubling it; the cell still ends at its last quote."""
+    """PHP does not double a quote that follows a backslash; such a quote does not end the CSV cell early."""
     [_, row] = records(FILES[-1], ",")
     assert [row.value(0), row.value(1)] == ['a \\"PHP\\" quote, 1', "2"]
 

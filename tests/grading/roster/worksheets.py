@@ -6,7 +6,8 @@ They are in several languages and have several settings.
 from __future__ import annotations
 
 DATE = '"Monday, 5 October 2026, 10:00 AM"'
-# A site in English with group submission, marking workflow and online text, as newer versions write it.
+# A file from an English Moodle site with group submission, marking workflow and online text, in the format of
+# newer versions.
 ENGLISH = (
     '\ufeffIdentifier,"Full name","ID number","Email address",Status,Group,Marker,Grade,"Maximum grade",'
     '"Marking workflow state","Grade can be changed","Last modified (submission)","Online text",'

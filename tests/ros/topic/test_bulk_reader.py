@@ -26,7 +26,7 @@ class Notes:
         self.looks += 1
 
     def reader(self) -> BulkReader:
-        """Return a reader of numbers that delivers to this object."""
+        """Return a reader that reads the numbers and passes each number to this object."""
         return BulkReader(["std_msgs/UInt32"], self.hear, self.missed.append, self.look)
 
 

@@ -125,7 +125,7 @@ def test_a_callback_of_an_unknown_message() -> None:
 def test_events_outside_of_the_recording() -> None:
     """Events before and after the recording are left out.
 
-    An event that continues after the recording has no end.
+    If an event has not ended when the recording ends, its end is unknown (None).
     """
     spans = [span("publish", 1, 2), span("publish", 4, 6), span("publish", 8, 12), span("publish", 11, 12)]
     found = events(spans, start=5, end=10)

@@ -45,7 +45,7 @@ RUNS = 'Return "waiting" before the first message, and "running" while messages 
 def watch_a_stream(context: CheckContext) -> None:
     """Call state() of one watch before, during and after a stream.
 
-    Call that of another watch only during a stream.
+    Call state() of another watch only during a stream.
     """
     topic, unasked = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(KEEPER)

@@ -10,7 +10,7 @@ from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
 from course_pkg.checking.peers.service_calls import Reply, Service
 from course_pkg.checking.plain_values import Message
 
-LIMIT = 1.6  # s for which a handler of the checked basket waits
+LIMIT = 1.6  # time (s) that a handler waits in the basket that is checked
 SLACK = 0.8  # additional s for a busy machine
 LATER = 0.3  # s until an item is put into the basket
 LAST = 1.2  # s until the last of several items is put into the basket

@@ -285,7 +285,7 @@ def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: lis
 
 
 def _not_received(count: int) -> Hints:
-    """Return hints for a value other than the next `count` bytes."""
+    """Return hints for the case that the function did not return the next `count` bytes."""
     return [
         (None, NO_RETURN),
         (

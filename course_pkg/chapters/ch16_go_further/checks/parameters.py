@@ -36,7 +36,7 @@ ZERO = "The value was 0, but a speed has to be above 0. Return the default."
     deadline=20.0,
 )
 def speed_parameter(context: CheckContext) -> None:
-    """Set the parameter of a robot with a random name to several valid and invalid values."""
+    """Start a robot that has a random name, and set its parameter to several valid and invalid values."""
     robot = context.random.word()
     first, default = context.random.numbers(2, 1.0, 9.0)
     (second,) = context.random.numbers(1, 0.1, 0.9)

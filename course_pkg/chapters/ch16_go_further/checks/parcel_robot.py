@@ -1,6 +1,6 @@
 """16.4: a whole node with a topic, a service, an action and a parameter.
 
-The student decides which is which.
+The student decides which kind of interface each name has.
 """
 
 from __future__ import annotations
