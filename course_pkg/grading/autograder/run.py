@@ -26,7 +26,7 @@ from course_pkg.errors import CourseError, GradingError, WorkerFailed
 from course_pkg.files import write_atomically
 from course_pkg.grading.autograder.handed_in import handed_in
 from course_pkg.grading.autograder.settings import days_late, read_settings
-from course_pkg.grading.extras import Extras, read_extras
+from course_pkg.grading.extras import read_extras
 from course_pkg.grading.grade import Grade, Submission
 from course_pkg.grading.marking import Run, mark
 from course_pkg.grading.plan import plan
@@ -87,7 +87,7 @@ def _results(root: Path) -> dict[str, Plain]:
     if policy and late is None:
         messages.append("The time of handing in is not known, so no points were taken off for lateness.")
     with _runner(deadline, str(extras.folder or ""), weaker=weaker) as run:
-        grades = [_grade(each, extras, run).for_student() for each in found]
+        grades = [_grade(each, run).for_student() for each in found]
     if policy and late:
         grades = [replace(each, late=late, factor=policy.factor(late)) for each in grades]
     results = results_of(grades)
@@ -102,7 +102,7 @@ def _require_users(root: Path) -> None:
         )
 
 
-def _grade(submission: Submission, extras: Extras, run: Run) -> Grade:
+def _grade(submission: Submission, run: Run) -> Grade:
     return mark(submission, plan(submission.chapter), run, os.urandom(16).hex(), "", sandboxed=True)
 
 
