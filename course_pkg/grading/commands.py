@@ -194,6 +194,21 @@ def _points_arguments(parser: ArgumentParser) -> None:
     )
 
 
+def _autograde(options: SimpleNamespace) -> int:
+    from course_pkg.grading.autograder.run import autograde, prepare
+
+    return prepare() if options.prepare else autograde(options.root)
+
+
+def _autograde_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "root", type=Path, nargs="?", default=Path("/autograder"), help="the folder of the platform"
+    )
+    parser.add_argument(
+        "--prepare", action="store_true", help="only make the checks and the solutions unreadable for others"
+    )
+
+
 COMMANDS = {
     "grade": Command("grade what students handed in, and write the reports", _grade, NEEDS, _grade_arguments),
     "grade-one": Command(
@@ -207,6 +222,12 @@ COMMANDS = {
         _points,
         NEEDS,
         _points_arguments,
+    ),
+    "autograde": Command(
+        "grade the submission in a container of Gradescope; the zip of `course autograder` calls it",
+        _autograde,
+        NEEDS,
+        _autograde_arguments,
     ),
     "review": Command(
         "review answers by hand: change points, and write comments, on a page",

@@ -11,9 +11,13 @@ from course_pkg.setup.commands import Command
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
+# These commands do not work in the students' edition.
 NO_COMMANDS = frozenset(
-    {"release", "collect", "grade", "grade-one", "points", "review", "site", "sync", "test"}
-)  # for students
+    (
+        *("release", "collect", "site", "sync", "test"),
+        *("grade", "grade-one", "points", "review", "autograder", "autograde"),
+    )
+)
 
 
 def _release(options: SimpleNamespace) -> int:
@@ -83,6 +87,35 @@ def _collect_arguments(parser: ArgumentParser) -> None:
     )
 
 
+def _autograder(options: SimpleNamespace) -> int:
+    from course_pkg.handout.autograder.bundle import Options, write_autograder
+
+    given = {name: value for name, value in vars(options).items() if name != "command"}
+    return write_autograder(Options(**given))
+
+
+def _autograder_arguments(parser: ArgumentParser) -> None:
+    parser.add_argument("out", metavar="OUT.zip", type=Path, help="the zip to write")
+    parser.add_argument(
+        "--chapters", type=_chapters, default=(), metavar="05,06", help="the chapters of the assignment (all)"
+    )
+    parser.add_argument(
+        "--private", type=Path, metavar="DIR", help="a folder with private checks and other points"
+    )
+    parser.add_argument(
+        "--minutes",
+        type=float,
+        default=9.0,
+        help="the time limit of a run, which must be shorter than that of Gradescope (default: 9)",
+    )
+    parser.add_argument(
+        "--late-per-day", type=float, metavar="PERCENT", help="taken off for each day late that has begun"
+    )
+    parser.add_argument(
+        "--late-max-days", type=float, metavar="N", help="the days late after which no points are left"
+    )
+
+
 COMMANDS = {
     "release": Command(
         "write the students' edition, without solutions: a folder, a git repository and a zip",
@@ -95,5 +128,11 @@ COMMANDS = {
         _collect,
         frozenset({"course", "libraries"}),
         _collect_arguments,
+    ),
+    "autograder": Command(
+        "write the zip of an autograder for Gradescope",
+        _autograder,
+        frozenset({"course", "libraries", "solutions"}),
+        _autograder_arguments,
     ),
 }

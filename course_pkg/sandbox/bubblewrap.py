@@ -92,7 +92,7 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
         *("--new-session", "--die-with-parent", "--clearenv", "--hostname", "classroom"),
         *("--dev", "/dev"),
         *_file_system([*_course(), *readable]),
-        *_variables(),
+        *(option for pair in clean_environment().items() for option in ("--setenv", *pair)),
         *("--remount-ro", "/dev", "--remount-ro", "/", "--chdir", "/"),
         "--",
         *prepared,
@@ -154,17 +154,15 @@ def _course() -> Iterator[Path]:
         yield prefix
 
 
-def _variables() -> Iterator[str]:
-    """Yield options that set the course's environment, without variables of the user who grades.
+def clean_environment() -> dict[str, str]:
+    """Return the course's environment, without variables of the user who grades.
 
     With more than one arena, glibc reserves about 64 MiB of address space for each thread of a process.
     Then a student's code could start only about ten threads within the limit MEMORY.
     """
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")
-    known["MALLOC_ARENA_MAX"] = "1"
-    for name, value in known.items():
-        yield from ("--setenv", name, value)
+    return {**known, "MALLOC_ARENA_MAX": "1"}
 
 
 def _invented(path: str, text: str) -> Path:

@@ -12,8 +12,9 @@ from course_pkg.checking.parts import find
 from course_pkg.checking.report import Report, Verdict
 from course_pkg.checking.runner import record, run_check
 from course_pkg.errors import ChannelError
-from course_pkg.sandbox import namespaces
+from course_pkg.sandbox import namespaces, users
 from course_pkg.sandbox.command_runner import SplitChannel
+from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.job import PartJob
 
 
@@ -25,11 +26,13 @@ def check_part(
     commands: socket.socket,
     out: int,
     *,
-    sandboxed: bool,
+    isolation: Isolation,
 ) -> NoReturn:
     """Run the check of `job` and write its record to the file `out`, as one JSON object."""
-    if sandboxed:
+    if isolation.namespaces:
         namespaces.enter(network, namespaces.NETWORK)
+    if isolation.users:
+        users.become(isolation.users.trusted)
     os.environ.update(
         ROS_MASTER_URI=f"http://localhost:{port}", ROS_HOSTNAME="localhost", COURSE_SEED=str(job.seed)
     )

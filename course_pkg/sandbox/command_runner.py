@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import socket
+import tempfile
 from pathlib import Path
 
 from course_pkg.checking.channel import Channel
@@ -44,11 +45,16 @@ class SplitChannel(Channel):
         return super().ask(do, timeout=timeout, **arguments)
 
 
-def run_commands(sock: socket.socket, folder: str, *, sandboxed: bool) -> None:
-    """Execute the requests of the check runner until the check runner closes the channel."""
-    if sandboxed:
+def run_commands(sock: socket.socket, folder: str, own: str) -> None:
+    """Execute the requests of the check runner until the check runner closes the channel.
+
+    If `own` is a folder, the files of ROS and temporary files are in it, because the student's folder is
+    read-only; and other processes cannot read this one. It is empty if there is no sandbox.
+    """
+    if own:
         be_unreadable()
-        os.environ.update(ROS_LOG_DIR=OWN, ROS_HOME=OWN)  # the student's folder is read-only here
+        os.environ.update(ROS_LOG_DIR=own, ROS_HOME=own, TMPDIR=own)
+        tempfile.tempdir = own
     channel, agent = Channel(sock), KernelAgent({}, Path(folder))
     try:
         while True:

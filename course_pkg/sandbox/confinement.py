@@ -64,7 +64,9 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
     namespaces.mount_processes()
     if second := os.fork():
         _reap_until(second)
-    _without_privileges()
+    set_limits()
+    namespaces.give_up_privileges()
+    load_filter()
     try:
         work()
     finally:
@@ -94,7 +96,8 @@ def shadowed_paths() -> list[str]:
     return [path for path in os.environ.get(SHADOWED, "").split(os.pathsep) if path]
 
 
-def _without_privileges() -> None:
+def set_limits() -> None:
+    """Set the limits of a process that runs a student's code."""
     namespaces.limit(
         AS=MEMORY,
         NPROC=PROCESSES,
@@ -105,7 +108,10 @@ def _without_privileges() -> None:
         MEMLOCK=0,
         MSGQUEUE=0,
     )
-    namespaces.give_up_privileges()
+
+
+def load_filter() -> None:
+    """Refuse dangerous system calls of this process and of all processes that it starts."""
     _filter().load()
 
 

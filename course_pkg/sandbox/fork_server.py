@@ -8,18 +8,19 @@ from pathlib import Path
 from typing import NoReturn
 
 from course_pkg.checking.parts import secret_paths
-from course_pkg.sandbox import namespaces
+from course_pkg.sandbox import namespaces, users
 from course_pkg.sandbox.channel import end_all_below, fork, receive, send, share_memory_with_children
+from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.student_process import prepare
 from course_pkg.sandbox.supervisor import supervise
 
 CLEAR_TIMEOUT = 60.0  # s
 
 
-def serve_forks(sock: socket.socket, private: str, *, sandboxed: bool) -> NoReturn:
+def serve_forks(sock: socket.socket, private: str, *, isolation: Isolation) -> NoReturn:
     """Fork a supervisor for each job from `sock`, and report when it and its descendants have ended."""
     namespaces.adopt_orphans()
-    if sandboxed:
+    if isolation.namespaces:
         _hide_checks(private)
     shell = prepare()
     share_memory_with_children()
@@ -28,11 +29,13 @@ def serve_forks(sock: socket.socket, private: str, *, sandboxed: bool) -> NoRetu
         while True:
             _, (job_file, messages, commands) = receive(sock)
             # Only the supervisor reads the job, because later forks could read this process's old memory.
-            pid = fork(lambda: supervise(job_file, shell, sock, messages, commands, sandboxed=sandboxed))  # noqa: B023
+            pid = fork(lambda: supervise(job_file, shell, sock, messages, commands, isolation=isolation))  # noqa: B023
             for descriptor in (job_file, messages, commands):
                 os.close(descriptor)
             status = os.waitpid(pid, 0)[1]
             end_all_below(CLEAR_TIMEOUT)  # in a sandbox, no other process is left now
+            if isolation.users:
+                users.clear(isolation.users)
             send(sock, {"over": status})
     except (EOFError, OSError):
         os._exit(0)

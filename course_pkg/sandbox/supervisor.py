@@ -12,9 +12,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from course_pkg.sandbox import confinement, namespaces
+from course_pkg.sandbox import confinement, namespaces, users
 from course_pkg.sandbox.channel import descendants, end_all_below, fork, send
-from course_pkg.sandbox.command_runner import run_commands
+from course_pkg.sandbox.command_runner import OWN, run_commands
+from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.job import PartJob, job_from
 from course_pkg.sandbox.student_process import message_writer, run_part
 from course_pkg.waiting import wait_until
@@ -29,7 +30,7 @@ MEMORY_INTERVAL = 0.1  # s between two measurements of the memory
 # proc(5): private memory, and shared memory that belongs to no file (KiB)
 COUNTED = ("RssAnon:", "RssShmem:")
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
-TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED = 3, 4, 5  # exit statuses of a supervisor
+TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # exit statuses of a supervisor
 
 
 def supervise(
@@ -39,7 +40,7 @@ def supervise(
     messages: int,
     commands: int,
     *,
-    sandboxed: bool,
+    isolation: Isolation,
 ) -> NoReturn:
     """Start the master, the command runner and the student's process, and wait for the student's process.
 
@@ -50,29 +51,33 @@ def supervise(
     namespaces.adopt_orphans()
     with os.fdopen(job_file, "rb") as file:
         job = job_from(file.read())
-    folder = _make_folder(sandboxed=sandboxed)
-    port = MASTER_PORT if sandboxed else _free_port()
+    folder = _make_folder(isolation)
+    port = MASTER_PORT if isolation.namespaces else _free_port()
     with socket.create_server(("127.0.0.1", 0)) as listener, open("/proc/self/ns/net") as network:
         _set_environment(folder, port, listener.getsockname()[1])
         for each in job.files:
             each.write(Path(folder))
-        _start(lambda: run_master(port))
+        if isolation.users:
+            users.hand_over(folder, isolation.users.student)
+        _start(lambda: _run_master(port, isolation))
         wait_until(lambda: _listens(port), MASTER_TIMEOUT, 0.002)
-        student = _start(lambda: _run_student(job, shell, messages, sandboxed=sandboxed))
-        _start(lambda: _run_commands(commands, sandboxed=sandboxed))
+        student = _start(lambda: _run_student(job, shell, messages, isolation))
+        _start(lambda: _run_commands(commands, isolation))
         descriptors = network.fileno(), listener.fileno()
         send(fork_server, {"supervisor": os.getpid(), "port": port}, descriptors)
-    status = _watch(student)
-    _end_all(folder, sandboxed=sandboxed)
+    status = _watch(student, folder, isolation)
+    _end_all(folder, isolation)
     os._exit(status)
 
 
-def _make_folder(*, sandboxed: bool) -> str:
+def _make_folder(isolation: Isolation) -> str:
     """Return the part's work folder.
 
     In a sandbox, first create a network and a hostname for this part only.
     """
-    if not sandboxed:
+    if isolation.users:
+        return users.make_folder(isolation.users)
+    if not isolation.namespaces:
         return tempfile.mkdtemp(prefix="course-grading-")
     namespaces.unshare(namespaces.MOUNT | namespaces.NETWORK | namespaces.IPC | namespaces.HOSTNAME)
     namespaces.start_loopback()
@@ -117,27 +122,40 @@ def run_master(port: int) -> None:
     signal.pause()
 
 
-def _run_student(job: PartJob, shell: InteractiveShell, messages: int, *, sandboxed: bool) -> None:
+def _run_master(port: int, isolation: Isolation) -> None:
+    if isolation.users:
+        users.become(isolation.users.trusted)
+    run_master(port)
+
+
+def _run_student(job: PartJob, shell: InteractiveShell, messages: int, isolation: Isolation) -> None:
     _close_all_but(messages)
-    _confine(lambda: run_part(job, shell, message_writer(messages)), sandboxed=sandboxed, may_write=True)
+    uid = isolation.users.student if isolation.users else 0
+    if isolation.users:
+        os.environ["TMPDIR"] = tempfile.tempdir = os.environ["ROS_HOME"]
+    _confine(lambda: run_part(job, shell, message_writer(messages)), isolation, uid, may_write=True)
 
 
-def _run_commands(commands: int, *, sandboxed: bool) -> None:
+def _run_commands(commands: int, isolation: Isolation) -> None:
     _close_all_but(commands)
     sock = socket.socket(fileno=commands)
-    _confine(
-        lambda: run_commands(sock, os.getcwd(), sandboxed=sandboxed), sandboxed=sandboxed, may_write=False
-    )
+    uid = isolation.users.commands if isolation.users else 0
+    own = OWN if isolation.namespaces else users.own_folder(os.getcwd()) if isolation.users else ""
+    _confine(lambda: run_commands(sock, os.getcwd(), own), isolation, uid, may_write=False)
 
 
-def _confine(work: Callable[[], None], *, sandboxed: bool, may_write: bool) -> None:
+def _confine(work: Callable[[], None], isolation: Isolation, uid: int, *, may_write: bool) -> None:
     folder = os.getcwd()
 
     def run() -> None:
         os.chdir(folder)  # in a sandbox, another mount is now visible at this path
         work()
 
-    confinement.run_confined(run, may_write=may_write) if sandboxed else run()
+    if isolation.namespaces:
+        confinement.run_confined(run, may_write=may_write)
+    elif isolation.users:
+        users.run_confined(run, uid)
+    run()
 
 
 def _close_all_but(descriptor: int) -> None:
@@ -146,8 +164,8 @@ def _close_all_but(descriptor: int) -> None:
     os.closerange(descriptor + 1, 4096)
 
 
-def _watch(student: int) -> int:
-    """Wait until the student's process ends, uses too much memory, or SIGTERM arrives.
+def _watch(student: int, folder: str, isolation: Isolation) -> int:
+    """Wait until the student's process ends, uses too much memory or disk, or SIGTERM arrives.
 
     Return the exit status.
     """
@@ -159,6 +177,8 @@ def _watch(student: int) -> int:
             return STUDENT_ENDED
         if memory_below(os.getpid()) > confinement.TOGETHER:
             return TOO_MUCH_MEMORY
+        if isolation.users and users.disk_is_full(folder, isolation.users):
+            return TOO_MUCH_DISK
 
 
 def memory_below(ancestor: int) -> int:
@@ -173,13 +193,16 @@ def memory_below(ancestor: int) -> int:
     return held
 
 
-def _end_all(folder: str, *, sandboxed: bool) -> None:
+def _end_all(folder: str, isolation: Isolation) -> None:
     """Kill all descendants, wait for their end, and remove the folder.
 
     In a namespace, the mounts end with it.
     """
     end_all_below(CLEAR_TIMEOUT)
-    if not sandboxed:
+    if isolation.users:
+        users.clear(isolation.users)
+        users.remove(folder)
+    elif not isolation.namespaces:
         shutil.rmtree(folder, ignore_errors=True)
 
 

@@ -1,7 +1,7 @@
 """The trusted process of a sandbox worker: it reads one job per line, and prints one result per line.
 
-It needs two arguments. The first is "sandboxed" if bubblewrap runs this process, or "unsafe" if there is no
-sandbox. The second is the folder of an instructor's private parts, or an empty string.
+It needs two arguments. The first is the kind of isolation (see isolation.py). The second is the folder of an
+instructor's private parts, or an empty string.
 """
 
 from __future__ import annotations
@@ -17,8 +17,9 @@ from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 
-from course_pkg.sandbox import confinement, fork_server, namespaces, supervisor
+from course_pkg.sandbox import confinement, fork_server, namespaces, supervisor, users
 from course_pkg.sandbox.channel import end, fork, pair, receive, send, share_memory_with_children
+from course_pkg.sandbox.isolation import Isolation, Kind
 from course_pkg.sandbox.job import PartJob, PartResult, Record, job_from
 
 START_TIMEOUT = 60.0  # time limit for the imports of the fork server (s)
@@ -31,17 +32,23 @@ CHUNK = 65536  # bytes of one read; also the maximum for all messages of the stu
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process in which the answer ran ended before its check was done",
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
+    supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
 
 
 def main() -> None:
     """Run the jobs from stdin until stdin is closed."""
     namespaces.die_with_parent()
-    sandboxed, private = sys.argv[1] == "sandboxed", sys.argv[2]
-    if sandboxed:
+    kind, private = Kind(sys.argv[1]), sys.argv[2]
+    isolation = Isolation(kind)
+    if kind is Kind.NAMESPACES:
         namespaces.become_root()
+    if kind is Kind.USERS:
+        os.umask(0o022)
+        reserved, _lock = users.reserve()  # until this process ends
+        isolation = Isolation(kind, reserved)
     ours, theirs = pair()
-    child = fork(lambda: _serve_forks(theirs, ours, private, sandboxed=sandboxed))
+    child = fork(lambda: _serve_forks(theirs, ours, private, isolation))
     theirs.close()
     receive(ours, START_TIMEOUT)
     _import_checks(private)
@@ -49,16 +56,16 @@ def main() -> None:
     sys.stdout.write('{"ready": true}\n')
     sys.stdout.flush()
     for line in sys.stdin:
-        result = Session(ours, job_from(line), sandboxed=sandboxed).run()
+        result = Session(ours, job_from(line), isolation).run()
         sys.stdout.write(result.as_json() + "\n")
         sys.stdout.flush()
     end([child])
 
 
-def _serve_forks(theirs: socket.socket, ours: socket.socket, private: str, *, sandboxed: bool) -> None:
+def _serve_forks(theirs: socket.socket, ours: socket.socket, private: str, isolation: Isolation) -> None:
     ours.close()
     namespaces.die_with_parent()
-    fork_server.serve_forks(theirs, private, sandboxed=sandboxed)
+    fork_server.serve_forks(theirs, private, isolation=isolation)
 
 
 def _import_checks(private: str) -> None:
@@ -76,10 +83,10 @@ def _import_checks(private: str) -> None:
 class Session:
     """One job, from the start to the end of its supervisor."""
 
-    def __init__(self, fork_server: socket.socket, job: PartJob, *, sandboxed: bool) -> None:
+    def __init__(self, fork_server: socket.socket, job: PartJob, isolation: Isolation) -> None:
         self._fork_server = fork_server
         self._job = job
-        self._sandboxed = sandboxed
+        self._isolation = isolation
         self._over: int | None = None  # the wait status of the supervisor
         self._supervisor = 0
         self._began = time.monotonic()
@@ -166,7 +173,7 @@ class Session:
 
         namespaces.die_with_parent()
         namespaces.limit(AS=confinement.CHECK_RUNNER)  # a submission may send any amount of data
-        check_part(self._job, network, port, client, commands, out, sandboxed=self._sandboxed)
+        check_part(self._job, network, port, client, commands, out, isolation=self._isolation)
 
     def _wait(self, files: Sequence[int | socket.socket]) -> list[int | socket.socket]:
         """Wait for one of `files` to be ready, the end of the supervisor, or the job's time limit."""

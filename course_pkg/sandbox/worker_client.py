@@ -15,7 +15,8 @@ from types import TracebackType
 from typing import IO
 
 from course_pkg.errors import WorkerFailed
-from course_pkg.sandbox.bubblewrap import sandbox_command
+from course_pkg.sandbox.bubblewrap import clean_environment, sandbox_command
+from course_pkg.sandbox.isolation import Kind
 from course_pkg.sandbox.job import PartJob, PartResult, result_from
 from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
@@ -31,11 +32,11 @@ class SandboxWorker:
 
     When the thread that first called `run` ends, the processes in the sandbox end, too. `private` is the
     folder of an instructor's private parts, which no submission can read. With `sandboxed=False` there is no
-    sandbox.
+    sandbox. With `users=True`, the sandbox consists of other users of the machine (see users.py).
     """
 
-    def __init__(self, *, sandboxed: bool = True, private: str = "") -> None:
-        self._sandboxed = sandboxed
+    def __init__(self, *, sandboxed: bool = True, users: bool = False, private: str = "") -> None:
+        self._kind = Kind.USERS if users else Kind.NAMESPACES if sandboxed else Kind.NONE
         self._private = private
         self._process: subprocess.Popen[bytes] | None = None
         self._log: IO[bytes] | None = None
@@ -60,6 +61,11 @@ class SandboxWorker:
             raise self._failed("it accepts no jobs") from error
         return result_from(self._line(job.limit + SLACK))
 
+    def kill(self) -> None:
+        """Kill the worker, so that the call of `run` in another thread raises WorkerFailed."""
+        if process := self._process:
+            process.kill()
+
     def close(self) -> None:
         """End the worker and all processes in its sandbox."""
         process, self._process = self._process, None
@@ -72,18 +78,25 @@ class SandboxWorker:
     def _started(self) -> subprocess.Popen[bytes]:
         if self._process is None:
             command = [sys.executable, "-m", "course_pkg.sandbox.worker"]
-            command += ["sandboxed" if self._sandboxed else "unsafe", self._private]
+            command += [self._kind, self._private]
             readable = [Path(self._private)] if self._private else []
             self._log, self._received = tempfile.TemporaryFile(), b""  # noqa: SIM115 -- closed by close()
             self._process = subprocess.Popen(
-                sandbox_command(command, readable=readable) if self._sandboxed else command,
-                env={} if self._sandboxed else environment.merged(Places.of(), os.environ),
+                sandbox_command(command, readable=readable) if self._kind is Kind.NAMESPACES else command,
+                env=self._environment(),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=self._log,
             )
             self._line(START_TIMEOUT)
         return self._process
+
+    def _environment(self) -> dict[str, str]:
+        if self._kind is Kind.NAMESPACES:
+            return {}
+        return (
+            clean_environment() if self._kind is Kind.USERS else environment.merged(Places.of(), os.environ)
+        )
 
     def _line(self, timeout: float) -> bytes:
         """Return the next line that the worker prints."""

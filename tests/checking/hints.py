@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from course_pkg.checking.parts import folder_of
+from course_pkg.checking.parts import every_part, folder_of
 from tests.checking.example_answers import Answer
 
 # A string with several lines is a program or a file, and not a hint.
@@ -41,7 +41,9 @@ def hints_in(path: Path) -> list[Hint]:
 
 def hints_of(chapter: str) -> list[Hint]:
     """Return the hints in all checks of a chapter, such as "05"."""
-    return [hint for path in sorted(folder_of(chapter).glob("checks/*.py")) for hint in hints_in(path)]
+    goals = {(goal.text,) for part in every_part() for goal in part.goals}
+    found = [hint for path in sorted(folder_of(chapter).glob("checks/*.py")) for hint in hints_in(path)]
+    return [hint for hint in found if hint.pieces not in goals]
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:

@@ -196,8 +196,6 @@ replace("state = on_off(1 if request.data else 0).state", """for _ in range(3):
             state = on_off(1 if request.data else 0).state
             if state == ("ON" if request.data else "OFF"):
                 break""")
-# %% 08.2 wrong: finds the wanted state in another one | hint: A response does not prove that
-replace('success=state == ("ON" if request.data else "OFF")', 'success=("ON" if request.data else "OFF") in state')
 
 # %% 08.3 right: calls set, reads the report, compares
 def move(switch, to_open):

@@ -487,7 +487,8 @@ replace('self.shelf.write(count - … : {error}")', """try:
                 return TriggerResponse(success=False, message=f"not paid: {error}")
             self.shelf.write(count - 1)""")
 # %% 10.5 wrong: holds the lock across the call, and /left waits for it only briefly | hint: The till never had two calls at the same time
-replace("        with self.lock:\n            return Trigger", "        self.lock.acquire(timeout=0.2)\n        return Trigger")
+replace("        with self.lock:\n            return Trigger", "        held = self.lock.acquire(timeout=0.2)\n        number = self.shelf.read()\n        if held:\n            self.lock.release()\n        return Trigger")
+replace('message=str(self.shelf.read())', 'message=str(number)')
 replace('self.shelf.write(count - … : {error}")', """self.shelf.write(count - 1)
             try:
                 receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt

@@ -391,6 +391,8 @@ int main(int argc, char** argv) {
 replace('++calls[session->second]', '++calls["all"]')
 # %% 14.9 wrong: the name of the node | hint: This is the number of all calls
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
+# %% 14.9 wrong: the session and the name of the node | hint: Another node may continue a session
+replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
 # %% 14.9 wrong: counts afterwards | hint: This is the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
 # %% 14.9 wrong: a map in the handler | hint: The count starts again in each call

@@ -169,8 +169,6 @@ replace("\n    if not client.wait_for_server(rospy.Duration(2)):\n        return
 replace("return client.get_result().fetched", "result = client.get_result()\n    return result.fetched if result else None")
 # %% 16.2 wrong: no seconds | hint: The field `seconds` of the goal is not 0.1
 replace("things, seconds=0.1", "things")
-# %% 16.2 wrong: cancels all goals | hint: Use cancel_goal(), which cancels only
-replace("cancel_goal", "cancel_all_goals")
 # %% 16.2 wrong: five seconds in any case | hint: The limit has to be the argument `seconds`
 replace("(seconds)", "(4.5)")
 # %% 16.2 wrong: cancels early | hint: The limit has to be the argument `seconds`

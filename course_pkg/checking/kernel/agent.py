@@ -195,7 +195,8 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 
 def _described(error: BaseException) -> Json:
-    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__)]
+    called = traceback.walk_tb(error.__traceback__)
+    lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]  # of cells
     return {
         "type": type(error).__name__,
         "bases": [base.__name__ for base in type(error).__mro__[1:]],

@@ -1,4 +1,4 @@
-"""The words of a command line that a student's function returned, as a shell reads them."""
+"""Split a command line, which a student's function returned, as a shell does."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ OPERATORS = "();<>|&"
 
 
 def commands_of(line: Json) -> list[list[str]]:
-    """Return the words of each command in a pipe, without comments and without & at the end of the line.
+    """Return the name and the arguments of each command in a pipe, without comments and without a final &.
 
     The list is empty if `line` is not a string, if a quotation mark is not closed, or if the line contains
     another operator, such as `;` or `&&`. With these, another program could do the work of the command.

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -78,6 +78,19 @@ def _notebook(solution: Path, released: Collection[str]) -> str:
 def _record(released: Sequence[str], files: Sequence[str]) -> str:
     about = "The students' edition of the course, made by `course release`."
     return json.dumps({"about": about, "chapters": list(released), "files": sorted(files)}, indent=1) + "\n"
+
+
+def tracked_files(root: Path, is_wanted: Callable[[str], bool]) -> Iterator[tuple[str, File]]:
+    """Yield the path and the content of each file of `root` that git tracks and that `is_wanted` accepts.
+
+    Raises HandoutError if `root` is not a git repository.
+    """
+    listed = _git_listing(root, "--cached")
+    if listed is None:
+        raise HandoutError(f"{root} is not a git repository. Clone the course with git.")
+    for name in filter(is_wanted, sorted(listed)):
+        if (root / name).is_file() and not (root / name).is_symlink():
+            yield name, _file(root / name, packed=False)
 
 
 def _released_paths(root: Path) -> Iterator[str]:

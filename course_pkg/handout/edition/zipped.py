@@ -31,12 +31,12 @@ def zip_path(folder: Path) -> Path:
 
 
 def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
-    """Write `files` to the zip at `path`, in one folder called `folder`."""
+    """Write `files` to the zip at `path`, in one folder called `folder` unless it is empty."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.comment = MARK
         for name, file in files.items():
-            entry = zipfile.ZipInfo(f"{folder}/{name}", TIME)
+            entry = zipfile.ZipInfo(f"{folder}/{name}" if folder else name, TIME)
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.create_system = 3  # 3 means Unix; with this value, unzip sets the permissions
             entry.external_attr = (0o100755 if file.executable else 0o100644) << 16

@@ -28,7 +28,7 @@ MISSED = "Return how many numbers were published between the two."
     goals=[NODE, SERVICE, TYPE],
 )
 def read_the_graph(context: CheckContext) -> None:
-    """Compare the names with the names on the graph."""
+    """Compare the names that the student returns with the names on the graph."""
     with context.goal(NODE):
         context.expect(
             "the name of the node",
@@ -113,13 +113,13 @@ def read_the_graph(context: CheckContext) -> None:
     needs=["ask_for_volume"],
 )
 def ask_a_question(context: CheckContext) -> None:
-    """Offer a service that responds with random volumes; only a call returns the right volume."""
+    """Serve random volumes, so that only a real call returns the right volume."""
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)
         area, volume = (
             whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
-        )  # exact as a float32
+        )  # these numbers are exact as a float32
         server = context.serve(
             name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v}
         )
@@ -162,7 +162,10 @@ def ask_a_question(context: CheckContext) -> None:
 
 
 def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
-    """Return hints for a value that is not the `volume` of the response; `area` is the response's area."""
+    """Return hints for a value other than the `volume` of the response.
+
+    `area` is the area in the response.
+    """
     multiplied = (
         "You multiplied the sides. This server returns different numbers, so return the volume "
         "from its response."
@@ -189,7 +192,7 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     goals=[RECEIVED, MISSED],
 )
 def count_what_was_missed(context: CheckContext) -> None:
-    """Run the function twice, each time with consecutive numbers on a new topic and with another pause."""
+    """Run the function twice; each time, a new topic has consecutive numbers, and the pause is different."""
     for _ in range(2):
         topic = f"/{context.random.word()}"
         first = context.random.integer(1000, 9000)
@@ -263,7 +266,7 @@ def count_what_was_missed(context: CheckContext) -> None:
 
 
 def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int]:
-    """Assert that three whole numbers were returned, and return them."""
+    """Assert that the function returned three whole numbers, and return them."""
     context.require(
         "three numbers are returned",
         holds=isinstance(returned, list) and len(returned) == 3,

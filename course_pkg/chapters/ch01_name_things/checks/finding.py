@@ -1,4 +1,4 @@
-"""Find services and publishers, and distinguish running nodes from nodes that are only registered."""
+"""Services and publishers have to be found; a node may be running or only registered."""
 
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -22,7 +22,10 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
     goals={FOUND: 2, "Return None if there is no such service.": 1},
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve the name and similar names in three namespaces; then pass the name of a missing service."""
+    """Serve the name and similar names in three namespaces.
+
+    Then pass the name of a service that does not exist.
+    """
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
         place = "".join(f"/{context.random.word()}" for _ in range(depth))
@@ -34,7 +37,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             f"{wanted}x": others[2],
             wanted: volume,
         }
-        servers = {  # in a random order, because the master lists the services in the order of registration
+        servers = {  # in a random order, because the master lists services in the order of their registration
             name: context.serve(name, GEOMETRY, lambda _, v=named[name]: {"volume": v, "area": v + 1})
             for name in context.random.shuffled([*named])
         }
@@ -104,11 +107,12 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Call the function with new names, so that an answer that only counts its calls fails."""
+    """Call the function with new names, so that an answer that counts its calls fails."""
     volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
     missing: list[float | None] = [None] * context.random.integer(1, 3)
     for volume in context.random.shuffled([*volumes, *missing]):
         place, last = (context.random.word() for _ in range(2))
+        context.serve(f"/{place}/x{last}", GEOMETRY, lambda _: {"volume": 99.0})
         if volume is not None:
             context.serve(f"/{place}/{last}", GEOMETRY, lambda _, volume=volume: {"volume": volume})
         context.expect(
@@ -151,7 +155,10 @@ _NOBODY = [
     goals={RUNNING: 3, "Return an empty list if no running node publishes the topic.": 1},
 )
 def who_really_publishes(context: CheckContext) -> None:
-    """Register running and killed publishers of two topics; then pass topics without a running publisher."""
+    """Register running and killed publishers of two topics.
+
+    Then pass topics that have no running publisher.
+    """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
     living, dead = names[:3], names[3:5]
@@ -212,7 +219,7 @@ def _living(context: CheckContext, topic: str) -> object:
     return context.run(
         "living_publishers",
         topic,
-        within=8.0,  # three pings of each node that does not answer take 6 s
+        within=8.0,  # a node that does not answer is pinged three times, which takes 6 s
         hints=[
             (
                 matches("TimesUp"),

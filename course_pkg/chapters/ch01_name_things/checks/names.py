@@ -1,4 +1,4 @@
-"""Give names to nodes: run the student's commands, and compare the names on the graph."""
+"""Names of nodes: the check runs the student's commands and compares the names on the graph."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
 
 GEOMETRY = "course_pkg/geometry"
-START = 20.0  # s for a program to start; this takes 0.5 s, but much longer on a busy machine
+START = 20.0  # maximum time in s until a program has started; usually, this takes 0.5 s
 WHERE = "the service of a room is measure, in the namespace of the room"
 OWN_SERVICE = "Start a server whose service is `measure`, in the namespace of the room."
 OWN_NODE = "Name its node `measurer`, in the namespace of the room."
@@ -34,7 +34,7 @@ PUBLISHES = "Let the viewer publish the mirrored_joints of its arm, in /screen."
     goals=[OWN_SERVICE, OWN_NODE],
 )
 def a_measurer_for_each_room(context: CheckContext) -> None:
-    """Run the commands for two rooms, find both servers on the graph, and call them."""
+    """Run the commands for two rooms, and call both servers."""
     rooms = [context.random.word() for _ in range(2)]
     with ExitStack() as running:
         for room in rooms:
@@ -62,7 +62,7 @@ def a_measurer_for_each_room(context: CheckContext) -> None:
     goals=[VIEWER, SUBSCRIBES, PUBLISHES],
 )
 def a_viewer_for_each_arm(context: CheckContext) -> None:
-    """Run the commands for two arms, and compare the names of both nodes and of their topics."""
+    """Run the commands for two arms, and compare the names of the nodes and of their topics."""
     with ExitStack() as running:
         for arm in (context.random.word() for _ in range(2)):
             before = {node.name for node in context.look().nodes}
@@ -71,7 +71,10 @@ def a_viewer_for_each_arm(context: CheckContext) -> None:
 
 
 def _start(context: CheckContext, running: ExitStack, function: str, name: str, program: str) -> Running:
-    """Call the student's `function` with `name`; run the returned command until `running` is closed."""
+    """Call the student's `function` with `name`.
+
+    Run the command that it returns until `running` is closed.
+    """
     command = context.run(function, name).returned()
     words = next(iter(commands_of(command)), [])
     context.require(
@@ -97,7 +100,10 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
 
 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
-    """Assert that the room's node serves the room's service; `before` contains the older addresses."""
+    """Assert that the room's node serves the room's service.
+
+    `before` contains the services' earlier addresses.
+    """
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None
     new: list[ServiceSeen] = []
@@ -105,7 +111,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         seen = context.look()
         service = seen.service(wanted)
         others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
-        new = new or others  # keep the first result: a busy server may not answer a later request
+        new = new or others  # keep the first result, because a busy server may not answer a later request
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
         found = new[0].name if new else ""
@@ -134,7 +140,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
 
 
 def _astray(room: str, found: str) -> str:
-    """Return the hint for the wrong service `found`; its name should be ROOM/measure."""
+    """Return the hint for the service `found`, whose name should be ROOM/measure."""
     if found == "/measure":
         return (
             "The service is /measure for every room. Set the namespace of the node, and write "
@@ -156,7 +162,7 @@ def _astray(room: str, found: str) -> str:
 
 
 def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
-    """Assert that the node that is not in `before` has the names of this arm's viewer."""
+    """Assert that the new node has the names of this arm's viewer; `before` contains the earlier nodes."""
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):
         context.expect(
@@ -223,7 +229,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
 
 
 def _viewer(context: CheckContext, viewer: Running, before: set[str]) -> tuple[str, Snapshot]:
-    """Return the new node that subscribes to a topic, or "" if none appears, and the last snapshot."""
+    """Return the new node that subscribes to a topic ("" if there is none), and the last snapshot."""
     deadline = time.monotonic() + START
     while True:
         seen = context.look()

@@ -1,4 +1,4 @@
-"""The checks of chapter 02: another node subscribes and publishes to the student's topics."""
+"""The checks of chapter 02: a separate node subscribes to the student's topics, and publishes on them."""
 
 from course_pkg.chapters.ch02_stream_data.checks.publishing import a_notice, count_aloud
 from course_pkg.chapters.ch02_stream_data.checks.subscribing import a_mirror, two_queues

@@ -1,21 +1,23 @@
-"""Publishers: one that publishes at a rate and loses no message, and one that publishes each change."""
+"""Publishers: one publishes at a rate and must not lose a message; the other one publishes each change."""
 
 import threading
+import time
 from itertools import pairwise
 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
+from course_pkg.waiting import wait_until
 
 WAITS_FOR_EVER = (
     "A topic may have no subscriber. Wait for a subscriber for at most 2 s, and then publish in any case."
 )
-# Times in s for a count without a subscriber, which waits 2 s and then publishes 11 numbers in 1.1 s. After
-# 2.2 s, a subscriber comes.
-NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.2, 2.7, 11
+# Times in s for a count without a subscriber; the student's function waits 2 s, and then publishes 11 numbers
+# in 1.1 s. A subscriber connects 2.3 s after the publisher.
+NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at the given rate."
-SOON = 4.0  # s for a message to arrive on a busy machine
-AT_ONCE = 0.3  # s that the fastest of several calls may take
+SOON = 4.0  # maximum time in s until a message arrives on a busy machine
+AT_ONCE = 0.3  # maximum duration in s of the fastest of several calls
 TOO_SOON = (
     "A subscriber that connects within 2 s would not receive the 0. If there is no subscriber, wait for "
     "the full 2 s."
@@ -54,7 +56,7 @@ LATCHED = "Let a node that subscribes later receive the last value."
     goals={COUNTS: 3, "Begin after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
-    """Subscribe to two counts with different rates; then start a third count without a subscriber."""
+    """Subscribe to two counts with different rates; then start a third count, which has no subscriber."""
     for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
         topic = f"/{context.random.word()}"
         subscription = context.subscribe(topic, "std_msgs/UInt32")
@@ -84,9 +86,15 @@ def count_aloud(context: CheckContext) -> None:
 
 
 def _counts_alone(context: CheckContext, topic: str) -> None:
-    """Start a count without a subscriber, and subscribe when it should already publish."""
+    """Start a count without a subscriber; subscribe at a time when it should already publish."""
     late: list[Subscription] = []
-    comes = threading.Timer(COMES, lambda: late.append(context.subscribe(topic, "std_msgs/UInt32")))
+
+    def come() -> None:
+        if wait_until(lambda: any(seen.name == topic for seen in context.look().topics), SOON):
+            time.sleep(COMES)
+            late.append(context.subscribe(topic, "std_msgs/UInt32"))
+
+    comes = threading.Thread(target=come)
     comes.start()
     alone = context.run(
         "count_aloud",
@@ -108,15 +116,21 @@ def _counts_alone(context: CheckContext, topic: str) -> None:
         actual=f"a count that ended after {alone.took:.1f} s",
         hints=TOO_SOON if alone.took < NO_WAIT else NO_NUMBERS if alone.took < EARLIEST else WAITS_FOR_EVER,
     )
-    late[0].until(lambda arrivals: bool(arrivals) and arrivals[-1].fields["data"] == ALONE - 1, 0.5)
-    numbers = [arrival.fields["data"] for arrival in late[0].arrivals]
-    if not numbers or numbers != list(range(numbers[0], ALONE)):
+    numbers = _numbers_until_the_last(late[0]) if late else []
+    if not numbers or numbers != list(range(numbers[0], ALONE)) or numbers[0] == 0:
         context.fail(
             "without a subscriber it begins after 2 s",
-            expected=f"a subscriber that comes after {COMES} s receives the numbers up to {ALONE - 1}",
+            expected=f"a subscriber that comes after {COMES} s receives the last numbers, up to {ALONE - 1}",
             actual=str(numbers),
-            hint=NO_NUMBERS,
+            hint=WAITS_FOR_EVER if numbers[:1] == [0] else NO_NUMBERS,
         )
+
+
+def _numbers_until_the_last(subscription: Subscription) -> list[int]:
+    """Return the numbers that have arrived; wait at most 0.5 s for the last one."""
+    last = {"data": ALONE - 1}
+    subscription.until(lambda arrivals: bool(arrivals) and arrivals[-1].fields == last, 0.5)
+    return [arrival.fields["data"] for arrival in subscription.arrivals]
 
 
 def _slow(hertz: int) -> Hints:
@@ -168,7 +182,7 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
 
 
 def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> None:
-    """Assert that the average rate is right, and that the numbers are evenly spaced."""
+    """Assert that the average rate is right, and that the messages arrive at equal intervals."""
     seen = rate(arrivals)
     context.require(
         "the average rate is the given rate",
@@ -200,11 +214,14 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goals=[LATCHED, "Publish each change once, and no value that stays the same."],
 )
 def a_notice(context: CheckContext) -> None:
-    """Set values without a subscriber, with a subscriber, and before a late subscriber; one may be 0."""
+    """Set values without a subscriber, with a subscriber, and before a late subscriber.
+
+    One of them may be 0.
+    """
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
     earlier, first, third = context.random.numbers(3, 1.0, 90.0)
-    second = first + 0.0625  # a very small difference is a change, too
+    second = first + 0.0625  # a very small difference also counts as a change
     for name in (zero, topic, twin):
         context.run("create", Its("Notice"), name, worded="Notice(topic)").returned()
     took = [_set(context, *each) for each in ((zero, 0.0), (topic, earlier), (topic, first), (twin, first))]
@@ -228,7 +245,7 @@ def a_notice(context: CheckContext) -> None:
     _set(context, topic, second)
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     _set(context, topic, third)
-    subscriber.wait(3, within=SOON)  # wait, because in a short queue the next value would replace this one
+    subscriber.wait(3, within=SOON)  # in a short queue, the next value would otherwise replace this one
     _set(context, topic, second)
     _receives(
         context,
@@ -241,7 +258,7 @@ def a_notice(context: CheckContext) -> None:
 
 
 def _set(context: CheckContext, topic: str, value: float) -> float:
-    """Call set(value) of the notice for `topic`; return how long this call took, in s."""
+    """Call set(value) of the student's notice for `topic`; return the duration of this call in s."""
     hints = [(matches("TimesUp"), "set() does not return. A latched message needs no loop and no wait.")]
     done = context.run("set_value", topic, value, worded="Notice(topic).set(value)", hints=hints)
     done.returned()
@@ -249,7 +266,7 @@ def _set(context: CheckContext, topic: str, value: float) -> float:
 
 
 def _subscribed(context: CheckContext, topic: str) -> Subscription:
-    """Subscribe to `topic`; rospy sends a latched message to each new connection."""
+    """Subscribe to `topic`. rospy sends a latched message to each new connection."""
     subscription = context.subscribe(topic, "std_msgs/Float64")
     hint = "Create a rospy.Publisher for the topic that Notice() gets, and do not unregister it."
     subscription.published(hints=[(matches("no publisher"), hint)])
@@ -257,7 +274,7 @@ def _subscribed(context: CheckContext, topic: str) -> Subscription:
 
 
 def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
-    """Assert that the values arrive, and that no other message arrives in the next 0.3 s."""
+    """Assert that these values arrive, and that no other message arrives in the next 0.3 s."""
     subscription.wait(len(values), within=SOON)
     subscription.during(0.3)
     received = [arrival.fields["data"] for arrival in subscription.arrivals]

@@ -1,4 +1,4 @@
-"""Subscribers: one that mirrors every message, and two that need different queues."""
+"""Subscribers: one publishes the mirror image of every message, and two others need different queues."""
 
 import statistics
 import threading
@@ -50,9 +50,9 @@ def witness(message):
     witnessed.append(message)
 """
 FIELDS = ("name", "position", "velocity")
-DRAWING, PREPARING = 0.25, 0.02  # s that one call takes
-RETURNS = 1.5  # s in which a function has to return; this takes some ms on an idle machine
-OLDEST = 0.5  # s; the largest age of an angle when a drawing begins
+DRAWING, PREPARING = 0.25, 0.02  # duration of one call in s
+RETURNS = 1.5  # maximum time in s until a function returns; it takes some ms on an idle machine
+OLDEST = 0.5  # maximum age in s of an angle when a drawing begins
 ANGLES, ORDERS = 60, 20
 HEADER = "the header and its time stamp stay the same"
 NO_SUBSCRIBER = "Return the rospy.Subscriber, so that the caller can unregister it."
@@ -65,7 +65,10 @@ NEVER_RETURNS = (
 
 
 class Work:
-    """A callable that takes `pause` s; it records when each call begins, and how many calls run at once."""
+    """A callable that takes `pause` s.
+
+    It records the beginning of each call, and the number of simultaneous calls.
+    """
 
     def __init__(self, pause: float) -> None:
         self.done: list[tuple[float, Value]] = []
@@ -76,7 +79,7 @@ class Work:
 
     @remote
     def __call__(self, value: Value) -> None:
-        """Record the call, and sleep."""
+        """Record the call, and sleep for `pause` s."""
         with self._lock:
             self._busy += 1
             self.at_once = max(self.at_once, self._busy)
@@ -155,7 +158,7 @@ def a_mirror(context: CheckContext) -> None:
 
 
 def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[Json, Json]:
-    """Return the first changed message before and after the change; ({}, {}) if no message was changed."""
+    """Return the first message that was changed, before and after the change; ({}, {}) if there is none."""
     given, seen = (
         [{field: each[field] for field in FIELDS} for each in all_] for all_ in (messages, witnessed)
     )
@@ -179,7 +182,7 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
 
 
 def _of_both_signs(context: CheckContext) -> list[float]:
-    """Return positive and negative random numbers, so that each mistake with signs changes the result."""
+    """Return positive and negative random numbers, so that each wrong sign changes the result."""
     return context.random.shuffled(
         [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(2, -3.0, -0.1)]
     )
@@ -189,7 +192,7 @@ def _of_both_signs(context: CheckContext) -> list[float]:
 def _begun(
     context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
 ) -> Iterator[None]:
-    """Call the student's function, which returns subscribers of `topics`; unregister them at the end."""
+    """Call the student's function, which returns the subscribers of `topics`; at the end, unregister them."""
     context.prepare(KEEPER)
     try:
         started = context.run(
@@ -215,7 +218,7 @@ def _begun(
 
 
 def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[Arrival]) -> None:
-    """Compare each mirrored message with the original that has the same time stamp."""
+    """Compare each mirrored message with the original message with the same time stamp."""
     stamps = [message["header"]["stamp"] for message in messages]
     seen = [arrival.fields["header"]["stamp"] for arrival in heard]
     context.require(
@@ -330,7 +333,7 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
     goals={NEWEST: 2, ALL_ORDERS: 1},
 )
 def two_queues(context: CheckContext) -> None:
-    """Publish angles much faster than draw() handles them, and many orders within a short time."""
+    """Publish angles much faster than draw() can handle them, and many orders within a short time."""
     topics = [f"/{context.random.word()}" for _ in range(2)]
     angles = context.random.numbers(ANGLES, -900.0, 900.0)
     numbers = context.random.integers(ORDERS, 1000, 9999)
@@ -348,7 +351,8 @@ def two_queues(context: CheckContext) -> None:
         customers.listened(hints="Create a rospy.Subscriber for the topic `orders`, of type UInt32.")
         arm.finish(10.0)
         customers.finish(10.0)
-        time.sleep(max(2 * DRAWING, ORDERS * PREPARING))  # wait for the calls with the last values
+        # wait until the calls with the last values have ended
+        time.sleep(max(2 * DRAWING, ORDERS * PREPARING))
         drawn, prepared = [*draw.done], [value for _, value in prepare.done]
     with context.goal(NEWEST):
         _drawn(context, draw.at_once, drawn, dict(zip(angles, arm.sent, strict=True)))
@@ -359,7 +363,10 @@ def two_queues(context: CheckContext) -> None:
 def _drawn(
     context: CheckContext, at_once: int, drawn: list[tuple[float, Value]], sent: Mapping[float, float]
 ) -> None:
-    """Assert that each angle in `drawn` (time, angle) was the newest; `sent` has the time of each angle."""
+    """Assert that each angle in `drawn` (time, angle) was the newest one.
+
+    `sent` contains the time of each angle.
+    """
     angles = [angle for _, angle in drawn]
     context.require(
         "draw is called with angles of the topic",
@@ -453,7 +460,7 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
 
 
 def _one_at_a_time(context: CheckContext, function: str, at_once: int) -> None:
-    """Assert that no two calls overlapped; `at_once` is how many ran at the same time."""
+    """Assert that calls did not overlap; `at_once` is the maximum number of simultaneous calls."""
     context.expect(
         f"one call of {function} at a time",
         expected=1,

@@ -1,4 +1,4 @@
-"""The watch that distinguishes a running stream from a stream that has ended."""
+"""The student's watch: it distinguishes a running stream from one that has ended."""
 
 import time
 
@@ -29,8 +29,8 @@ def end():
     watches.clear()
 """
 WORDS = ("waiting", "running", "ended")
-LIMIT = 1.0  # s without a message
-AT_ONCE = 0.4  # s that the fastest of several calls may take
+LIMIT = 1.0  # s; after this time without a message, a stream has ended
+AT_ONCE = 0.4  # maximum duration in s of the fastest of several calls
 RUNS = 'Return "waiting" before the first message, and "running" while messages arrive.'
 
 
@@ -43,7 +43,10 @@ RUNS = 'Return "waiting" before the first message, and "running" while messages 
     goals=[RUNS, 'Return "ended" when no message has arrived for more than 1 s.'],
 )
 def watch_a_stream(context: CheckContext) -> None:
-    """Call state() of one watch before, during and after a stream, and of another only during a stream."""
+    """Call state() of one watch before, during and after a stream.
+
+    Call that of another watch only during a stream.
+    """
     topic, unasked = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(KEEPER)
     try:
@@ -61,7 +64,7 @@ def watch_a_stream(context: CheckContext) -> None:
         time.sleep(1.3)
         _says(context, topic, 'before the first message, the state is "waiting"', "waiting", _BEFORE)
         publisher = _speaks(context, unasked)
-        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # after this wait, the watch has received messages
+        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # after this, the watch has received messages
         _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
         _says(context, topic, "two watches are independent", "waiting", _APART)
         _runs(context, topic)
@@ -73,14 +76,14 @@ def watch_a_stream(context: CheckContext) -> None:
 
 
 def _speaks(context: CheckContext, topic: str) -> Publisher:
-    """Publish ten messages per second on the topic of a watch."""
+    """Publish ten messages per second on the topic that the student's watch observes."""
     publisher = context.publish(topic, "std_msgs/UInt32", [{"data": 7}], every=0.1)
     publisher.listened(hints="Create a rospy.Subscriber for the topic, of type UInt32, in __init__.")
     return publisher
 
 
 def _runs(context: CheckContext, topic: str) -> None:
-    """Publish for a while, then stop, and stay registered as a publisher."""
+    """Publish for some time, and stop, but stay registered as a publisher."""
     publisher = _speaks(context, topic)
     time.sleep(0.5)
     assertion = 'while messages arrive, the state is "running"'
@@ -100,7 +103,7 @@ def _runs(context: CheckContext, topic: str) -> None:
         before=end,
     )
     time.sleep(max(end + 0.1 - time.monotonic(), 0.0))
-    # On a busy machine, the last message may reach the watch late.
+    # on a busy machine, the last message may reach the watch late
     wait_until(lambda: _asked(context, topic).returned() != "running", at_this_load(0.1))
     ended = 'more than 1 s after the last message, the state is "ended"'
     _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))
@@ -121,10 +124,10 @@ def _says(
     pause: float = 0.0,
     before: float = float("inf"),
 ) -> None:
-    """Assert that state() returns `word` in each of `times` calls that end before the time `before`.
+    """Assert that state() returns `word` in each of `times` calls which end before the time `before`.
 
-    The calls are `pause` s apart. The fastest call shows whether state() waits: a wait in state() slows down
-    each call, but a busy machine slows down only some calls.
+    There are `pause` s between the calls. The duration of the fastest call shows whether state() waits: a
+    wait in state() makes all calls slow, but a busy machine makes only some of them slow.
     """
     took = []
     for _ in range(times):

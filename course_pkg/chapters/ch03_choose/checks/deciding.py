@@ -1,4 +1,4 @@
-"""03.4: choose the design that fits each job, and give a reason."""
+"""03.4: the design that fits each task, and the reason for it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from course_pkg.checking.plain_values import of_kind
 DESIGNS = ("topic", "service", "action")
 REASONS = ("answer", "many", "newest", "seldom", "latched", "long")
 
-# For each job: the right designs; for each of these designs: the right reasons.
+# For each task, the right designs, and for each of these designs, the right reasons.
 JOBS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "wheel speed": {"topic": ("newest", "many")},
     "open the gripper": {"service": ("answer",), "action": ("answer", "long")},
@@ -68,7 +68,7 @@ HOLLOW: Mapping[str, str] = {
     needs=["decisions"],
 )
 def decide_and_defend(context: CheckContext) -> None:
-    """Check the design of each job first, and then the reason for this design."""
+    """Compare the design for each task first, and then the reason for this design."""
     decisions = context.read("decisions")
     context.require(
         "there is a decision for each job",

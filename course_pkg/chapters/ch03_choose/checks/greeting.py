@@ -1,4 +1,4 @@
-"""03.2: each customer that a topic announces is greeted, once and in order."""
+"""03.2: each customer on a topic is greeted once, in the right order."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
 NUMBER = "std_msgs/UInt32"
-GREETING = 0.2  # s that say_good_day() takes
+GREETING = 0.2  # duration of say_good_day() in s
 EAR = """
 class Ear:
     def __init__(self):
@@ -52,17 +52,17 @@ LOST = (
 
 
 class Greetings:
-    """Records the calls of say_good_day(), and how many ran at the same time."""
+    """Records the calls of say_good_day(), and the number of simultaneous calls."""
 
     def __init__(self) -> None:
-        self.said: list[Value] = []  # the argument of each call: a number, or the name of another type
+        self.said: list[Value] = []  # the argument of each call: a number, or the name of a wrong type
         self.at_once = 0
         self._busy = 0
         self._lock = threading.Lock()
 
     @remote
     def begin(self, number: Value) -> None:
-        """Record that a greeting begins."""
+        """Record the beginning of a greeting."""
         with self._lock:
             self.said.append(number)
             self._busy += 1
@@ -70,7 +70,7 @@ class Greetings:
 
     @remote
     def end(self) -> None:
-        """Record that a greeting has ended."""
+        """Record the end of a greeting."""
         with self._lock:
             self._busy -= 1
 
@@ -87,7 +87,10 @@ GREETED = "Greet five customers once and in order, and publish each number after
     goals={GREETED: 3, "Greet later customers, and customers after a second start_greeting().": 1},
 )
 def greet_everyone(context: CheckContext) -> None:
-    """Announce five customers quickly, two of them twice; after a pause, two new ones and an old one."""
+    """Publish five customers quickly, two of them twice.
+
+    After a pause, publish two new customers and an old one.
+    """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)
     subscription = context.subscribe(greetings, NUMBER)
@@ -109,9 +112,9 @@ def _greets(
     numbers: list[int],
 ) -> None:
     if numbers[2] > max(numbers[:2]):
-        # numbers[2] is the last number that _told() publishes. A subscriber with queue_size=1 keeps this
-        # message. A node that remembers only the largest number ignores it, because an earlier number is
-        # larger. So exactly one of the two hints fits.
+        # numbers[2] is the last number that _told() publishes a subscriber with queue_size=1 keeps this
+        # message a node that stores only the largest number ignores it, because an earlier number is larger
+        # therefore, exactly one of the two hints fits
         numbers[0], numbers[2] = numbers[2], numbers[0]
     first, later = numbers[:5], numbers[5:]
     start, call = Its("start_greeting"), "start_greeting()"
@@ -141,7 +144,7 @@ def _greets(
 
 
 def _starts_again(context: CheckContext, number: int) -> None:
-    """Call start_greeting() again with other topics; it must not know the customers of the first call."""
+    """Call start_greeting() again with other topics. It must not store the customers of the first call."""
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     subscription = context.subscribe(greetings, NUMBER)
     context.run(
@@ -163,7 +166,10 @@ def _starts_again(context: CheckContext, number: int) -> None:
 
 
 def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
-    """Publish the `numbers`, 50 per second; return the time of the first message (s, time.monotonic())."""
+    """Publish `numbers` at 50 messages per second.
+
+    Return the time of the first message (s, time.monotonic()).
+    """
     publisher = context.publish(
         topic, NUMBER, [{"data": number} for number in numbers], every=0.02, once=True
     )
@@ -183,9 +189,9 @@ def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
 def _greeted(
     context: CheckContext, greetings: Greetings, subscription: Subscription, numbers: list[int]
 ) -> None:
-    """Assert that all customers in `numbers` have been greeted, once and in order."""
+    """Assert that each customer in `numbers` was greeted once, in the right order."""
     subscription.until(lambda arrivals: set(numbers) <= {each.fields["data"] for each in arrivals}, 8.0)
-    subscription.during(2 * GREETING + 0.2)  # a wrong second greeting would arrive in this time
+    subscription.during(2 * GREETING + 0.2)  # a second greeting, which would be wrong, arrives in this time
     seen = [each.fields["data"] for each in subscription.arrivals]
     said = [*greetings.said]
     context.require(

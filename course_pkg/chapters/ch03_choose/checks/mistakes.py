@@ -1,4 +1,4 @@
-"""03.3: the design mistake in each of six reports."""
+"""03.3: the mistake in the design in each of six reports."""
 
 from __future__ import annotations
 
@@ -45,5 +45,5 @@ CASES = Cases(
 
 @part("03.3", points=2, goal="Find the design mistake in each of six reports.", needs=["mistakes"])
 def find_the_mistake(context: CheckContext) -> None:
-    """Compare the student's mistake of each case with the right one."""
+    """Compare the mistake that the student chose for each case with the right one."""
     compare_cases(context, "mistakes", CASES)

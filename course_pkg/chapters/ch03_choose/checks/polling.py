@@ -1,4 +1,4 @@
-"""03.1: a client that polls at a limited rate and for a limited time."""
+"""03.1: a client that polls at a limited rate, and only for a limited time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 DETECT = "course_pkg/DetectCustomer"
-SLACK = 0.7  # s that a busy machine may add
+SLACK = 0.7  # additional s for a busy machine
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "The pause between two calls is 1 / rate seconds."
 NO_END = (
@@ -28,7 +28,7 @@ COUNTED = (
 
 @dataclass
 class Counter:
-    """A detector with one customer, who arrives `after` s from now; each response takes `slow` s."""
+    """A detector with one customer, who comes `after` s from now; each response takes `slow` s."""
 
     number: int
     after: float
@@ -37,7 +37,7 @@ class Counter:
     opened: float = field(default_factory=time.monotonic)
 
     def answer(self, _: Message) -> Act:
-        """Return the response to a request that arrives now."""
+        """Return the response to a request at this time."""
         self.asked.append(time.monotonic())
         there = self.asked[-1] - self.opened >= self.after
         answer: dict[str, Json] = {"detected": there, "number": self.number if there else 0}
@@ -56,7 +56,10 @@ FOUND = "Return the number of a customer who is there, or who comes later."
     goals=[FOUND, "Return None when the time is over, and make no more calls than the rate allows."],
 )
 def poll_with_a_deadline(context: CheckContext) -> None:
-    """Try a present and a late customer; then try no customer, with a fast and with a slow detector."""
+    """Try a customer who is present and one who comes later.
+
+    Then try no customer, with a fast and a slow detector.
+    """
     _one_who_is_there(context)
     _one_who_comes(context)
     context.fulfilled(FOUND)

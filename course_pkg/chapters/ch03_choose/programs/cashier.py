@@ -1,9 +1,10 @@
 """The node `cashier`: greets every customer once, with one of three designs.
 
 The parameter `~design` is `poll`, `topic` or `wait`. With `poll`, the node calls `detect_customer` `~rate`
-times per second, and again after each new customer. With `topic`, it subscribes to `customers`. With `wait`,
-it calls `detect_customer`, which responds within `~patience` s. The node publishes the number of each greeted
-customer on `greetings` (std_msgs/UInt32), and serves `~report` (course_pkg/CashierReport).
+times per second; after a new customer, it calls again at once. With `topic`, it subscribes to `customers`.
+With `wait`, it calls `detect_customer`, and the response comes within `~patience` s. The node publishes the
+number of each greeted customer on `greetings` (std_msgs/UInt32), and serves `~report`
+(course_pkg/CashierReport).
 """
 
 from __future__ import annotations
@@ -22,10 +23,10 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import CashierReport, CashierReportResponse, DetectCustomer
 
 DESIGNS = ("poll", "topic", "wait")
-KEPT = 10_000  # largest number of times in the report
-GRACE = 2.0  # s that a call may take longer than `~patience`
+KEPT = 10_000  # maximum number of times in the report
+GRACE = 2.0  # maximum time in s by which a call may exceed `~patience`
 AGAIN = 0.5  # s between a failed call and the next call
-CONNECTED = 5.0  # s that the cashier waits for a publisher before it serves the report
+CONNECTED = 5.0  # s for which the cashier waits for a publisher before it serves the report
 
 
 class Cashier:
@@ -38,10 +39,10 @@ class Cashier:
         self._informed: deque[rospy.Time] = deque(maxlen=KEPT)
         self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
         self._detect = BoundedProxy("detect_customer", DetectCustomer)
-        rospy.on_shutdown(self._detect.cancel)  # otherwise the shutdown waits for a pending call
+        rospy.on_shutdown(self._detect.cancel)  # otherwise, the shutdown would wait for the end of a call
 
     def handle_report(self, _: object) -> CashierReportResponse:
-        """Return what the cashier has done so far."""
+        """Return the numbers and times of all greetings."""
         with self._lock:
             numbers, times = zip(*self._greeted, strict=True) if self._greeted else ((), ())
             return CashierReportResponse(
@@ -55,7 +56,7 @@ class Cashier:
         self._greet_new(message.data)
 
     def run_subscriber(self) -> None:
-        """Greet the customers of the topic until the node is shut down."""
+        """Greet the customers on the topic until the node is shut down."""
         with undisturbed():
             subscriber = rospy.Subscriber("customers", UInt32, self.receive, tcp_nodelay=True)
         wait_until(subscriber.get_num_connections, CONNECTED)
@@ -63,16 +64,16 @@ class Cashier:
         rospy.spin()
 
     def run_client(self, patience: float, pause: float) -> None:
-        """Call until there is no new customer; repeat this every `pause` s until the node is shut down."""
+        """Call until there is no new customer; do this every `pause` s until the node is shut down."""
         self.offer_report()
         due = time.monotonic()
         while not rospy.is_shutdown():
             try:
-                while self._ask(patience):  # there may be several new customers
+                while self._ask(patience):  # there may be several new customers at the same time
                     pass
                 rest = pause
             except (rospy.ServiceException, CourseError) as error:
-                if rospy.is_shutdown():  # the call failed because the shutdown cancelled it
+                if rospy.is_shutdown():  # the call failed because the shutdown has cancelled it
                     return
                 rospy.logwarn_throttle(10, f"No answer, so the next call follows soon: {error}")
                 rest = max(pause, AGAIN)
@@ -80,19 +81,19 @@ class Cashier:
             rospy.sleep(due - time.monotonic())
 
     def offer_report(self) -> None:
-        """Serve the report; the existence of this service shows that the cashier is ready."""
+        """Serve the report; when this service exists, the cashier is ready."""
         with undisturbed():
             rospy.Service("~report", CashierReport, self.handle_report)
 
     def _ask(self, patience: float) -> bool:
-        """Call for the next customer; return whether there is a new one. Raises the errors of a call."""
+        """Request the next customer; return whether there is a new one. Raises the same errors as a call."""
         with self._lock:
             self._asked += 1
         answer = self._detect.call(after=self._last, patience=patience, timeout=patience + GRACE)
         return self._greet_new(answer.number if answer.detected else 0)
 
     def _greet_new(self, number: int) -> bool:
-        """Record the time, and greet the customer `number`; return False if the number is not new."""
+        """Greet the customer `number` and store the time; return False if the customer is not new."""
         with self._lock:
             now = rospy.Time.now()
             self._informed.append(now)
@@ -122,8 +123,8 @@ def main() -> None:
         elif design == "poll":
             cashier.run_client(patience=0.0, pause=1 / rate)
         else:
-            # The server waits up to `patience` s before it responds without a customer, so this client needs
-            # no pause.
+            # The server waits up to `patience` s before it responds without a customer. Therefore, this
+            # client needs no pause.
             cashier.run_client(patience=patience, pause=patience)
-    except rospy.ROSInterruptException:  # the node was shut down while it slept
+    except rospy.ROSInterruptException:  # the node was shut down during a sleep
         return

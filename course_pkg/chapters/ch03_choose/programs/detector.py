@@ -1,8 +1,8 @@
-"""The node `detector`: detects new customers in the messages of `counter`, where a camera publishes.
+"""The node `detector`: finds new customers in the messages on `counter`, which a camera publishes.
 
 The node publishes the number of each customer once on `customers` (std_msgs/UInt32). It serves
-`detect_customer` (course_pkg/DetectCustomer): a call waits for a customer, but never longer than the request
-allows.
+`detect_customer` (course_pkg/DetectCustomer): a call waits for a customer, for at most the time in the
+request.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from course_pkg.ros.node.program import start_node, undisturbed, wait_until
 from course_pkg.shop.watch import Customer, Watch
 from course_pkg.srv import DetectCustomer, DetectCustomerRequest, DetectCustomerResponse
 
-LONGEST = 60.0  # s that a caller may wait
-SILENCE = 2.0  # s without a message after which the camera counts as stopped
-CALLERS = 64  # callers at the same time; each caller occupies a thread
+LONGEST = 60.0  # maximum time in s for which a caller can wait
+SILENCE = 2.0  # s; after this time without a message, the camera counts as stopped
+CALLERS = 64  # maximum number of simultaneous callers; each of them needs a thread
 
 
 class Detector:
-    """Watches the counter, publishes new customers, and answers calls."""
+    """Receives the camera's messages, publishes new customers, and handles calls."""
 
     def __init__(self) -> None:
         self._watch = Watch(rospy.Time.now)
@@ -34,21 +34,21 @@ class Detector:
         rospy.Subscriber("counter", UInt32MultiArray, self.handle_counter, tcp_nodelay=True)
 
     def has_data(self) -> bool:
-        """Return whether the camera has published lately."""
+        """Return whether the camera has published a message recently."""
         return self._watch.silent_for <= SILENCE
 
     def handle_counter(self, message: UInt32MultiArray) -> None:
-        """Handle a message of the camera, and publish each new customer."""
+        """Handle a message from the camera, and publish each new customer."""
         for customer in self._watch.see(message.data):
             self._publisher.publish(customer.number)
 
     def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
         """Return the first customer whose number is above `after`, or no customer after `patience` s.
 
-        Raises ServiceException if `patience` is impossible, if too many callers wait, or if the camera is
-        silent.
+        Raises ServiceException if `patience` is out of range, if too many callers are waiting, or if the
+        camera sends no messages.
         """
-        if not 0.0 <= request.patience <= LONGEST:  # this is false for a NaN
+        if not 0.0 <= request.patience <= LONGEST:  # this condition is false for NaN
             message = f"a wait of {request.patience:g} s is not possible"
             wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", message)
             raise rospy.ServiceException(str(wrong))
@@ -59,7 +59,10 @@ class Detector:
         return DetectCustomerResponse(True, customer.number, customer.arrived)
 
     def _wait(self, after: int, patience: float) -> Customer | None:
-        """Wait for a customer, or return None; raises ServiceException if the camera is silent."""
+        """Wait for a customer; return None if there is none.
+
+        Raises ServiceException if the camera sends no messages.
+        """
         try:
             return self._watch.wait(after, patience, SILENCE)
         except CameraSilent:
@@ -69,7 +72,7 @@ class Detector:
 
     @contextmanager
     def _place(self) -> Iterator[None]:
-        """Occupy one of the places for waiting callers, or raise ServiceException."""
+        """Count as one waiting caller during the block; raises ServiceException if there are too many."""
         if not self._places.acquire(blocking=False):
             raise rospy.ServiceException(f"{CALLERS} callers wait already: call again later")
         try:
@@ -84,7 +87,8 @@ def main() -> None:
         return
     with undisturbed():
         detector = Detector()
-    wait_until(detector.has_data, SILENCE)  # otherwise the first call fails, because there is no message yet
+    # without this wait, the first call would fail, because there is no message yet
+    wait_until(detector.has_data, SILENCE)
     with undisturbed():
         rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)
     rospy.loginfo("Looking out for customers")

@@ -1,8 +1,8 @@
-"""The node `shop_camera`: a shop with a counter, and the camera above it.
+"""The node `shop_camera`: a shop with a counter, and a camera above the counter.
 
-It publishes on `counter` (std_msgs/UInt32MultiArray) the numbers of the present customers, at each change and
-ten times per second, and serves `let_in` (course_pkg/LetIn). If `~every` is above 0, random customers come,
-too: on average, one customer every `~every` s.
+It publishes the numbers of the customers who are present on `counter` (std_msgs/UInt32MultiArray), at each
+change and ten times per second. It serves `let_in` (course_pkg/LetIn). If `~every` is above 0, random
+customers come, too: on average, one customer every `~every` s.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from course_pkg.ros.node.program import number_parameter, start_node, undisturbe
 from course_pkg.shop.counter import Counter, Visit
 from course_pkg.srv import LetIn, LetInRequest, LetInResponse
 
-PERIOD = 0.1  # s between two messages if nothing changes
+PERIOD = 0.1  # s between two messages while nothing changes
 STAY = 4.0  # s for which a random customer stays
 
 
 class ShopCamera:
-    """The shop, and what its camera publishes."""
+    """The shop and its camera."""
 
     def __init__(self, number: int, every: float) -> None:
         self._counter = Counter(number)
@@ -36,7 +36,10 @@ class ShopCamera:
         self._publisher = rospy.Publisher("counter", UInt32MultiArray, queue_size=10)
 
     def handle_let_in(self, request: LetInRequest) -> LetInResponse:
-        """Let customers in, and return when each one comes; raises ServiceException for impossible values."""
+        """Let customers in, and return the time at which each of them comes.
+
+        Raises ServiceException for invalid values.
+        """
         try:
             visits = self._let_in(request.after, request.stay)
         except FieldError as error:
@@ -45,7 +48,7 @@ class ShopCamera:
         return LetInResponse(first=visits[0].number if visits else 0, comes=comes)
 
     def watch(self) -> None:
-        """Publish who is at the counter until the node is shut down."""
+        """Publish the customers at the counter until the node is shut down."""
         while not rospy.is_shutdown():
             with self._changed:
                 now = time.time()
@@ -59,9 +62,9 @@ class ShopCamera:
         with self._changed:
             visits = self._counter.let_in(time.time(), after, stay)
             self._changed.notify()
-        # A client waits for a number that is higher than the last number that it received. So the numbers
-        # have to continue after a restart of this node. If there is no master, the parameter cannot be
-        # stored, and the numbers start again from 1.
+        # A client waits for a number that is higher than the last one that it received. Therefore, the
+        # numbers have to continue after a restart of this node. If there is no master, the parameter cannot
+        # be stored; then the numbers start again at 1.
         with suppress(OSError, rospy.ROSException):
             rospy.set_param("~number", self._counter.number)
         return visits

@@ -1,4 +1,4 @@
-"""The checks of chapter 04: build the student's package in another folder, and run its program."""
+"""The checks of chapter 04: they build the student's package in another folder, and run its program."""
 
 from course_pkg.chapters.ch04_define_a_service.checks.compatibility import who_talks_to_whom
 from course_pkg.chapters.ch04_define_a_service.checks.definition import the_lamp

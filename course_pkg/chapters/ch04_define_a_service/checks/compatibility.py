@@ -1,4 +1,7 @@
-"""Compatible definitions: compare the results of the function with the MD5 sums of random definitions."""
+"""Compatible definitions.
+
+The check compares the student's results with the MD5 sums of random definitions.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
 
 @dataclass(frozen=True)
 class Pair:
-    """Two definitions, an assertion about their difference, and a hint."""
+    """Two definitions, an assertion about the difference between them, and a hint."""
 
     assertion: str
     server: str
@@ -30,9 +33,9 @@ class Pair:
     deadline=40.0,
 )
 def who_talks_to_whom(context: CheckContext) -> None:
-    """Try differences that change the MD5 sum, and differences that do not."""
+    """Try differences that change the MD5 sum, and differences that do not change it."""
     again = context.random.shuffled(_pairs(context))[: context.random.integer(6, 9)]
-    # The order is random, so that an answer that only counts its calls fails.
+    # the order is random, so that an answer that counts its calls fails
     for pair in (*_pairs(context), *again):
         for server, client in context.random.shuffled(
             [(pair.server, pair.client), (pair.client, pair.server)]
@@ -122,5 +125,5 @@ def _text(top: list[str], above: list[str], below: list[str]) -> str:
 
 
 def _slip(name: str) -> str:
-    """Return the name with its last letter replaced."""
+    """Return the name with another last letter."""
     return name[:-1] + ("a" if name[-1] != "a" else "b")

@@ -1,4 +1,4 @@
-"""The definition: parse it as ROS does, compare field by field, and build it."""
+"""The definition: the check parses it as ROS does, compares each field, and builds it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,10 @@ FIELDS = "Write the fields of the request and of the response, with their types.
     goals={FIELDS: 3, "Write the constants of the request.": 1},
 )
 def the_lamp(context: CheckContext) -> None:
-    """Parse the text as ROS does, compare it with the description, and build it in another folder."""
+    """Parse the text in the same way as ROS, and compare it with the description.
+
+    Build it in another folder.
+    """
     text = context.source(f"file:{FILE}")
     asked, given = compile_service(TYPE, DEFINITION), read_definition(context, TYPE, text)
     answers = {field.name for field in asked.response.fields}

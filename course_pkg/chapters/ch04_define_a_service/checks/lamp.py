@@ -1,4 +1,4 @@
-"""The complete package of the exercises of chapter 04, and how a check builds it."""
+"""The complete package of chapter 04's exercises, and the way in which a check builds it."""
 
 from __future__ import annotations
 
@@ -16,8 +16,9 @@ from course_pkg.workspace.fault import locate
 
 PACKAGE = "src/lamp_services"
 TYPE = "lamp_services/Lamp"
-LIMITS = "ulimit -t 6 -f 100000"  # s of processor time and KiB of a file; a step takes 1 s of processor time
-BUILD = 40.0  # s for the whole build; it takes 1.5 s on an idle machine, and 20 s on a very busy one
+LIMITS = "ulimit -t 6 -f 100000"  # maximum CPU time in s and file size in KiB; a step needs 1 s of CPU time
+# maximum time in s for the whole build; it takes 1.5 s on an idle machine and 20 s on a very busy one
+BUILD = 40.0
 
 GENERATION = re.compile("catkin_package lists message_generation")
 RUNTIME = (
@@ -71,17 +72,21 @@ SOUND = {
     f"{PACKAGE}/srv/Lamp.srv": DEFINITION,
     f"{PACKAGE}/package.xml": MANIFEST,
     f"{PACKAGE}/CMakeLists.txt": LISTS,
-    f"{PACKAGE}/scripts/lamp_server.py": "#!/usr/bin/env python3\n",  # a CMakeLists.txt may install it
+    # the CMakeLists.txt may install this file
+    f"{PACKAGE}/scripts/lamp_server.py": "#!/usr/bin/env python3\n",
 }
 
 
 def lamp_class() -> ServiceClass:
-    """Return the class of the service type of the description."""
+    """Return the class of the service type that the exercise describes."""
     return compile_service(TYPE, DEFINITION).cls
 
 
 def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
-    """Build a workspace of the student's `given` (files or folders) and the check's own other files."""
+    """Build a workspace with the student's files or folders `given`.
+
+    All other files are the check's own versions.
+    """
     texts = {path: text for path, text in SOUND.items() if not path.startswith(tuple(given))}
     folder = context.folder(files=given, texts=texts)
     build = run_catkin_make(folder, f"{LIMITS};", within=BUILD)
@@ -93,14 +98,17 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
 
 
 def md5_in(folder: Folder) -> tuple[str, str]:
-    """Return the MD5 sum of the type that Python finds in `folder`, and ""; or "" and the error output."""
+    """Return the MD5 sum of the type that Python finds in `folder`, and "".
+
+    If there is none, return "" and the error output.
+    """
     line = "python3 -c 'from lamp_services.srv import Lamp; print(Lamp._md5sum)'"
     done = folder.command("bash", "-c", f". devel/setup.bash && {line}", within=10.0, worded=line)
     return (done.out.strip(), "") if done.status == 0 else ("", done.out + done.err)
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return the fault as a fault in the student's file, because the check's own files are correct."""
+    """Return the fault as one in the student's file, because the check's own files are correct."""
     theirs = given[0].removeprefix("src/")
     if GENERATION.search(fault.problem):
         fault = replace(fault, remedy=RUNTIME)

@@ -1,4 +1,4 @@
-"""The repaired CMakeLists.txt: the build succeeds, and the type can be imported."""
+"""The repaired CMakeLists.txt: the build has to succeed, and Python has to be able to import the type."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def _why_no_type(text: str) -> str:
 
 
 def _about(text: str, name: str, reason: str) -> str:
-    """Return a hint: the command is in a comment, or it is not in the file."""
+    """Return a hint: the command is only in a comment, or it is missing."""
     for each in cmake_commands(text):
         if each.name == name and each.is_comment:
             return f"Line {each.line}: {name} is only a comment. Remove the #. {reason}"

@@ -1,4 +1,4 @@
-"""The repaired package.xml: catkin accepts it, and it lists what the package needs."""
+"""The repaired package.xml: catkin has to accept it, and it has to contain the package's dependencies."""
 
 from __future__ import annotations
 

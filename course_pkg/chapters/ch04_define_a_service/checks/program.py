@@ -1,4 +1,4 @@
-"""The server as a program in the package: rosrun finds it, it serves the new type, and it keeps running."""
+"""The server as a program of the package: rosrun has to find it, and it has to serve the new type."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from course_pkg.workspace import explain
 
 NAME = "lamp_server.py"
 FILE = f"{PACKAGE}/scripts/{NAME}"
-STARTING = 20.0  # s for the program to serve; this takes 1 s on an idle machine
+STARTING = 20.0  # maximum time in s until the program serves; it takes 1 s on an idle machine
 LOOK = 0.1  # s between two snapshots of the graph
 
-ENDINGS = (  # a pattern in the output of the program, and a hint
+ENDINGS = (  # a pattern for the program's output, and a hint
     (r"rospy\.init_node\(\) first", "A service belongs to a node: call rospy.init_node first."),
     (
         r"no attribute '_request_class'",
@@ -66,7 +66,7 @@ STARTED = "Write a program that rosrun can start, and that serves /lamp with the
     goals=[STARTED, "Return the response of the exercise for each mode."],
 )
 def the_program(context: CheckContext) -> None:
-    """Build a copy, run its program with other names for node and service, and call the service."""
+    """Build a copy, run its program with other names for the node and the service, and call the service."""
     require_shebang(
         context,
         FILE,
@@ -109,7 +109,7 @@ def _run_bit(context: CheckContext, folder: Folder) -> None:
 
 
 def _serves(context: CheckContext, running: Running, name: str, node: str) -> None:
-    """Wait until the program serves `name`; otherwise report what happened instead."""
+    """Wait until the program serves `name`; if it does not, report what happened."""
     deadline = time.monotonic() + STARTING
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:
@@ -150,13 +150,16 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
 
 
 def _own_line(printed: str) -> str:
-    """Return a sentence that names the wrong line of the student's script, or "" if it is not known."""
+    """Return a sentence that contains the wrong line of the student's script.
+
+    If the line is not known, return "".
+    """
     numbers = re.findall(rf'{re.escape(NAME)}", line (\d+)', printed)
     return f"The error occurred in line {numbers[-1]} of {NAME}." if numbers else ""
 
 
 def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
-    """Call once with a random colour and random times, and compare the three fields of the response."""
+    """Make a call with a random colour and random times, and compare the three fields of the response."""
     red, green, blue = context.random.numbers(3, 0.1, 1.0)
     seconds = context.random.numbers(context.random.integer(2, 40), 0.5, 9.0)
     colour = message_type("std_msgs/ColorRGBA").to_message({"r": red, "g": green, "b": blue, "a": 1.0})

@@ -1,4 +1,4 @@
-"""The checks of chapter 05: the check calls the student's servers from another process."""
+"""The checks of chapter 05: a separate process calls the student's servers."""
 
 from course_pkg.chapters.ch05_write_a_server.checks.arm import close_for_maintenance
 from course_pkg.chapters.ch05_write_a_server.checks.boxes import a_box_that_cannot_be, area_and_volume

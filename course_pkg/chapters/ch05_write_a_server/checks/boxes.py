@@ -1,4 +1,4 @@
-"""The geometry servers: one that measures every box, and one that refuses impossible boxes."""
+"""The geometry servers: one measures every box, and the other one refuses impossible boxes."""
 
 import re
 from collections.abc import Mapping
@@ -11,8 +11,8 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-MANY = 6  # maximum number of numbers in a message; of many numbers, one is right by chance
-# Matches an error message of the student's handler, but not a message that rospy wrote itself.
+MANY = 6  # maximum number of numbers in a message; with more of them, one may be right by chance
+# Matches an error message from the student's handler, but no message that rospy itself writes.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 AREA, VOLUME = "Return the area of the floor.", "Return the volume."
 MEASURED = "Measure a box without a negative side."
@@ -87,7 +87,7 @@ def _about_area(width: float, length: float, height: float) -> Hints:
     goals={MEASURED: 1, REFUSED: 2, NAMED: 1},
 )
 def a_box_that_cannot_be(context: CheckContext) -> None:
-    """Send a good box and three flat boxes; then boxes with one negative side, and with two."""
+    """Send a normal box and three flat ones; then send boxes with one and with two negative sides."""
     get_geometry = context.service(
         "/getGeometryChecked",
         "course_pkg/geometry",
@@ -124,7 +124,10 @@ def _box(context: CheckContext, given: Mapping[str, float]) -> dict[str, float]:
 
 
 def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str, float]) -> None:
-    """Assert that the box is refused, and that the error message names the first negative side."""
+    """Assert that the box is refused.
+
+    The error message has to contain the name of the first negative side.
+    """
     error = get_geometry.refused(
         "a negative side is refused",
         saying="responded with an error",
@@ -177,7 +180,7 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 
 def _unclear(named: list[str], side: str, reason: str) -> str:
-    """Return the hint for an error that names the sides in `named` and should name `side`."""
+    """Return the hint for a message that contains the names `named`, but should contain only `side`."""
     if len(re.findall(NUMBER, reason)) > MANY:
         return "The message contains many numbers. Write only the value of the negative side."
     if "{" in reason:

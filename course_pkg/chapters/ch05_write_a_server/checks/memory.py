@@ -1,4 +1,4 @@
-"""The servers with a state: the counter, and the switch."""
+"""The servers that have a state: the counter and the switch."""
 
 from collections.abc import Callable
 
@@ -68,7 +68,7 @@ MOVED = "Return in success whether the switch moved."
     goals={COUNTED: 3, SUCCESS: 1},
 )
 def a_counter_that_resets(context: CheckContext) -> None:
-    """Call /count to learn the present count; then reset it, and count beyond 9."""
+    """Call /count to find out the present count; then reset it, and count to more than 9."""
     count = context.service(
         "/count",
         "std_srvs/Trigger",
@@ -146,7 +146,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
     context.expect(
         "after each reset, the message counts 1, 2, 3",
         expected=str(int(before) + 1),
-        actual=context.run("another_client", worded="a call from another client").returned(),
+        actual=context.run("another_client", worded="a call from another client").value,
         hints="The calls of all clients have to change the same count. Store one number in self.",
     )
     _starts_from_zero(context)
@@ -154,7 +154,10 @@ def a_counter_that_resets(context: CheckContext) -> None:
 
 
 def _starts_from_zero(context: CheckContext) -> None:
-    """Count once with a new object, while /count is not at zero; skip a class that works otherwise."""
+    """Count once with a new object while /count is not at zero.
+
+    A class with another interface is left out.
+    """
     if not context.has("Counter"):
         return
     context.prepare(A_NEW_COUNTER)
@@ -191,7 +194,7 @@ def _follows(before: str) -> Callable[[str], bool]:
     goals={POSITION: 2, MOVED: 2, "Let each new Switch() be off.": 1},
 )
 def a_switch_that_tells(context: CheckContext) -> None:
-    """Call /switch with data=False, then ten times; then try a new Switch(), which must be off."""
+    """Call /switch with data=False, and then ten more times; then try a new Switch(), which must be off."""
     turn = context.service(
         "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]
     )
@@ -242,7 +245,7 @@ def a_switch_that_tells(context: CheckContext) -> None:
     context.fulfilled(POSITION)
     context.fulfilled(MOVED)
     context.prepare(A_NEW_SWITCH)
-    if not context.has("Switch"):  # the handler is not a method of Switch
+    if not context.has("Switch"):  # the handler is not a method of a class Switch
         return
     for stands, hint in ((False, STARTS_ON), (True, SHARES)):
         turn(data=stands)

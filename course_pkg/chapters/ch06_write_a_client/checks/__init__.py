@@ -1,4 +1,4 @@
-"""The checks of chapter 06: the student's clients call servers that the checks control."""
+"""The checks of chapter 06: the student's clients call servers of the checks."""
 
 from course_pkg.chapters.ch06_write_a_client.checks.arguments import read_the_arguments
 from course_pkg.chapters.ch06_write_a_client.checks.asking import the_geometry_client

@@ -1,4 +1,4 @@
-"""The client as a program: the arguments of its command line."""
+"""The client as a program, with arguments on the command line."""
 
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 
@@ -18,7 +18,7 @@ NUMBERS = "Return the three numbers, and ignore arguments for ROS."
     goals=[NUMBERS, "Return None if there are not exactly three numbers."],
 )
 def read_the_arguments(context: CheckContext) -> None:
-    """Try valid arguments without and with arguments for ROS; then too few, too many, and a word."""
+    """Try valid arguments with and without arguments for ROS; then too few, too many, and a word."""
     name_first = (
         "The first item of the list is the name of the program. The sides begin with the second item."
     )
@@ -132,7 +132,7 @@ def read_the_arguments(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, program: str) -> None:
-    """Try valid and invalid lists, so that an answer that only counts its calls fails."""
+    """Try valid and invalid lists of arguments, so that an answer that counts its calls fails."""
     counts = [3] * context.random.integer(2, 4) + [2] * context.random.integer(1, 2) + [4, 5]
     for count in context.random.shuffled(counts):
         numbers = context.random.numbers(count, 0.5, 9.0)

@@ -1,4 +1,4 @@
-"""The client that calls once."""
+"""The client that makes one call."""
 
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -16,7 +16,7 @@ RETURNED = "Return the area and the volume of the response."
     goals=[CALLED, RETURNED],
 )
 def the_geometry_client(context: CheckContext) -> None:
-    """Respond with random numbers, so that only a call returns the right numbers."""
+    """Respond with random numbers, so that only a real call returns the right numbers."""
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)

@@ -1,4 +1,4 @@
-"""Code that the checks of several clients share."""
+"""Code that several of the clients' checks use."""
 
 from course_pkg.checking import CheckContext, Its
 from course_pkg.checking.plain_values import Value
@@ -34,9 +34,11 @@ def interrupted(function, *args):
 
 
 def stops(context: CheckContext, function: str, *args: Value, catch: str) -> None:
-    """Assert that an interrupt ends the student's function while it waits; it should catch only `catch`.
+    """Assert that an interrupt ends the student's function while it waits.
 
-    A report shows this assertion only if it fails.
+    It should catch only the error `catch`.
+
+    A report contains this assertion only if it fails.
     """
     context.prepare(STOP_BUTTON)
     result = context.run("interrupted", Its(function), *args, worded=f"{function}()")
@@ -50,5 +52,8 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
 
 
 def volumes(context: CheckContext, count: int) -> list[float]:
-    """Return volumes that are exact as float32; they have a fraction, so that a check notices rounding."""
+    """Return volumes that are exact as a float32.
+
+    They are not whole numbers, so that a check notices rounding.
+    """
     return [whole + 0.375 for whole in context.random.integers(count, 1000, 9000)]

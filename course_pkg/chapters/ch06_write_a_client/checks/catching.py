@@ -1,4 +1,4 @@
-"""The client that handles a failed call."""
+"""The client that handles failed calls."""
 
 import math
 
@@ -37,7 +37,7 @@ CAUGHT = "Return None if the call failed."
     goals={VOLUME: 1, CAUGHT: 2, "Do not catch errors of the arguments.": 1},
 )
 def catch_what_can_happen(context: CheckContext) -> None:
-    """Try two working servers, four servers that fail in different ways, and wrong arguments."""
+    """Try two working servers, four servers with different failures, and wrong arguments."""
     good, flat = (f"/{context.random.word()}" for _ in range(2))
     sides = context.random.numbers(3, 0.5, 9.0)
     (volume,) = volumes(context, 1)
@@ -84,7 +84,7 @@ def catch_what_can_happen(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
-    """Try new servers that respond or refuse, so that an answer that only counts its calls fails."""
+    """Try new servers that respond or refuse, so that an answer that counts its calls fails."""
     responding = volumes(context, context.random.integer(2, 4))
     failing = [None] * context.random.integer(2, 4)
     for volume in context.random.shuffled([*responding, *failing]):
@@ -134,7 +134,10 @@ def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDD
 
 
 def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -> None:
-    """Assert that a call of `name` returns None; the function may wait up to 10 s for the service."""
+    """Assert that a call of the service `name` returns None.
+
+    The function may wait up to 10 s for the service.
+    """
     result = context.run(
         "volume_or_none",
         name,
@@ -167,7 +170,10 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 
 
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
-    """Return for each case the kind of failure, the name of the service, and the server or None."""
+    """Return the failures.
+
+    Each is its name, the name of the service, and the server, or None if there is none.
+    """
     refusing, dying, killed, nowhere = (f"/{context.random.word()}" for _ in range(4))
     refuses = context.serve(refusing, GEOMETRY, lambda _: Refuse("not today"))
     dies = context.serve(dying, GEOMETRY, lambda _: HangUp())

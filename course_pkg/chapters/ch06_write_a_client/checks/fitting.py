@@ -1,4 +1,4 @@
-"""06.6: a client as a program, whose exit status shows a script the result."""
+"""06.6: a client as a program; its exit status tells a script the result."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from course_pkg.checking.shared.script import require_shebang
 from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "fits.py"
-RUNS = 9.0  # s for all runs, which are started at the same time; the program waits 2 s at most
-LATE = 0.5  # s between the first snapshot that contains the node and the start of the service
+RUNS = 9.0  # maximum time in s for all runs, which start at the same time; the program waits for at most 2 s
+LATE = 0.5  # s between the first snapshot with the node and the start of the service
 POLL = 0.2  # s between two tests whether the runs have ended
-IMPORTED = 77  # the exit status after an import that ends without sys.exit or os._exit
+IMPORTED = 77  # exit status of an import that ends without sys.exit or os._exit
 IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"
 USAGE = "usage"
 ENDED_WITH_TEXT = (
@@ -34,16 +34,17 @@ START = f"""%%writefile {FILE}
 class Case:
     """One run of the program."""
 
-    title: str  # its name in assertions
+    title: str  # name of the case in the titles of assertions
     arguments: list[str]
-    script: Script | None  # the responses of the service; None means that there is no service
+    script: Script | None  # the responses of the service; None if there is no service
     status: int
-    prints: str  # a part of its output, in small letters
+    prints: str  # a part of the program's output, in small letters
     calls: int = 1
-    hint: str = ""  # for a wrong exit status
-    remapped: bool = False  # whether getGeometry is remapped; otherwise the program runs in another namespace
-    late: bool = False  # the service starts after the program
-    ends: str = ""  # the goal that is fulfilled if this run and the runs before it are right
+    hint: str = ""  # the hint for a wrong exit status
+    # whether getGeometry is remapped; if it is not, the program runs in another namespace
+    remapped: bool = False
+    late: bool = False  # whether the service starts after the program
+    ends: str = ""  # the goal that is fulfilled if this run and all earlier runs are right
 
 
 COMPARED = "Call getGeometry, and print whether the volume is at most LIMIT."
@@ -63,7 +64,7 @@ USED = "Print a usage line, and end with 2, if the arguments are wrong."
     goals={COMPARED: 2, USED: 1, "End with 3 if the call fails, and wait for a late service.": 1},
 )
 def does_it_fit(context: CheckContext) -> None:
-    """Run the program for all cases at the same time; each case has its own namespace."""
+    """Run the program for all cases at the same time, each in its own namespace."""
     require_shebang(
         context,
         FILE,
@@ -170,7 +171,7 @@ def _cases(context: CheckContext) -> list[Case]:
 class Started:
     """One run of the program, which has to call the service in `namespace`.
 
-    Either the program runs in this namespace, or getGeometry is remapped to it.
+    The program either runs in this namespace, or getGeometry is remapped to it.
     """
 
     def __init__(self, context: CheckContext, folder: Folder, case: Case, namespace: str) -> None:
@@ -178,7 +179,7 @@ class Started:
         self._context = context
         self._service = f"{namespace}/getGeometry"
         self._node = f"{namespace}/{namespace.replace('/', '')}"
-        # For a late service: the time at which the node of the program was first on the graph.
+        # For a late service, the time at which the program's node was first on the graph.
         self._seen: float | None = None
         self.server = self._serve() if case.script and not case.late else None
         named = f"getGeometry:={self._service}" if case.remapped else f"__ns:={namespace}"
@@ -186,7 +187,7 @@ class Started:
         self.run = folder.start("python", *argv, worded=" ".join(["python3", *argv]))
 
     def serve_late(self) -> None:
-        """Serve the late service, some time after the node has appeared."""
+        """Serve the late service some time after the node was first on the graph."""
         if not self.case.late or self.server:
             return
         if self._seen is None and any(node.name == self._node for node in self._context.look().nodes):
@@ -195,7 +196,7 @@ class Started:
             self.server = self._serve()
 
     def _serve(self) -> ScriptedServer:
-        assert self.case.script  # a case without a script has no service
+        assert self.case.script  # without a script, there is no service
         return self._context.serve(self._service, GEOMETRY, self.case.script)
 
 
@@ -215,7 +216,7 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
 def _examine(
     context: CheckContext, case: Case, server: ScriptedServer | None, done: Finished, *, elsewhere: bool
 ) -> None:
-    """Assert the calls, the exit status and the output of one run."""
+    """Assert that the calls, the exit status and the output of one run are right."""
     calls = len(server.requests) if server else 0
     outcome = f"{telling_line(done.out)}, and {_ending(done)}"
     context.require(
@@ -251,7 +252,7 @@ def _examine(
 
 
 def _prints(case: Case, out: str) -> bool:
-    """Return whether the output has a line with the text of the table, and no line with another text."""
+    """Return whether the output has a line with the expected text, and no line with another case's text."""
     lines = [line.strip() for line in out.splitlines()]
     usage = any(line.startswith("usage:") for line in lines)
     if usage != (case.prints == USAGE) or {"fits", "too large"}.intersection(lines) - {case.prints}:

@@ -1,4 +1,4 @@
-"""The client that calls the next server after a failure, with a time limit for each call."""
+"""The client that calls the next server after a failure; each call has a time limit."""
 
 from collections.abc import Mapping
 
@@ -25,8 +25,12 @@ NEXT = "Return the volume of the next service if a service does not exist or ref
     goals=[FIRST, NEXT, "Wait one second for a response, and return None if no service responds."],
 )
 def ask_the_next_one(context: CheckContext) -> None:
-    """Try a working server alone, after each kind of failing server, and then only failing servers."""
-    names = {kind: f"/{context.random.word()}" for kind in KINDS}  # a name must not show the kind
+    """Try a working server, first alone and then after each kind of failing server.
+
+    At last, try only failing servers.
+    """
+    # the name must not tell the kind of the server
+    names = {kind: f"/{context.random.word()}" for kind in KINDS}
     first, second, late, tardy = volumes(context, 4)
     primary = context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
     reserve = context.serve(names["second"], GEOMETRY, lambda _: {"volume": second})
@@ -122,8 +126,7 @@ def ask_the_next_one(context: CheckContext) -> None:
     )
     context.require(
         "a frozen service delays the result by about one second",
-        holds=frozen.took - working.took
-        < 1.75,  # a right function may wait for one second for each of the two services
+        holds=frozen.took - working.took < 1.75,  # a right function may wait 1 s for each of the two services
         expected="at most 1 s for the frozen service",
         actual=f"a result after {frozen.took:.1f} s",
         hints="The function waits too long for one service. The time limit is one second for each service.",
@@ -151,7 +154,7 @@ def ask_the_next_one(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:
-    """Mix lists with and without a working service, so that an answer that only counts its calls fails."""
+    """Mix lists with and without a working service, so that an answer that counts its calls fails."""
     used = [*context.random.shuffled(list(works))[:2], *[""] * context.random.integer(1, 3)]
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]
@@ -184,7 +187,7 @@ _ERRORS: Hints = [
 
 
 def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
-    """Run the student's function with the names of the services of these kinds, in this order."""
+    """Run the student's function with the names of services of these kinds, in this order."""
     sides = context.random.numbers(3, 0.5, 9.0)
     services = [names[kind] for kind in kinds]
     return context.run("first_answer", services, *sides, within=3.0 + len(services), hints=hints or _ERRORS)

@@ -1,4 +1,4 @@
-"""The client that finds out whether a server is running."""
+"""The client that tests whether a server is running."""
 
 from threading import Timer
 
@@ -6,7 +6,8 @@ from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops
 from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
-SAME = 1.5  # s, a limit for services that exist and for others; a busy machine connects within this time
+# maximum time in s for services that exist and for others; a busy machine connects within this time
+SAME = 1.5
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
 
@@ -22,7 +23,10 @@ THERE = "Return True for a service that exists, and False for a service that doe
     goals=[THERE, "Return True for a service that starts in time."],
 )
 def is_anybody_there(context: CheckContext) -> None:
-    """Try a running server, two names without a running server, and a server that starts during the wait."""
+    """Try a running server, and two names without a running server.
+
+    Then start a server while the client waits.
+    """
     here, nowhere, killed, later = (f"/{context.random.word()}" for _ in range(4))
     server = context.serve(here, GEOMETRY, lambda _: {})
     context.absent(killed, stale=True)
@@ -107,7 +111,7 @@ def is_anybody_there(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Try new names, so that an answer that only counts its calls fails."""
+    """Try new names, so that an answer that counts its calls fails."""
     fixed = "The result was wrong for another service. It must depend on the service, not on earlier calls."
     there = [True] * context.random.integer(3, 5) + [False] * context.random.integer(2, 3)
     for expected in context.random.shuffled(there):
@@ -123,7 +127,10 @@ def _in_a_random_order(context: CheckContext) -> None:
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:
-    """Call the function with a limit of 0.5 s, in which rospy tries twice; a result after 1.4 s is late."""
+    """Call the function with a limit of 0.5 s, in which rospy tries twice.
+
+    A result after 1.4 s is too late.
+    """
     too_long = "The function waited longer than `seconds`. Call wait_for_service once, with this timeout."
     missing = context.run(
         "is_there",

@@ -1,4 +1,7 @@
-"""The node `dying_server`: a call of its service `dying` ends it without a response, as in a crash."""
+"""The node `dying_server`.
+
+A call of its service `dying` ends the process without a response, like a crash.
+"""
 
 from __future__ import annotations
 
@@ -20,4 +23,4 @@ def main() -> None:
 
 
 def _die(_: object) -> NoReturn:
-    os._exit(1)  # no clean-up, so the registration stays at the master
+    os._exit(1)  # without a clean-up, so that the registration stays at the master

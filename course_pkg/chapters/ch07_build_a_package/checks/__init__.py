@@ -1,4 +1,4 @@
-"""The checks of chapter 07: build a copy of the student's package, and run its programs."""
+"""The checks of chapter 07: they build a copy of the student's package, and run its programs."""
 
 from course_pkg.chapters.ch07_build_a_package.checks.client import the_client
 from course_pkg.chapters.ch07_build_a_package.checks.cmake_lists import the_build

@@ -1,4 +1,4 @@
-"""07.3: the CMakeLists.txt that generates a type from the definition, before programs use the type."""
+"""07.3: the CMakeLists.txt, which has to generate a type before programs use it."""
 
 from __future__ import annotations
 
@@ -44,9 +44,10 @@ WAITS = "Let the target my_geometry_programs wait for the type."
     goals=[GENERATED, WAITS, "Name message_runtime for other packages."],
 )
 def the_build(context: CheckContext) -> None:
-    """Build the package; then remove the generated classes, and build only the target."""
+    """Build the package; then remove the generated classes, and build only the student's target."""
     text = context.source(f"file:{FILE}")
-    definition = f"float32 {context.random.word()}\n{GEOMETRY}"  # a CMakeLists.txt cannot know its MD5 sum
+    # so that a CMakeLists.txt cannot contain the right MD5 sum
+    definition = f"float32 {context.random.word()}\n{GEOMETRY}"
     package = built(context, MY_GEOMETRY, examined=NAME, drawn={"srv/geometry.srv": definition})
     md5 = compile_service("my_geometry/geometry", definition).md5
     _has_type(context, package, text, md5)
@@ -84,7 +85,7 @@ def _why_no_type(text: str) -> str:
 
 
 def _target_waits(context: CheckContext, package: BuiltPackage, text: str, wanted: str) -> None:
-    """Build only the target, without the classes; the classes must exist afterwards."""
+    """Build only the target while the classes are missing; afterwards, the classes must exist."""
     line = f"rm -rf {CLASSES} && make -C build {TARGET}"
     done = package.folder.command("bash", "-c", line, within=20.0, worded=f"make {TARGET}")
     unknown = "No rule to make target" in done.out + done.err

@@ -1,4 +1,4 @@
-"""07.2 and 07.8: a definition in the student's own package: it builds, and its MD5 sum is right."""
+"""07.2 and 07.8: a definition in the student's own package, which has to build and have the right MD5 sum."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""07.1: the completed package.xml, which catkin_create_pkg wrote."""
+"""07.1: the completed package.xml; catkin_create_pkg wrote its first version."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ COMPLETE = "List all packages that are needed, in a package.xml that catkin acce
     goals={COMPLETE: 3, "Write your own description, address and licence.": 1},
 )
 def the_manifest(context: CheckContext) -> None:
-    """Compare the dependencies, build the package, and read the texts that do not affect the build."""
+    """Compare the dependencies, build the package, and read the texts without influence on the build."""
     text = context.source(f"file:{FILE}")
     for purpose, tag, packages in NEEDS:
         named = dependencies(text, purpose)

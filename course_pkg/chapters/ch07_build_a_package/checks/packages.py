@@ -1,4 +1,7 @@
-"""The two packages of chapter 07; the check adds its own version of each file that is not written yet."""
+"""The two packages of chapter 07.
+
+For each file that the student has not written yet, the check uses its own version.
+"""
 
 from __future__ import annotations
 

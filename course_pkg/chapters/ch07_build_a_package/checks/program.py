@@ -1,4 +1,4 @@
-"""Assertions about each program of chapter 07: Linux can execute it, rosrun finds it, and it serves."""
+"""Assertions about the programs of chapter 07: Linux can execute it, rosrun finds it, and it serves."""
 
 from __future__ import annotations
 
@@ -15,13 +15,14 @@ from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.errors import CheckError
 from course_pkg.workspace import explain
 
-STARTING = 15.0  # s for a program to serve; it takes 1 s on an idle machine, and 3 s on a busy one
-IMPORTING = 15.0  # s for an import; it takes 0.4 s of processor time
-MUCH = 6.0  # s of processor time; an import that needs more is in an endless loop
+# maximum time in s until a program serves; it takes 1 s on an idle machine, and 3 s on a busy one
+STARTING = 15.0
+IMPORTING = 15.0  # maximum time in s for an import; it needs 0.4 s of CPU time
+MUCH = 6.0  # maximum CPU time in s; an import that needs more is in an endless loop
 POLL = 0.1  # s between two snapshots of the graph
-LOGGERS = ("/get_loggers", "/set_logger_level")  # each rospy node has these services
+LOGGERS = ("/get_loggers", "/set_logger_level")  # every rospy node has these services
 
-# This code imports the script as a module. Each call that only a running node needs ends the import with a
+# This code imports the script as a module. Each call that only a running node makes ends the import with a
 # message.
 IMPORTS = """\
 import importlib.util, sys, rospy
@@ -34,8 +35,8 @@ spec = importlib.util.spec_from_file_location("imported", sys.argv[1])
 spec.loader.exec_module(importlib.util.module_from_spec(spec))
 sys.exit(77)
 """
-IMPORTED = 77  # the exit status after an import that ends without sys.exit or os._exit
-ENDINGS = (  # a pattern in the output of the program, and a hint
+IMPORTED = 77  # exit status of an import that ends without sys.exit or os._exit
+ENDINGS = (  # a pattern for the program's output, and a hint
     (r"rospy\.init_node\(\) first", "A service needs a node. Call rospy.init_node before rospy.Service."),
     (
         r"no attribute '_request_class'",
@@ -54,7 +55,7 @@ ENDINGS = (  # a pattern in the output of the program, and a hint
 
 @dataclass(frozen=True)
 class Program:
-    """A script of a package: its file in the package, such as "scripts/server.py", its node and service."""
+    """A script of a package: its path, such as "scripts/server.py", its node and its service."""
 
     file: str
     node: str = ""
@@ -62,7 +63,7 @@ class Program:
 
     @property
     def name(self) -> str:
-        """The name of the program for rosrun."""
+        """The name of the program in a rosrun command."""
         return self.file.rpartition("/")[2]
 
 
@@ -93,7 +94,7 @@ def is_executable(context: CheckContext, path: str) -> None:
 
 
 def can_be_imported(context: CheckContext, package: BuiltPackage, program: Program) -> None:
-    """Assert that importing the script starts nothing, as `if __name__ == "__main__"` ensures."""
+    """Assert that an import of the script starts nothing; `if __name__ == "__main__"` has this effect."""
     path = package.package.path(program.file)
     line = f". devel/setup.bash && exec python3 -c '{IMPORTS}' {path}"
     done = package.folder.command("bash", "-c", line, within=IMPORTING, worded=f"import {program.name}")
@@ -103,7 +104,7 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
             "machine is busy. Run this cell again."
         )
     printed = done.out + done.err
-    began = done.status is None or "it began its work" in printed
+    began = done.status in (None, 0) or "it began its work" in printed
     context.require(
         "an import of the script starts no node",
         holds=done.status == IMPORTED,
@@ -119,9 +120,9 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
 
 
 def _never_ends(done: Finished) -> bool:
-    """Return whether an import that reached its time limit would never end, because it waits or loops.
+    """Return whether an import that reached its time limit would never end, because it waits or is in a loop.
 
-    A slow import on a busy machine is different: most of the time, it waits for a processor.
+    A slow import on a busy machine is different, because it waits for the CPU most of the time.
     """
     return done.ran + done.queued < done.took / 2 or done.ran > MUCH
 
@@ -129,7 +130,7 @@ def _never_ends(done: Finished) -> bool:
 def serves(
     context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
 ) -> None:
-    """Wait until the program serves `name` as the node `node`; otherwise report what happened instead."""
+    """Wait until the program serves `name` as the node `node`; if it does not, report what happened."""
     assertion = f"rosrun starts it, and it serves {program.service}"
     deadline = time.monotonic() + STARTING
     while (found := context.look().service(name)) is None:
@@ -169,7 +170,7 @@ def _seen(program: Program, status: int | None, printed: str) -> str:
 def why_not(
     package: BuiltPackage, program: Program, status: int | None, printed: str, others: list[str]
 ) -> str:
-    """Return the hint for a program that ended or does not offer the right service."""
+    """Return the hint for a program that has ended, or that does not serve the right service."""
     if others:
         return f"It serves {', '.join(others)}, but the exercise needs {program.service}."
     if status is None:
@@ -187,6 +188,9 @@ def why_not(
 
 
 def own_line(program: Program, printed: str) -> str:
-    """Return a sentence that names the wrong line of the student's script, or "" if it is not known."""
+    """Return a sentence that contains the wrong line of the student's script.
+
+    If the line is not known, return "".
+    """
     numbers = re.findall(rf'{re.escape(program.name)}", line (\d+)', printed)
     return f"The error occurred in line {numbers[-1]} of {program.name}." if numbers else ""

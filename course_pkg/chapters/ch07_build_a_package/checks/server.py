@@ -36,7 +36,7 @@ STARTED = "Start the node SERVER_NODE with the service /getGeometry."
     goals={STARTED: 1, "Return the area and the volume.": 2},
 )
 def the_server(context: CheckContext) -> None:
-    """Build a copy of the package, start its program in a separate namespace, and call the service."""
+    """Build a copy of the package, start its program in another namespace, and call the service."""
     is_a_script(context, FILE)
     is_executable(context, FILE)
     package = built(context, MY_GEOMETRY, examined=SERVER.file)

@@ -1,4 +1,4 @@
-"""08.5: a client in Python that works with services of any type."""
+"""08.5: a client in Python that can call services of any type."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ CALLED = "Call services of three types, and return the fields of the response."
     goals={CALLED: 2, "Raise an error for an unknown field, and return the whole response.": 1},
 )
 def call_of_any_type(context: CheckContext) -> None:
-    """Serve three types with random names; then pass a field that the type does not have."""
+    """Serve three types with random names; then pass a field that does not exist in the type."""
     for example in example_calls(context):
         _calls(context, example)
     context.fulfilled(CALLED)

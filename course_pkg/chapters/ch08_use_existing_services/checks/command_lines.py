@@ -1,4 +1,4 @@
-"""08.4: a command line that calls a service; bash splits the line into words, and YAML reads the fields."""
+"""08.4: a command line that calls a service. bash splits the line into words, and YAML reads the fields."""
 
 from __future__ import annotations
 
@@ -102,13 +102,13 @@ def line_for_a_terminal(context: CheckContext) -> None:
 
 
 def _is_call(line: Json) -> bool:
-    """Return whether the line is a call of rosservice, which may read the fields from a pipe."""
+    """Return whether the line is a call with rosservice; it may read the fields from a pipe."""
     *before, last = commands_of(line) or [[]]
     return last[:2] == ["rosservice", "call"] and all(words[:1] in PRINTS for words in before)
 
 
 def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, line: str) -> None:
-    """Assert that the line makes one call, with the right fields."""
+    """Assert that the line makes exactly one call, with the right fields."""
     finished = context.command("bash", "-c", line, within=12.0)
     output = f"{finished.out}\n{finished.err}".strip() or "no output, and no call"
     context.require(
@@ -147,15 +147,15 @@ def _lost(actual: Fields) -> bool:
 
 
 def _complaint(line: str, output: str) -> str:
-    """Return the hint for a line that made no call."""
-    with suppress(ValueError):  # a quote is not closed
+    """Return the hint for a line that has made no call."""
+    with suppress(ValueError):  # a quotation mark is not closed
         if len(shlex.split(line)) == WORDS and matches("ParserError|ScannerError|Too many").search(output):
             return NO_YAML
     return hint_for(COMPLAINTS, f"{line}\n{output}")
 
 
 def _decisive_lines(output: str) -> str:
-    """Return the first line with an error and the next line, or the last line if there is no error."""
+    """Return the first line with an error and the line after it; without an error, return the last line."""
     lines = output.splitlines()
     first = next((number for number, text in enumerate(lines) if matches("^error|error:").search(text)), -1)
     return "\n".join(lines[first:][:2])

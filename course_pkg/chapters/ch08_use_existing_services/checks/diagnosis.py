@@ -1,4 +1,4 @@
-"""08.6: find the reason why a client cannot call a service."""
+"""08.6: the reason why a client cannot call a service."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ WHY = {
     deadline=20.0,
 )
 def find_the_cause(context: CheckContext) -> None:
-    """Provide a service for each result; then do it again, with new names and in a random order."""
+    """Provide a service for each possible result; then do this again with new names and in a random order."""
     context.prepare(KINDS)
     kind, other = context.random.shuffled(list(TYPES))[:2]
     changed = compile_service(TYPES[kind], CHANGED).cls
@@ -101,9 +101,9 @@ def find_the_cause(context: CheckContext) -> None:
 
 
 def _services(context: CheckContext, kind: str, other: str, changed: ServiceClass) -> dict[str, str]:
-    """Provide services for all results except "ok"; return the results by name; the first is "ok".
+    """Provide services for all results except "ok"; return the result for each name; "ok" comes first.
 
-    The names are random, so that they do not show the results.
+    The names are random, so that they do not tell the results.
     """
     works, missing, gone, typed, copied, renewed = (f"/{context.random.word()}" for _ in range(6))
     package = f"{context.random.word()}_pkg"

@@ -10,24 +10,24 @@ from course_pkg.checking.plain_values import Fields, Value
 
 @dataclass(frozen=True)
 class ExampleCall:
-    """Fields for a service of one type, and the fields of the response."""
+    """Fields for a request of one type, and the fields of the response."""
 
-    what: str  # its name in assertions
+    what: str  # name of the call in the titles of assertions
     kind: str
     fields: Fields
     answer: Fields
 
     def given(self, received: Value) -> Value:
-        """Return only the fields of a received request that the call sets, also in inner messages."""
+        """Return only those fields of a received request that the call has set, also in nested messages."""
         return _given(self.fields, received)
 
     def mixed_up(self, received: Fields) -> bool:
-        """Return whether the values arrived, but in the wrong fields."""
+        """Return whether the values arrived in the wrong fields."""
         return set(map(str, received.values())) == set(map(str, self.fields.values()))
 
 
 def example_calls(context: CheckContext) -> list[ExampleCall]:
-    """Return the calls, from the easiest to the most difficult."""
+    """Return the example calls, from the easiest to the most difficult."""
     return [_nothing(context), _numbers(context), _texts(context)]
 
 
@@ -39,13 +39,16 @@ def _nothing(context: CheckContext) -> ExampleCall:
 
 
 def _numbers(context: CheckContext) -> ExampleCall:
-    """Return a call with two negative numbers; the dict has the second field first."""
+    """Return a call with two negative numbers; in the dict, the second field comes first."""
     a, b, total = (-number for number in context.random.integers(3, 100, 999))
     return ExampleCall("negative numbers", "course_pkg/AddTwoInts", {"b": b, "a": a}, {"sum": total})
 
 
 def _texts(context: CheckContext) -> ExampleCall:
-    """Return a call with nested messages, with quotes, and with the word off, which YAML reads as False."""
+    """Return a call with nested messages and with quotation marks.
+
+    It also contains the word off, which YAML reads as False.
+    """
     width, height, offset = context.random.integers(3, 100, 999)
     frame = f'{context.random.word()}\'s "own" $HOME'
     info = {

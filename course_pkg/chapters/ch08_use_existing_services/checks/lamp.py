@@ -1,4 +1,4 @@
-"""08.2: a server that is itself a client, and translates between two types."""
+"""08.2: a server that is also a client, and that translates between two types."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ COMPARED = "Return success=False if the lamp refuses or has another state."
     goals=[OBEYED, COMPARED, "Return success=False if the lamp has no server."],
 )
 def translate(context: CheckContext) -> None:
-    """Try a lamp that obeys, a lamp that does the opposite, a lamp that refuses, and no lamp."""
+    """Try a lamp that does what is requested, one that does the opposite, one that refuses, and no lamp."""
     panel = context.service("/lamp", "std_srvs/SetBool", hints=NO_ERROR)
     require_served_by_notebook(context, "/lamp")
     for data in (*context.random.shuffled([True, False]), context.random.choice([True, False])):
@@ -91,7 +91,7 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
 
 
 def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
-    state = context.random.choice([STATES[not data], f"NOT {STATES[data]}"])
+    state = STATES[not data]
     lamp = context.serve(LAMP, KIND, lambda _: {"state": state})
     response = panel(data=data)
     context.expect(

@@ -1,4 +1,4 @@
-"""08.1: all services of one type on the graph."""
+"""08.1: all services on the graph that have one type."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ FOUND = "Return the names of all services of the type, without a call."
     goals=[FOUND, "Leave out a service whose server has ended, and find a new one."],
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve two types and types with similar names; then add a service and a dead server's service."""
+    """Serve two types and types with similar names; then add a service, and a service of a dead server."""
     kind, other = context.random.shuffled(KINDS)[:2]
     short = kind.partition("/")[2]
     word = context.random.word()
@@ -86,15 +86,16 @@ def find_by_type(context: CheckContext) -> None:
 
 
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str]) -> None:
-    """Assert that the function returns all services of type `kind`; `mine` are the services of the check.
+    """Assert that the function returns all services of type `kind`; `mine` are the check's services.
 
-    `incomplete` is the hint if services are missing.
+    `incomplete` is the hint if a service is missing.
     """
     names = context.run("services_of", kind, hints=ERRORS).returned()
     _is_a_list_of_names(context, names)
     found: list[str] = of_kind(list, names, "the result")
     types = {service.name: service.type for service in context.look().services}
-    right = mine | {name for name, actual in types.items() if actual == kind}  # services of other nodes, too
+    # this includes services of other nodes
+    right = mine | {name for name, actual in types.items() if actual == kind}
     missing, extra = sorted(right.difference(found)), sorted(set(found) - right)
     context.require(
         "no other service is found",
@@ -129,7 +130,10 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
 
 
 def _why_wrong(types: set[str | None], kind: str) -> str:
-    """Return the hint for wrong names with these types. None means no service, and "" means a dead server."""
+    """Return the hint for wrong names whose services have these types.
+
+    None means that there is no service, and "" means that the server is dead.
+    """
     if None in types:
         return "The list has strings that are not names of services. Return only the names of services."
     if "" in types:

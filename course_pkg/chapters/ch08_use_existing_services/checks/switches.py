@@ -1,4 +1,4 @@
-"""08.3: a client that moves a switch, and then reads its position."""
+"""08.3: a client that moves a switch and then reads the position of the switch."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from course_pkg.checking.plain_values import Fields, Message
 
 @dataclass(frozen=True)
 class Case:
-    """The behaviour of a switch in a call, and the value that `move` has to return."""
+    """What a switch does in a call, and the value that `move` has to return."""
 
-    name: str  # its name in assertions
-    there: bool  # whether the switch is in the requested position already
+    name: str  # name of the case in the titles of assertions
+    there: bool  # whether the switch is already in the requested position
     obeys: bool  # whether it moves
     success: bool  # the value in the response
-    expected: str  # what `move` has to return
-    wrong_results: list[tuple[str, str]]  # wrong results and their hints
+    expected: str  # the value that `move` has to return
+    wrong_results: list[tuple[str, str]]  # wrong results, each with a hint
 
 
 CASES = (
@@ -106,19 +106,19 @@ CASES = (
 
 @dataclass
 class FakeSwitch:
-    """A switch that behaves as described in its case."""
+    """A switch that does what its case describes."""
 
     case: Case
     is_open: bool
     message: str
 
     def handle_set(self, request: Message) -> Fields:
-        """Move and respond as described in the case."""
+        """Move and respond in the way that the case describes."""
         self.is_open = bool(request.data) if self.case.obeys else self.is_open
         return {"success": self.case.success, "message": self.message}
 
     def handle_report(self, _: Message) -> Fields:
-        """Return the true position as the message."""
+        """Return the true position in the field `message`."""
         return {"success": True, "message": "open" if self.is_open else "closed"}
 
 
@@ -130,7 +130,7 @@ class FakeSwitch:
     deadline=25.0,
 )
 def move_and_verify(context: CheckContext) -> None:
-    """Try four kinds of switches, each in both directions."""
+    """Try four kinds of switches, and move each of them in both directions."""
     for case in CASES:
         for to_open in context.random.shuffled([True, False]):
             _move(context, case, to_open)

@@ -1,1 +1,1 @@
-"""The nodes that only chapter 08 runs; CMakeLists.txt makes an executable of each module."""
+"""The nodes that only chapter 08 uses; CMakeLists.txt makes an executable from each module."""

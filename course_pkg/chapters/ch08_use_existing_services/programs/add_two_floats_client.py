@@ -1,8 +1,8 @@
-"""The node `add_two_floats_client`: calls `add_two_ints` with another definition of the type, and is refused.
+"""The node `add_two_floats_client`: calls `add_two_ints` with another definition, and the server refuses it.
 
-Its definition has the same name, AddTwoInts, but the type float64 instead of int64. This happens in practice
-when a definition is changed, but only the client is built again. The server compares the MD5 sums when the
-client connects.
+Its definition has the same name, AddTwoInts, but the fields have the type float64 instead of int64. In
+practice, this happens if a definition was changed, but only the client was built again. When a client
+connects, the server compares the MD5 sums.
 """
 
 from __future__ import annotations
@@ -18,5 +18,8 @@ USAGE = "usage: add_two_floats_client A B   (two numbers, such as 1.5 2)"
 
 
 def main() -> None:
-    """Call with the numbers of the command line; exit with 1 after a refusal, with 2 for wrong arguments."""
+    """Call with the numbers on the command line.
+
+    The exit status is 1 after a refusal, and 2 for wrong arguments.
+    """
     sys.exit(add("add_two_floats_client", compile_service(NAME, DEFINITION), float, USAGE))

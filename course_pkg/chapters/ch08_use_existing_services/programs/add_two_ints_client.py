@@ -16,14 +16,18 @@ USAGE = "usage: add_two_ints_client A B   (two whole numbers that an int64 holds
 
 
 def main() -> None:
-    """Add the numbers of the command line; exit with 1 if the call fails, with 2 for wrong arguments."""
+    """Add the numbers on the command line.
+
+    The exit status is 1 if the call fails, and 2 for wrong arguments.
+    """
     sys.exit(add("add_two_ints_client", AddTwoInts, int64, USAGE))
 
 
 def add(node: str, kind: type | ServiceType, read: Callable[[str], float], usage: str) -> int:
-    """Call `add_two_ints` as the node `node` with the two arguments, and return the exit status.
+    """Call `add_two_ints` as the node `node` with the two arguments; return the exit status.
 
-    `kind` is the type that the client uses. `read` converts an argument to a number, or raises ValueError.
+    `kind` is the type that the client uses. `read` converts an argument to a number; it raises ValueError if
+    this is not possible.
     """
     try:
         a, b = map(read, rospy.myargv(sys.argv)[1:])
@@ -33,7 +37,7 @@ def add(node: str, kind: type | ServiceType, read: Callable[[str], float], usage
 
 
 def int64(argument: str) -> int:
-    """Return an argument as a whole number; raises ValueError if an int64 cannot hold it."""
+    """Return an argument as a whole number; raises ValueError if it is out of the range of an int64."""
     number = int(argument)
     if not -LARGEST - 1 <= number <= LARGEST:
         raise ValueError(argument)

@@ -1,4 +1,4 @@
-"""The node `add_two_ints_server`: adds two whole numbers, as the service `add_two_ints`."""
+"""The node `add_two_ints_server`: serves `add_two_ints`, which adds two whole numbers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def main() -> None:
 
 
 def add(request: AddTwoIntsRequest) -> AddTwoIntsResponse:
-    """Return a + b; raises ServiceException for a sum that an int64 cannot hold."""
+    """Return a + b; raises ServiceException if the sum is out of the range of an int64."""
     total = request.a + request.b
     if not -LARGEST - 1 <= total <= LARGEST:
         raise rospy.ServiceException(f"{total} is more than an int64 can hold")

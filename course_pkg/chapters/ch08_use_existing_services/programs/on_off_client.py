@@ -1,4 +1,4 @@
-"""The node `on_off_client`: calls `on_off` with 0 or 1, at random, and prints the response."""
+"""The node `on_off_client`: calls `on_off` with a random number, 0 or 1, and prints the response."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ USAGE = "usage: on_off_client   (no arguments: it sends 0 or 1 at random)"
 
 
 def main() -> None:
-    """Call once; exit with 1 if the call fails, with 2 for wrong arguments."""
+    """Make one call; the exit status is 1 if it fails, and 2 for wrong arguments."""
     if len(rospy.myargv(sys.argv)) > 1:
         sys.exit(complain(USAGE, 2))
     number = random.randint(0, 1)  # noqa: S311 -- the number is not a secret

@@ -1,6 +1,6 @@
-"""The node `switch`: can be opened and closed, and reports its position.
+"""The node `switch`: a client can open and close the switch, and read its position.
 
-Its services are `~set` (std_srvs/SetBool: True opens, False closes), `~toggle` and `~report`
+Its services are `~set` (std_srvs/SetBool: True opens and False closes the switch), `~toggle` and `~report`
 (std_srvs/Trigger), and `~reset` (std_srvs/Empty). It starts closed.
 """
 
@@ -17,7 +17,7 @@ Response = tuple[bool, str]  # success and message
 
 
 class Switch:
-    """A switch that several clients may call at the same time."""
+    """A switch; several clients may call its services at the same time."""
 
     def __init__(self) -> None:
         self._open = False
@@ -25,7 +25,10 @@ class Switch:
         self._lock = threading.Lock()
 
     def handle_set(self, request: SetBoolRequest) -> Response:
-        """Open for True, close for False; success means that it moved; the message describes the move."""
+        """Open the switch for True, and close it for False.
+
+        `success` says whether it moved, and the message describes the move.
+        """
         with self._lock:
             if request.data == self._open:
                 message = f"already {self._position()}"
@@ -34,12 +37,12 @@ class Switch:
             return True, self._moved(request.data)
 
     def handle_toggle(self, _: TriggerRequest) -> Response:
-        """Open if closed, close if open; the message describes the move."""
+        """Open the switch if it is closed, and close it if it is open; the message describes the move."""
         with self._lock:
             return True, self._moved(not self._open)
 
     def handle_report(self, _: TriggerRequest) -> Response:
-        """Return the position, open or closed, as the message."""
+        """Return the position, "open" or "closed", as the message."""
         with self._lock:
             rospy.logdebug("Position: %s; moves so far: %d", self._position(), self._moves)
             return True, self._position()

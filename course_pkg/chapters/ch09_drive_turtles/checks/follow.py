@@ -1,4 +1,4 @@
-"""09.5: a client that calls three services, and then passes velocities on to a second turtle."""
+"""09.5: a client that calls three services and then publishes turtle1's velocities for a second turtle."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ PROGRAM = script("spawn_turtle_plus")
 ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # m/s
-LATER = 0.5  # s after which /toggle_forward starts
+LATER = 0.5  # s after which /toggle_forward is served
 WHERE = "Publish only on /NAME/cmd_vel, where NAME is the name in the response of /spawn."
 ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
-ENDING = 0.6  # s in which a program without spin() ends
+ENDING = 0.6  # time in s in which a program without spin() ends
 COUNT = 20  # number of velocities that the check publishes
 STOPS = (
     "if a service is missing for 5 s or refuses a call, the program calls no further service and ends with 1"
@@ -52,13 +52,13 @@ FOLLOW_GOALS = {CALLED: 3, PASSED_ON: 3, "End with 1 if a service is missing or 
     goals=FOLLOW_GOALS,
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
-    """Serve all three services; in two other runs, leave one service out, or refuse a call."""
+    """Serve all three services; in two other runs, one service is missing, or a call is refused."""
     follows(context, PROGRAM)
 
 
 @dataclass
 class Driver:
-    """The three services in a namespace of the check; they record all calls in the order of arrival."""
+    """The three services in a namespace of the check; they record all calls in order."""
 
     context: CheckContext
     world: World
@@ -67,7 +67,7 @@ class Driver:
     servers: dict[str, ScriptedServer] = field(default_factory=dict)
 
     def serve(self, *services: str, refusing: str = "") -> None:
-        """Start to serve these services; the service named `refusing` refuses each call."""
+        """Begin to serve these services; the service `refusing` refuses each call."""
         for service in services:
             self.servers[service] = self.context.serve(
                 self.world.name(service),
@@ -76,7 +76,7 @@ class Driver:
             )
 
     def requests(self, service: str) -> list[dict[str, Json]]:
-        """Return the requests that a service has received."""
+        """Return the requests that the service has received."""
         return [dict(request) for request in self.servers[service].requests]
 
     def _act(self, service: str, *, refuse: bool) -> Act:
@@ -90,9 +90,9 @@ class Driver:
 
 
 def follows(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise asks of spawn_turtle_plus.
+    """Assert that a program does what the exercise requires of spawn_turtle_plus.
 
-    Its three runs overlap, because one of them takes 5 s.
+    Three runs of the program overlap, because one of them takes 5 s.
     """
     copy = program.prepare(context, program)
     name = context.random.word()
@@ -113,7 +113,7 @@ def follows(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> None:
-    """Assert that the program calls all three services in order; two of them start late."""
+    """Assert that the program calls all three services in order; two of the services start late."""
 
     def called(count: int, within: float) -> bool:
         return wait_until(lambda: len(driver.calls) >= count or running.status is not None, within, 0.05)
@@ -123,12 +123,14 @@ def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> 
     driver.serve("toggle_forward", "change_speed")
     called(len(ORDER), LIMIT)
     done = running.status
-    actual = [f"/{name}" for name in driver.calls]
+    actual = ", ".join(f"/{name}" for name in driver.calls)
+    if not actual:
+        actual = "no call" if done is None else f"no call, {outcome(running.stop())}"
     context.require(
         "the program calls /spawn, /toggle_forward and /change_speed once each, in this order",
         holds=driver.calls == list(ORDER),
         expected=", ".join(f"/{name}" for name in ORDER),
-        actual=", ".join(actual) or "no call",
+        actual=actual,
         hints=_why_not_called(driver.calls, running, ended=done is not None),
     )
     context.expect(
@@ -163,7 +165,7 @@ def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
 
 
 def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
-    """Assert that velocities for turtle1 reach the new turtle; its name in the response is random."""
+    """Assert that turtle1's velocities reach the new turtle; its name in the response is random."""
     standing = _velocity(0.0, 0.0, 0.0)
     velocities = [standing, *(_velocity(*context.random.numbers(3, -2.0, 2.0)) for _ in range(COUNT - 1))]
     subscription = context.subscribe(driver.world.name(f"{driver.name}/cmd_vel"), TWIST)

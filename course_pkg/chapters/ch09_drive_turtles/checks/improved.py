@@ -1,4 +1,7 @@
-"""09.4: a driver with services for its direction, rate and speed, and a service that stops the turtle."""
+"""09.4: a driver with services for the direction, the rate and the speed.
+
+Another service stops the turtle.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +18,7 @@ from course_pkg.checking.peers.service_calls import Service
 PROGRAM = script("improved_pubvel_toggle")
 CHANGE_SPEED = "course_pkg/ChangeSpeed"
 SERVICES = ("toggle_forward", "change_rate", "change_speed", "start_stop")
-RATE = 20.0  # messages per second during the check, so that the check takes less time
+RATE = 20.0  # messages per second; the check sets this rate, so that it takes less time
 STANDING = (0.0, 0.0)
 ANY_SPEED = (
     "The node refused a speed that is allowed. Accept every finite number; a negative speed means backwards."
@@ -43,12 +46,12 @@ IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtl
     goals=IMPROVED_GOALS,
 )
 def change_speed_and_stop(context: CheckContext) -> None:
-    """Set speeds, stop and start the turtle in both directions, and check the published velocities."""
+    """Set speeds, stop and start the turtle in both directions, and compare the published velocities."""
     is_improved(context, PROGRAM)
 
 
 def is_improved(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise asks of improved_pubvel_toggle."""
+    """Assert that a program does what the exercise requires of improved_pubvel_toggle."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, *SERVICES)
@@ -136,7 +139,7 @@ def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float
 def _starts_and_stops(
     context: CheckContext, world: World, stream: Stream, toggle: Service, change_speed: Service
 ) -> None:
-    """In each of the two directions, stop the turtle twice, set another speed, and start it twice."""
+    """In each direction, stop the turtle twice, set another speed, and start it twice."""
     switch = world.service(
         "start_stop",
         "std_srvs/SetBool",

@@ -20,14 +20,14 @@ from course_pkg.ros import Snapshot
 
 DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
 ALWAYS = {"/turtlesim", f"/{DRIVER}"}
-READY = 20.0  # s for a launch file on a busy machine
-# A script that starts the course's own program instead of the student's program of an earlier exercise.
+READY = 20.0  # maximum time in s until a launch file has started its nodes on a busy machine
+# a script that starts the course's program in place of the student's program from an earlier exercise
 STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'
 
 
 @dataclass(frozen=True)
 class LaunchFile:
-    """A launch file of a package, and the two programs of this package that the file starts."""
+    """A launch file of a package, and the two programs of this package that it starts."""
 
     driver: TurtleProgram
     second: TurtleProgram
@@ -72,7 +72,7 @@ def two_turtles_or_one(context: CheckContext) -> None:
 
 
 def launches(context: CheckContext, file: LaunchFile) -> None:
-    """Assert that a launch file does what the exercise asks of exercise3.launch."""
+    """Assert that a launch file does what the exercise requires of exercise3.launch."""
     copy = _copy(context, file)
     for argument, wanted in (("addturtle:=false", False), ("", False), ("addturtle:=true", True)):
         listed = copy.run(f"roslaunch --nodes {file.path} {argument}", within=20.0)
@@ -89,7 +89,7 @@ def launches(context: CheckContext, file: LaunchFile) -> None:
 
 
 def _copy(context: CheckContext, file: LaunchFile) -> BuiltPackage:
-    """Return a package with a copy of the launch file and with the course's own programs."""
+    """Return a package with a copy of the student's launch file and with the course's programs."""
     package = Package(file.package, {"package.xml": MANIFEST.format(name=file.package)})
     programs = {
         package.path(f"scripts/{program.command}"): STAND_IN.format(name=program.command.removesuffix(".py"))
@@ -154,7 +154,7 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
 
 
 def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
-    """Assert that roslaunch finds each program, before the nodes are started."""
+    """Assert that roslaunch finds each program; this happens before nodes are started."""
     names = ("turtlesim", DRIVER, SECOND)
     each = (
         f"for n in {' '.join(names)}; do roslaunch --args /$n {file.path} addturtle:=true 2>&1"

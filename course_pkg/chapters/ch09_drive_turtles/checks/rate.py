@@ -1,4 +1,4 @@
-"""09.3: a driver whose rate a service changes."""
+"""09.3: a driver with a service that changes the rate."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from course_pkg.checking.peers.service_calls import Service
 PROGRAM = script("pubvel_toggle_plus")
 KIND = "course_pkg/ChangeRate"
 AT_FIRST = 2.0  # messages per second
-TINY = 0.001  # messages per second; the check sets it last, because the next message comes after 1000 s
+# messages per second; the check sets this rate at the end, because the next message then comes after 1000 s
+TINY = 0.001
 ALLOWED = "The node refused a rate that is allowed: above 0 and at most 100, with fractions."
 REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
 
@@ -75,7 +76,7 @@ def change_the_rate(context: CheckContext) -> None:
 
 
 def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise asks of pubvel_toggle_plus."""
+    """Assert that a program does what the exercise requires of pubvel_toggle_plus."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, "toggle_forward", "change_rate")
@@ -96,9 +97,10 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
-    """Set allowed rates and measure some of them, try impossible rates, and return the last allowed rate.
+    """Set allowed rates and measure some of them, try forbidden rates, and return the last allowed rate.
 
-    The slow rate is below 1 Hz and far from a whole number. The number of rates is random.
+    One slow rate is below 1 Hz, and its period is far from a whole number of seconds. The number of rates is
+    random.
     """
     fast, slow = context.random.number(40.0, 50.0), context.random.number(0.6, 0.7)
     others = context.random.numbers(context.random.integer(1, 4), 5.0, 90.0)
@@ -151,7 +153,10 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
-    """Assert that the node refuses a request intentionally; in rospy, this means with a ServiceException."""
+    """Assert that the node refuses a request deliberately.
+
+    With rospy, it raises a ServiceException for this.
+    """
     (number,) = fields.values()
     why = (
         "each comparison with nan is false, so your test does not find it"

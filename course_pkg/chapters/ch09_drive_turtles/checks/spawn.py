@@ -1,4 +1,4 @@
-"""09.1: a client of /spawn that waits for the simulator, but for a limited time."""
+"""09.1: a client of /spawn that waits for the simulator for a limited time."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from course_pkg.waiting import at_this_load, wait_until
 PROGRAM = script("spawn_turtle")
 SPAWN = "turtlesim/Spawn"
 TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
-LIMIT = 5.0  # s that a program waits for a service
+LIMIT = 5.0  # s for which the student's program waits for a service
 NO_WAIT = "Without a wait, the call fails immediately: wait for the service first, for at most 5 s."
-NO_WAIT_ENDS = 1.0  # s in which a program without a wait has ended
-WITHOUT_A_WAIT = 0.5  # s in which a program that does not wait ends
+NO_WAIT_ENDS = 1.0  # time in s in which a program without a wait has ended
+WITHOUT_A_WAIT = 0.5  # time in s in which a program that does not wait ends
 LATE = 2.5  # additional s that the program may need to start and to end
-EARLY = 3.0  # s; a program that gives up earlier uses another limit than 5 s
+EARLY = 3.0  # s; if a program ends earlier, its limit is not 5 s
 REFUSED = "a second MyTurtle is refused, and the exit status is 1"
 GIVES_UP = "without /spawn, the program gives up after 5 s with the exit status 1"
 
@@ -57,14 +57,14 @@ SPAWN_GOALS = {SPAWNED: 3, ENDS: 1}
     goals=SPAWN_GOALS,
 )
 def wait_and_spawn(context: CheckContext) -> None:
-    """Run the program with a server, without a server, and with a server that starts later."""
+    """Run the program with a server, without one, and with a server that starts later."""
     spawns(context, PROGRAM)
 
 
 def spawns(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise asks of spawn_turtle.
+    """Assert that a program does what the exercise requires of spawn_turtle.
 
-    Its runs overlap, because one of them takes 5 s.
+    The runs overlap, because one of them takes 5 s.
     """
     copy = program.prepare(context, program)
     alone, early, served, real = (World(context, copy, program) for _ in range(4))
@@ -79,9 +79,9 @@ def spawns(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _served_late(context: CheckContext, world: World, running: Running) -> tuple[float, Finished]:
-    """Start a server while the program waits.
+    """Start a server while the program is waiting.
 
-    Returns when the program began, in s of time.monotonic(), and how it ended.
+    Returns the time at which the program started (s, time.monotonic()), and how it ended.
     """
     began = world.begins(running)
     wait_until(lambda: running.status is not None, at_this_load(WITHOUT_A_WAIT), 0.05)
@@ -93,7 +93,7 @@ def _served_late(context: CheckContext, world: World, running: Running) -> tuple
 
 
 def _prints_the_name(context: CheckContext, world: World) -> None:
-    """Respond with another name."""
+    """Respond with a name other than the requested one."""
     given = context.random.word()
     server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": given})
     with world.run() as running:

@@ -1,4 +1,4 @@
-"""09.2: a driver whose direction a service toggles."""
+"""09.2: a driver with a service that toggles the direction."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def toggle_direction(context: CheckContext) -> None:
 
 
 def toggles(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise asks of pubvel_toggle."""
+    """Assert that a program does what the exercise requires of pubvel_toggle."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, "toggle_forward")
@@ -92,7 +92,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _counts_each_call(toggle: Service, stream: Stream) -> None:
-    """Call several times in a row, so that several calls come between two messages."""
+    """Make several calls quickly, so that there are several calls between two messages."""
     for _ in range(2):
         toggle()
     stream.becomes(STRAIGHT, NEXT_CALL, BACK)
@@ -104,7 +104,7 @@ def _counts_each_call(toggle: Service, stream: Stream) -> None:
 def toggles_the_stream(
     toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
 ) -> None:
-    """Toggle to turning and back to straight ahead, `times` times."""
+    """Change the direction to turning and back to straight ahead; do this `times` times."""
     for _ in range(times):
         toggle()
         stream.becomes(TURNING, ONE_CALL, TOGGLED)

@@ -1,4 +1,4 @@
-"""A turtle program of the student's package, in Python or in C++, and the copy that a check runs."""
+"""A turtle program in the student's package, in Python or in C++, and the copy that a check runs."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ MANIFEST = """\
   <buildtool_depend>catkin</buildtool_depend>
 </package>
 """
-# With this path, ROS finds the package although it was not built.
+# with this path, ROS finds the package although it is not built
 SETUP = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 
 
 @dataclass(frozen=True)
 class TurtleProgram:
-    """A program that an exercise asks for.
+    """A program that the student writes in an exercise.
 
-    `file` is its path in the package; `command` follows the package name in the rosrun command. `prepare`
-    asserts that the file is a program. It returns a copy of the package, from which rosrun starts the
-    program.
+    `file` is its path in the package; `command` is the rosrun command without "rosrun" and the name of the
+    package. `prepare` asserts that the file is a program. It returns a copy of the package; rosrun can start
+    the program in this copy.
     """
 
     package: Package

@@ -1,4 +1,4 @@
-"""A namespace of the check, in which the student's program and the course's simulator run."""
+"""A namespace of the check, with the student's program and the course's simulator."""
 
 from __future__ import annotations
 
@@ -16,20 +16,22 @@ from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.waiting import wait_until
 from course_pkg.workspace import explain
 
-STARTING = 30.0  # s for a node to be on the graph; it takes 1 s on an idle machine
-SETTLING = 4.0  # s that the node then has to offer its services
+STARTING = 30.0  # maximum time in s until a node is on the graph; it takes 1 s on an idle machine
+SETTLING = 4.0  # maximum time in s until this node serves its services
 POLL = 0.05  # s between two snapshots of the graph
 SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")
 TOPICS = ("turtle1/cmd_vel", "turtle1/pose", "MyTurtle/cmd_vel", "MyTurtle/pose")
-LOGGERS = ("/get_loggers", "/set_logger_level")  # every node has them
+LOGGERS = ("/get_loggers", "/set_logger_level")  # every node has these services
 
 
 class World:
-    """The names in a new namespace. The student's program uses them, with relative and with absolute names.
+    """The names in a new namespace, which the student's program uses.
 
-    A relative name such as "spawn" is resolved in the namespace of the node; an absolute name is remapped.
-    The names of `services` and the topics of an additional `turtle` are remapped.
+    The program may use relative and absolute names.
+
+    A relative name such as "spawn" is resolved in the namespace of the node, and an absolute name is
+    remapped. The names of `services` and the topics of an additional `turtle` are remapped.
     """
 
     def __init__(
@@ -48,16 +50,16 @@ class World:
         self._arguments = f"__ns:={self._space} {remapped}"
 
     def name(self, relative: str) -> str:
-        """Return the full name of a topic or service, such as "turtle1/pose", in this namespace."""
+        """Return the full name in this namespace of a topic or service, such as "turtle1/pose"."""
         return f"{self._space}/{relative}"
 
     def run(self, arguments: str = "") -> Running:
-        """Start the student's program, with arguments such as "_level:=5"; a context manager."""
+        """Start the student's program with arguments such as "_level:=5"; the result is a context manager."""
         line = f"{self._program.line} {self._arguments} {arguments}"
         return self._copy.start(line, worded=self._program.line)
 
     def simulator(self) -> Running:
-        """Start the simulator; a context manager."""
+        """Start the simulator; the result is a context manager."""
         line = f"rosrun turtlesim turtlesim_node __ns:={self._space} __name:={SIMULATOR}"
         return self._copy.start(line, worded="rosrun turtlesim turtlesim_node")
 
@@ -66,24 +68,30 @@ class World:
         return self._context.service(self.name(relative), kind, hints=hints, timeout=5.0)
 
     def appears(self, relative: str, within: float = STARTING) -> bool:
-        """Wait at most `within` s until the service `relative` is registered; return whether it is."""
+        """Wait for at most `within` s until the service `relative` is registered; return whether it is."""
         wanted = self.name(relative)
         return bool(wait_until(lambda: self._context.look().service(wanted), within, POLL))
 
     def begins(self, running: Running) -> float:
-        """Wait until the student's node is on the graph or has ended; return the time of time.monotonic()."""
+        """Wait until the student's node is on the graph or has ended.
+
+        Return the time (s, time.monotonic()).
+        """
         wait_until(
             lambda: bool(self._own_services(loggers=True)) or running.status is not None, STARTING, POLL
         )
         return time.monotonic()
 
     def ends(self, running: Running, within: float) -> Finished:
-        """Wait at most `within` s for the end of the student's program; return how it ended."""
+        """Wait for at most `within` s until the student's program ends; return how it ended."""
         wait_until(lambda: running.status is not None, within, POLL)
         return running.stop()
 
     def serves(self, running: Running, *names: str) -> None:
-        """Wait until the student's program offers all these services; otherwise report what it does."""
+        """Wait until the student's program serves all these services.
+
+        If it does not, report what happened.
+        """
         assertion = f"{self._program.line} starts a node that offers {_listed(names)}"
         began, seen = time.monotonic(), 0.0
         while missing := [name for name in names if self._context.look().service(self.name(name)) is None]:
@@ -112,7 +120,7 @@ class World:
         )
 
     def _own_services(self, *, loggers: bool) -> list[str]:
-        """Return the services of the student's program, by their names in this namespace."""
+        """Return the services of the student's program by their names in this namespace."""
         found = [each for each in self._context.look().services if each.name.startswith(f"{self._space}/")]
         simulator = self.name(SIMULATOR)
         return [
@@ -123,14 +131,14 @@ class World:
 
 
 def outcome(done: Finished) -> str:
-    """Return how a program ended, with the last line that it printed."""
+    """Return how a program ended; the text contains the last line of its output."""
     ending = "a program that is still running" if done.status is None else f"exit status {done.status}"
     last = (done.out + done.err).strip().rpartition("\n")[2]
     return f"{ending}, and {last}" if last else f"{ending}, and no output"
 
 
 def why_it_ended(done: Finished) -> str:
-    """Return the hint for a program that ended although it should keep running."""
+    """Return the hint for a program that has ended although it has to continue."""
     if fault := explain(done.out + done.err):
         return f"{fault.problem} {fault.remedy}"
     if "rror" in done.out + done.err:

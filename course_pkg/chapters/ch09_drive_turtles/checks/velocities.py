@@ -1,4 +1,4 @@
-"""The velocities that a program publishes for turtle1."""
+"""The velocities that the student's program publishes for turtle1."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from course_pkg.waiting import wait_until
 
 TWIST = "geometry_msgs/Twist"
 KEEP_COMING = "the program publishes velocities all the time"
-SILENCE = 4.0  # s without a message; the programs publish at least twice a second here
-FLYING = 0.05  # s after the response of a service in which an older message may still arrive
+SILENCE = 4.0  # maximum s without a message; in the check, the programs publish at least twice per second
+FLYING = 0.05  # s after a response; in this time, a message from before the call may still arrive
 SILENT = (
     "No velocity arrived for 4 s. Publish in each round of the loop, even if the velocity is 0, and never "
     "make the pause between two messages longer."
 )
-NEAR = 0.25  # allowed relative error of a rate: the machine may be busy
+NEAR = 0.25  # allowed relative error of a rate, because the machine may be busy
 
 
 class Stream:
-    """A subscription to the velocities of turtle1 in a world."""
+    """A subscription to the velocities of turtle1 in a `World`."""
 
     def __init__(self, context: CheckContext, world: World, running: Running) -> None:
         self._context = context
@@ -38,7 +38,7 @@ class Stream:
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
-        """Return the next `count` messages; assert that each of them arrives within `within` s."""
+        """Return the next `count` messages; assert that none of them takes longer than `within` s."""
         before = len(self._subscription.arrivals)
         for number in range(before + 1, before + count + 1):
             if len(self._subscription.wait(number, within)) < number:
@@ -57,7 +57,10 @@ class Stream:
         )
 
     def becomes(self, wanted: tuple[float, float], assertion: str, hints: Hints) -> None:
-        """Assert that the velocity is `wanted` (m/s, rad/s) from now on; older messages are skipped."""
+        """Assert that the velocity is `wanted` (m/s, rad/s) from now on.
+
+        Messages from before are left out.
+        """
         now = time.monotonic()
         arrival = self.next(1)[-1]
         while arrival.at < now + FLYING or (
@@ -73,7 +76,10 @@ class Stream:
         )
 
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
-        """Assert that `wanted` messages per second arrive, possibly after a few messages at the old rate."""
+        """Assert that `wanted` messages per second arrive.
+
+        Some messages before may still have the old rate.
+        """
         count = max(2, int(wanted))
         measured = rate(self.next(count + 2)[1:])
         if abs(measured - wanted) > NEAR * wanted:
@@ -87,7 +93,7 @@ class Stream:
         )
 
     def moves_turtle(self) -> None:
-        """Assert that the turtle of the simulator moves."""
+        """Assert that the turtle in the simulator moves."""
         poses = self._context.subscribe(self._world.name("turtle1/pose"), "turtlesim/Pose")
         poses.wait(1, 10.0)
 

@@ -1,4 +1,4 @@
-"""The node `improved_pubvel_toggle`: also offers the services `change_speed` and `start_stop`."""
+"""The node `improved_pubvel_toggle`: it also serves `change_speed` and `start_stop`."""
 
 from __future__ import annotations
 

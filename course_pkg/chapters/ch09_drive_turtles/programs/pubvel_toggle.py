@@ -1,4 +1,7 @@
-"""The node `pubvel_toggle`: drives turtle1 straight ahead or turns it; `toggle_forward` changes this."""
+"""The node `pubvel_toggle`: drives turtle1 straight ahead or turns it.
+
+`toggle_forward` changes the direction.
+"""
 
 from __future__ import annotations
 

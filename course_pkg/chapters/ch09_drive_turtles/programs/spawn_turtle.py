@@ -1,4 +1,4 @@
-"""The node `spawn_turtle`: waits at most 5 s for a simulator, spawns MyTurtle at (3, 3), and ends."""
+"""The node `spawn_turtle`: waits for a simulator for at most 5 s, spawns MyTurtle at (3, 3), and ends."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ TIMEOUT = 5.0  # s
 
 
 def main() -> None:
-    """Spawn the turtle and log its name; exit with status 1 if this fails."""
+    """Spawn the turtle and log its name; if this fails, the exit status is 1."""
     rospy.init_node("spawn_turtle")
     prepare_node()
     spawn_or_exit()
 
 
 def spawn_or_exit() -> None:
-    """Spawn MyTurtle at (3, 3) as soon as a simulator runs; exit with status 1 if this fails."""
+    """Spawn MyTurtle at (3, 3) as soon as a simulator is running; if this fails, the exit status is 1."""
     require("spawn")
     try:
         response = rospy.ServiceProxy("spawn", Spawn)(*PLACE, NAME)
@@ -35,7 +35,7 @@ def spawn_or_exit() -> None:
 
 
 def require(service: str) -> None:
-    """Wait for a service; exit with status 1 if it does not start within the timeout."""
+    """Wait for a service; if it does not start in time, exit with status 1."""
     try:
         rospy.wait_for_service(service, TIMEOUT)
     except rospy.ROSException as error:

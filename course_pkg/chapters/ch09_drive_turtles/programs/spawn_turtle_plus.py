@@ -1,4 +1,4 @@
-"""The node `spawn_turtle_plus`: spawns MyTurtle, and publishes the velocities of turtle1 for it, too."""
+"""The node `spawn_turtle_plus`: spawns MyTurtle, and also publishes turtle1's velocities for it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SPEED = 2.0  # m/s
 
 
 def main() -> None:
-    """Spawn MyTurtle, toggle turtle1 and set its speed, and pass on each velocity; exit with 1 on failure."""
+    """Spawn MyTurtle, toggle turtle1, set its speed, and publish its velocities for MyTurtle, too."""
     rospy.init_node("spawn_turtle_plus")
     prepare_node()
     spawn_or_exit()

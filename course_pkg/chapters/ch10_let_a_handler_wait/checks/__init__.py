@@ -1,4 +1,4 @@
-"""The checks of chapter 10: simultaneous calls, waiting handlers, races and deadlocks."""
+"""The checks of chapter 10 are about simultaneous calls, waiting handlers, races and deadlocks."""
 
 from course_pkg.chapters.ch10_let_a_handler_wait.checks.basket import wait_for_another_call
 from course_pkg.chapters.ch10_let_a_handler_wait.checks.calls_at_once import calls_at_once

@@ -10,10 +10,10 @@ from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
 from course_pkg.checking.peers.service_calls import Reply, Service
 from course_pkg.checking.plain_values import Message
 
-LIMIT = 1.6  # s that a handler of the checked basket waits
-SLACK = 0.8  # s that a busy machine may add
-LATER = 0.3  # s until an item comes
-LAST = 1.2  # s until the last of several items comes
+LIMIT = 1.6  # s for which a handler of the checked basket waits
+SLACK = 0.8  # additional s for a busy machine
+LATER = 0.3  # s until an item is put into the basket
+LAST = 1.2  # s until the last of several items is put into the basket
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -95,7 +95,10 @@ ERRORS = [
     deadline=45.0,
 )
 def wait_for_another_call(context: CheckContext) -> None:
-    """Take from a filled and an empty basket; put an item while a client waits; then use many clients."""
+    """Take from a filled and an empty basket; put an item while a client is waiting.
+
+    Then use many clients.
+    """
     names = [f"/{context.random.word()}" for _ in range(2)]
     context.prepare(KERNEL_CODE)
     opened = context.run("checked_basket.open", Its("Basket"), LIMIT, *names, worded=f"Basket({LIMIT:g})")
@@ -197,7 +200,7 @@ def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> No
 
 
 def _shares_the_items(context: CheckContext, put: Service, take: Service) -> None:
-    """Let several clients wait, and put fewer items than clients, one after the other, with pauses."""
+    """Let several clients wait, and put fewer items than there are clients, with a pause after each item."""
     items = context.random.integer(2, 4)
     clients = items + context.random.integer(2, 4)
     pause = (LAST - LATER) / (items - 1)

@@ -16,12 +16,13 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
 TRIGGER = "std_srvs/Trigger"
-TOGETHER = 1.0  # s for which the server lets a call wait for the other calls
-LIMIT = 6.0  # s for the student's function
-PROMPT = 0.3  # s after the last response; a function that returns later may not join its threads, but sleep
-LONGER = 1.0  # s by which the calls of an additional round last longer than this delay
+TOGETHER = 1.0  # s for which the server lets a call wait until the other calls have arrived
+LIMIT = 6.0  # time limit for the student's function (s)
+# s after the last response; if a function returns later, it may sleep in place of joining its threads
+PROMPT = 0.3
+LONGER = 1.0  # s by which the calls of an additional round are longer than this delay
 
-# This code reports each call of a persistent proxy, from the thread that makes the call.
+# This code reports each call through a persistent proxy, on the thread that makes the call.
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -57,7 +58,7 @@ SHARED = (
 
 
 class Proxies:
-    """Records which threads call each persistent proxy."""
+    """Records the threads that use each persistent proxy."""
 
     def __init__(self) -> None:
         self.calls = 0
@@ -65,30 +66,30 @@ class Proxies:
 
     @remote
     def called(self, proxy: Value) -> None:
-        """Record a call of the persistent proxy with the id `proxy`, by the current thread."""
+        """Record a call through the persistent proxy with the id `proxy`, on the current thread."""
         self._threads.setdefault(str(proxy), set()).add(threading.current_thread())
         self.calls += 1
 
     @property
     def shared(self) -> bool:
-        """Whether several threads have called the same proxy."""
+        """Whether several threads have used the same proxy."""
         return any(len(threads) > 1 for threads in self._threads.values())
 
 
 class Gate:
-    """A service that responds `hold` s after `count` clients have called it, or after TOGETHER s."""
+    """A service whose response comes `hold` s after `count` clients have called it, or after TOGETHER s."""
 
     def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
-        self.most = 0  # the largest number of clients that waited at the same time
+        self.most = 0  # maximum number of clients that waited at the same time
         self.requests = 0
-        self.answered = 0.0  # when the last response was sent, in s of time.monotonic()
+        self.answered = 0.0  # time at which the last response was sent (s, time.monotonic())
         self._count, self._words, self._hold = count, words, hold
         self._inside = 0
         self._full = False
         self._changed = threading.Condition()
 
     def __call__(self, _: Message) -> dict[str, Json]:
-        """Handle a request: wait for the other clients, and respond with a different word for each."""
+        """Handle a request: wait for the other clients, and return a different word for each of them."""
         with self._changed:
             word = self._words[self.requests % len(self._words)]
             self.requests += 1
@@ -134,7 +135,10 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Offer a service that responds after all clients have called; use two different numbers of clients."""
+    """Serve a response that comes only after all clients have called.
+
+    Use two different numbers of clients.
+    """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
@@ -147,7 +151,10 @@ def calls_at_once(context: CheckContext) -> None:
 
 
 def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
-    """Run the function with `count` calls of `hold` s; return its delay after the last response in s."""
+    """Run the function with `count` calls of `hold` s.
+
+    Return the time from the last response to its end, in s.
+    """
     name = f"/{context.random.word()}"
     proxies = Proxies()
     context.place("checked_proxies", proxies)
@@ -165,7 +172,7 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
 
 
 def _called(context: CheckContext, count: int, gate: Gate) -> None:
-    # Threads that the function did not join may call later.
+    # threads that the function did not join may call later
     wait_until(lambda: gate.requests >= count, TOGETHER)
     context.expect(
         "the service is called `count` times",

@@ -1,4 +1,4 @@
-"""10.2: a handler that waits for a customer, with a time limit."""
+"""10.2: a handler that waits for a customer, for a limited time."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from course_pkg.waiting import wait_until
 
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
-SLACK = 1.5  # s that a busy machine may add
-LONG = 2.0  # s; request.patience if no customer arrives. A handler that waits twice as long exceeds SLACK.
-LATER = 0.6  # s until a customer arrives
-PATIENCE = 5.0  # s; a request.patience that is longer than every wait for a customer
-CHANGE = 2.2  # s until a change that no client waits for
-SELDOM = 8  # calls of watch.next() in LONG s; with fewer calls and no wait, a handler is too slow
-LOOKS = 3000  # calls of watch.next() in LONG s; a loop without a pause makes many more
+SLACK = 1.5  # additional s for a busy machine
+LONG = 2.0  # request.patience in s if no customer comes; a handler that waits twice as long exceeds SLACK
+LATER = 0.6  # s until a customer comes
+PATIENCE = 5.0  # request.patience in s; it is longer than every wait for a customer
+CHANGE = 2.2  # s until a change for which no client waits
+SELDOM = 8  # number of calls of watch.next() in LONG s; a handler with fewer calls and no wait is too slow
+LOOKS = 3000  # number of calls of watch.next() in LONG s; a loop without a pause makes many more calls
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"
 AT_ONCE = (
@@ -99,7 +99,10 @@ FOUND = "Respond as soon as a customer is there, and after request.patience at t
     goals={FOUND: 2, "Respond to several clients at the same time.": 1},
 )
 def wait_for_a_customer(context: CheckContext) -> None:
-    """Call without a customer; with a present, a known and a late customer; then from several clients."""
+    """Call without a customer; then with a present, a known and a late customer.
+
+    Then from several clients.
+    """
     counter, name = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(A_SHOP)
     opened = context.run("shop.open", Its("handle_detect"), counter, name, worded="rospy.Service(...)")
@@ -120,7 +123,7 @@ def wait_for_a_customer(context: CheckContext) -> None:
 
 
 class _Shop:
-    """Publishes the customers at the counter repeatedly, as the camera does."""
+    """Publishes the customers at the counter again and again, like the camera."""
 
     def __init__(self, context: CheckContext, counter: str) -> None:
         self._context, self._counter = context, counter
@@ -139,7 +142,7 @@ class _Shop:
         Timer(seconds, self.there, numbers).start()
 
     def await_sight(self, count: int) -> None:
-        """Wait until the student's process knows how many customers are at the counter."""
+        """Wait until the student's process has received the number of customers at the counter."""
         self._await("count", count)
 
     def _await(self, name: str, value: int) -> None:
@@ -296,7 +299,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
 
 
 def _at_once(context: CheckContext, assertion: str, took: float, after: float = 0.0, hint: str = "") -> None:
-    """Assert that the response came without delay when the customer came, `after` s after the request."""
+    """Assert that the response came at once when the customer came, `after` s after the request."""
     context.require(
         assertion,
         holds=took < after + SLACK,

@@ -1,11 +1,11 @@
-"""10.7: the causes of six observations: threads that wait too long, or do not wait."""
+"""10.7: the causes of six observations of threads that wait too long, or that do not wait."""
 
 from __future__ import annotations
 
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.cases import Cases, compare_cases
 
-# The notebook shows the observations of each case; this dict contains their causes.
+# The notebook describes the observations of each case; this dict contains their causes.
 RIGHT = {
     "A": "lock across a call",
     "B": "lock order",
@@ -48,5 +48,5 @@ CASES = Cases(
 
 @part("10.7", points=2, goal="Find the cause for six observations.", needs=["causes"])
 def find_the_cause(context: CheckContext) -> None:
-    """Compare the student's cause of each case with the right cause."""
+    """Compare the cause that the student chose for each case with the right one."""
     compare_cases(context, "causes", CASES)

@@ -1,4 +1,4 @@
-"""A shelf that makes threads without a lock collide, and a shop in the kernel that serves the shelf."""
+"""A shelf on which threads without a lock make mistakes, and a shop in the kernel that uses this shelf."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.checking.plain_values import Value
 
 TRIGGER = "std_srvs/Trigger"
 CALLERS = 50
-ONE = 6.0  # s for a single call
+ONE = 6.0  # time limit for a single call (s)
 SHELF_ERRORS = [
     (
         matches("field message must be"),
@@ -22,10 +22,10 @@ SHELF_ERRORS = [
         "A shelf has only the methods read() and write(count). Use only these two methods.",
     ),
 ]
-MANY = 20.0  # s for 50 calls at the same time, on a busy machine
+MANY = 20.0  # time limit for 50 simultaneous calls on a busy machine (s)
 MEETING = 0.01  # s for which a thread waits for another thread
-FIRST_MEETING = 0.3  # s for which the first thread of many waits, until the others have begun
-FIRST = 2  # number of these first waits
+FIRST_MEETING = 0.3  # s for which the first of many threads waits until the others have started
+FIRST = 2  # number of such waits of a first thread
 
 KERNEL_CODE = (
     SMALL_STACKS
@@ -53,10 +53,10 @@ checked_shop = CheckedShop()
 
 
 class CheckedShelf:
-    """A shelf with `count` things. The kernel has a proxy for it.
+    """A shelf with `count` things; the kernel has a proxy for it. The kernel has a proxy for it.
 
-    Each read and each write returns only when another thread reads, or after a short time. So two threads
-    without a lock read the same number. If the threads use a lock, the other thread cannot read in this time.
+    Each read and each write returns when another thread reads, or after a short time. Therefore, two threads
+    without a lock read the same number. With a lock, the other thread cannot read in this time.
     """
 
     def __init__(self, count: int) -> None:
@@ -66,7 +66,7 @@ class CheckedShelf:
         self._turn = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next thread wait longer, until the other threads have begun, even on a busy machine."""
+        """Let the next thread wait longer, until the other threads have started, even on a busy machine."""
         self._long_waits = FIRST
 
     @remote

@@ -1,4 +1,4 @@
-"""10.4: a handler that runs in fifty threads at the same time."""
+"""10.4: a handler that runs in fifty threads at a time."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ EMPTIED = "Sell the things to one client after the other, and then respond with 
     goals=[EMPTIED, "Sell each thing only once to 50 clients at the same time."],
 )
 def safe_with_fifty_clients(context: CheckContext) -> None:
-    """Empty a small shelf with single calls; then make fifty calls at the same time for fewer things."""
+    """Empty a small shelf with single calls; then make fifty simultaneous calls for fewer things."""
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     few = context.random.integer(2, 4)
@@ -85,7 +85,7 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
 
 
 def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
-    """Take a thing; `left` is the number after this call, or None if the shelf was empty before."""
+    """Take a thing; `left` is the number of things after this call, or None if the shelf was empty."""
     seen = take()
     context.expect(
         "the field `success` is True only if something was left",

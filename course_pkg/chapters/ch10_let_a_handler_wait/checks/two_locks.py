@@ -1,4 +1,4 @@
-"""10.6: a function that needs two locks, and that several threads call at the same time."""
+"""10.6: a function that needs two locks; several threads call it at the same time."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
-LIMIT = 4.0  # s for which a thread of the check waits for a lock, or tries repeatedly to acquire it
-THREADS, MOVES = 4, 6  # threads at the same time, and moves per thread
-RUN = 8.0  # s for all threads together
+LIMIT = 4.0  # s for which a thread of the check waits for a lock, or tries to acquire it again and again
+THREADS, MOVES = 4, 6  # number of threads, and number of moves per thread
+RUN = 8.0  # time limit for all threads together (s)
 
-MEETING = 0.01  # s for which a thread that has taken a lock waits for another thread
-FIRST_MEETING = 0.3  # s for which the first thread waits, so that the other threads can begin
+MEETING = 0.01  # s for which a thread that holds a lock waits for another thread
+FIRST_MEETING = 0.3  # s for which the first thread waits, so that the other threads can start
 
 # This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
 KERNEL_CODE = """
@@ -47,14 +47,14 @@ def checked_cross(function, pair, count, moves):
 
 
 class Deadlock(Exception):
-    """A thread would wait for a lock forever."""
+    """A thread would wait for a lock for ever."""
 
 
 class CheckedLock:
-    """A lock whose `acquire` returns only when another thread holds the other lock, or after a short time.
+    """A lock; `acquire` returns when another thread holds the other lock, or after a short time.
 
-    So two threads that take the two locks in opposite order always block each other. A thread that waits too
-    long for the lock gets an error, so that all threads end.
+    Therefore, two threads that acquire the two locks in opposite order always block each other. A thread that
+    waits too long gets an error, so that all threads end.
     """
 
     def __init__(self, pair: CheckedPair, limit: float) -> None:
@@ -65,7 +65,7 @@ class CheckedLock:
 
     @remote
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take the lock, as threading.Lock does."""
+        """Acquire the lock, as with threading.Lock."""
         if self.owner == threading.get_ident() and blocking and timeout < 0:
             raise Deadlock("the thread already holds this lock")
         limited = blocking and timeout < 0
@@ -81,7 +81,7 @@ class CheckedLock:
 
     @remote
     def release(self) -> None:
-        """Release the lock, as threading.Lock does."""
+        """Release the lock, as with threading.Lock."""
         self.owner = None
         self._lock.release()
 
@@ -135,7 +135,7 @@ class CheckedShelf:
 
 
 class CheckedPair:
-    """Two shelves, and how many locks a thread held at each read and each change of a count."""
+    """Two shelves. It records how many locks a thread held when it read or changed a count."""
 
     def __init__(self, numbers: Sequence[int], counts: Sequence[int], *, crowd: bool = False) -> None:
         self.reads: list[int] = []
@@ -160,7 +160,7 @@ class CheckedPair:
 
     @remote
     def returned(self, value: Value) -> None:
-        """Record the result of one of the simultaneous calls."""
+        """Record the result of one of the calls."""
         self.results.append(value)
 
     @remote
@@ -170,7 +170,7 @@ class CheckedPair:
 
     @property
     def counts(self) -> list[Value]:
-        """How many things are on the two shelves."""
+        """The number of things on each of the two shelves."""
         return [shelf.things for shelf in self._shelves]
 
     @property
@@ -180,15 +180,15 @@ class CheckedPair:
 
     @property
     def error(self) -> str:
-        """One of the recorded errors, or an empty string."""
+        """One of the recorded errors, or "" if there is none."""
         return min(self.errors, key=lambda error: "in vain" not in error, default="")
 
     def held(self) -> int:
-        """Return how many of the locks the current thread holds."""
+        """Return the number of locks that the current thread holds."""
         return sum(shelf.lock.owner == threading.get_ident() for shelf in self._shelves)
 
     def meet(self) -> None:
-        """Wait until another thread holds a lock, too, but only for a short time."""
+        """Wait until another thread also holds a lock, but only for a short time."""
         with self._turn:
             limit, self._meeting = self._meeting, MEETING
             self._turn.notify_all()
@@ -243,7 +243,10 @@ MOVED = "Move a thing in one thread, but not from an empty shelf."
     goals=[MOVED, "Move things in both directions at the same time, without a deadlock."],
 )
 def move_without_deadlock(context: CheckContext) -> None:
-    """Move things in one thread, even from an empty shelf; then in both directions at the same time."""
+    """Move things in one thread, even from an empty shelf.
+
+    Then move things in both directions at the same time.
+    """
     context.prepare(KERNEL_CODE)
     numbers = sorted(context.random.integers(2, 1, 99))
     few = context.random.integer(2, 3)
@@ -295,7 +298,7 @@ def move_without_deadlock(context: CheckContext) -> None:
 def _moves_one(
     context: CheckContext, pair: CheckedPair, source: int, counts: list[int], *, possible: bool
 ) -> None:
-    """Move a thing from the shelf with the index `source`; `counts` are the right counts after the call."""
+    """Move a thing from the shelf with the index `source`; afterwards, `counts` are the right counts."""
     its = Its("move"), Its("checked_pair")
     result = context.run(
         "checked_move", *its, source, 1 - source, hints=ERRORS, worded="move(source, target)"

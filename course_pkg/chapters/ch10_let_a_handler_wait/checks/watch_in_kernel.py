@@ -1,8 +1,8 @@
-"""Code for the kernel: a Watch that records how a handler uses it, and a shop that serves the handler."""
+"""Code that runs in the kernel. A Watch records how a handler uses it, and a shop serves the handler."""
 
 from __future__ import annotations
 
-# A shop for the check: it serves the student's handler with a new Watch, under random names.
+# A shop of the check: it serves the student's handler with a new Watch, and its names are random.
 A_SHOP = """
 import collections
 import functools

@@ -1,4 +1,4 @@
-"""An object of the student's client class in the kernel, and functions that break its connection."""
+"""An object of the student's client class in the kernel, and functions that disturb its connection."""
 
 from __future__ import annotations
 
@@ -58,14 +58,14 @@ class Client:
         context.require("a client object can be created", holds=made.returned() is None)
 
     def measure(self, hints: Hints) -> Result:
-        """Measure a random box; a whole response is returned as a dict with its volume."""
+        """Measure a random box; a complete response becomes a dict with the volume."""
         sides = self._context.random.numbers(3, 0.5, 9.0)
         worded = "measure(length, width, height)"
         return self._context.run("measured", Its(self._kind), *sides, within=3.0, hints=hints, worded=worded)
 
 
 class ResettingPort:
-    """A program that is not a ROS server, at the old address of a server; it resets each connection."""
+    """A program at the old address of a server; it is not a ROS server, and it resets each connection."""
 
     def __init__(self, uri: str) -> None:
         self._listener = socket.create_server(("127.0.0.1", int(uri.rpartition(":")[2])))
@@ -81,7 +81,7 @@ class ResettingPort:
         self._listener.close()
 
     def _reset(self) -> None:
-        with suppress(OSError):  # the listener is closed when the block ends
+        with suppress(OSError):  # the listening socket is closed when the block ends
             while True:
                 connection, _ = self._listener.accept()
                 connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))

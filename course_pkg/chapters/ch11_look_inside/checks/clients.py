@@ -1,4 +1,4 @@
-"""11.5 and 11.6: a client that keeps its connection open, and a client that stores an address."""
+"""11.5 and 11.6: a client that keeps its connection open, and a client that stores the server's address."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ STORED = "Look the address up once, and use the stored address for all calls."
     goals=[ONE_FOR_ALL, "Open a new connection when the old one breaks or the server moves."],
 )
 def persistent_client(context: CheckContext) -> None:
-    """Respond, refuse, break the connection, stop the server, and start the server at another address."""
+    """Respond, refuse, close the connection, stop the server, and start the server at another address."""
     name = f"/{context.random.word()}"
     volumes = context.random.numbers(8, 10.0, 90.0)
     acts: list[Act] = [{"volume": each} for each in volumes[:5]]
@@ -74,7 +74,10 @@ def persistent_client(context: CheckContext) -> None:
 
 
 def _next_act(acts: list[Act]) -> Act:
-    """Return the next act. A refusal repeats until it is removed. After the last act, end the connection."""
+    """Return the next act of the script. A refusal is repeated until it is removed.
+
+    After the last act, close the connection.
+    """
     if not acts:
         return HangUp()
     return acts[0] if isinstance(acts[0], Refuse) else acts.pop(0)
@@ -121,7 +124,7 @@ def _one_connection(context: CheckContext, server: ScriptedServer, assertion: st
 def _reports_a_refusal(
     context: CheckContext, client: Client, server: ScriptedServer, swallowed: str, repeated: str
 ) -> None:
-    """Assert that a refusal is raised after one call; `swallowed` and `repeated` are hints."""
+    """Assert that a refusal leads to an error after one call; `swallowed` and `repeated` are hints."""
     before = len(server.requests)
     client.measure(ERRORS).raised(
         "a refusal is raised", "ServiceException", saying="not this box", hints=swallowed
@@ -135,7 +138,7 @@ def _reports_a_refusal(
 
 
 def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer) -> None:
-    """Break the first and the new connection; expect one more request, and then an error."""
+    """Close the first and the new connection; there has to be one more request, and then an error."""
     before = len(server.requests)
     result = client.measure(ERRORS)
     asked = len(server.requests) - before
@@ -216,7 +219,7 @@ SAID_NO = (
     goals=[STORED, "Look the address up again if no server is there any more."],
 )
 def client_with_a_known_address(context: CheckContext) -> None:
-    """Call, remove the name from the master, refuse, and start the server at another address."""
+    """Call, unregister the name, refuse a call, and start the server at another address."""
     name = f"/{context.random.word()}"
     numbers = [context.random.numbers(2, 10.0, 90.0) for _ in range(3)]
     answers: list[Act] = [dict(zip(("area", "volume"), each, strict=True)) for each in numbers]
@@ -241,7 +244,7 @@ def client_with_a_known_address(context: CheckContext) -> None:
 def _finds_it_after_a_reset(
     context: CheckContext, name: str, client: Client, former: ScriptedServer, numbers: list[float]
 ) -> None:
-    """Let another program take the port; start the server at another address; then stop it."""
+    """Let another program take the port, and start the server at another address; then stop the server."""
     former.leave()
     assertion = "a server that moved is found again"
     with ResettingPort(former.uri):
@@ -260,7 +263,7 @@ def _finds_it_after_a_reset(
 
 
 def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers: list[float]) -> None:
-    """Register another server under the same name; only a client that looks up the name again calls it."""
+    """Register another server with the same name; only a client that looks up the name again calls it."""
     wrong = context.random.numbers(2, 100.0, 900.0)
     other = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), wrong, strict=True)))
     again = (

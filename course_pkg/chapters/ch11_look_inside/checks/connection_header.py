@@ -1,4 +1,4 @@
-"""11.1 and 11.2: a connection header in bytes, and an exact number of bytes from a socket."""
+"""11.1 and 11.2: the bytes of a connection header, and reading an exact number of bytes from a socket."""
 
 from __future__ import annotations
 
@@ -35,9 +35,10 @@ ERRORS = [
         "encode() without an argument.",
     )
 ]
-WITHIN = 3.0  # s for one call
-PEEKING = 0.4  # s after which the next piece is sent to a client that peeks and does not read
-CONNECTING = 5.0  # s for the kernel to connect
+WITHIN = 3.0  # time limit for one call (s)
+# s after which the next part is sent to a client that peeks at the bytes and does not read them
+PEEKING = 0.4
+CONNECTING = 5.0  # time limit for the kernel to connect (s)
 
 
 def _wrong_header(orders: list[dict[str, str]]) -> Hints:
@@ -67,7 +68,7 @@ RECEIVED = "Return exactly `count` bytes, even if they arrive in pieces."
     needs=["pack_header"],
 )
 def packed_header(context: CheckContext) -> None:
-    """Compare headers with random fields, with a letter of two bytes, and without fields."""
+    """Compare headers with random fields, with a letter that needs two bytes, and without fields."""
     word = context.random.word
     context.prepare(TYPE_OF_HEADER)
     for what, fields in (
@@ -77,7 +78,8 @@ def packed_header(context: CheckContext) -> None:
     ):
         assertion = f"{what}: the bytes are a header of TCPROS"
         packed = context.run("pack_header", fields, hints=ERRORS).returned()
-        orders = [dict(order) for order in permutations(fields.items())]  # TCPROS allows any order
+        # TCPROS allows every order of the fields
+        orders = [dict(order) for order in permutations(fields.items())]
         expected = [list(_packed(order)) for order in orders]
         context.expect(
             assertion,
@@ -105,7 +107,7 @@ def _packed(
     lengths: bool = True,
     code: str = "utf-8",
 ) -> bytes:
-    """Return the header, or a header with the mistake that the arguments describe."""
+    """Return the bytes of the header, or those with the mistake that the arguments describe."""
     texts = [f"{name}{joint}{value}" for name, value in fields.items()]
     coded = [(count(text), text.encode(code)) for text in texts]
     body = b"".join((struct.pack(order, length) if lengths else b"") + data for length, data in coded)
@@ -178,7 +180,10 @@ NOT_RAISED: Hints = [
     goals={RECEIVED: 3, "Raise ConnectionError if the connection ends earlier.": 1},
 )
 def exact_read(context: CheckContext) -> None:
-    """Send the bytes together, in pieces, and with additional bytes; then close the connection too early."""
+    """Send the bytes in one piece, in several pieces, and with additional bytes.
+
+    Then close the connection too early.
+    """
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
     _receives(context, "bytes that arrive together", [whole], [12])
@@ -204,15 +209,15 @@ TAKEN = (
 
 
 class OtherEnd:
-    """The other end of the student's socket, which sends `pieces`; it is open until the block ends.
+    """The other end of the student's socket. It sends `pieces`, and stays open until the end of the block.
 
-    Each piece is sent after the client has read the previous piece. So a client that reads only once gets
-    only one piece.
+    It sends each piece after the client has read the previous one. Therefore, a client that reads only once
+    gets only one piece.
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False) -> None:
-        # The socket is in Linux's abstract namespace: it needs no file, and is visible only in this network
-        # namespace.
+        # The socket is in Linux's abstract namespace: it needs no file, and only this network namespace can
+        # see it.
         self.name = f"course-{secrets.token_hex(8)}"
         self._pieces, self._closes = pieces, closes
         self._listener = socket.socket(socket.AF_UNIX)
@@ -235,13 +240,13 @@ class OtherEnd:
         self._listener.close()
 
     def has_more(self) -> bool:
-        """Return whether the client's socket contains bytes that the client has not read."""
+        """Return whether there are bytes in the client's socket that the client has not read."""
         with suppress(OSError):
             return bool(self._sock and _unread(self._sock))
         return False
 
     def _send(self) -> None:
-        with suppress(OSError):  # the kernel has closed its socket, or does not connect
+        with suppress(OSError):  # the kernel has closed its socket, or has not connected
             sock, _ = self._listener.accept()
             with sock:
                 self._sock = sock
@@ -253,7 +258,7 @@ class OtherEnd:
 
 
 def _unread(sock: socket.socket) -> int:
-    """Return the number of bytes that were sent but not read."""
+    """Return the number of bytes that were sent but not yet read."""
     (count,) = struct.unpack("i", fcntl.ioctl(sock, termios.TIOCOUTQ, bytes(4)))
     return int(count)
 
@@ -280,7 +285,7 @@ def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: lis
 
 
 def _not_received(count: int) -> Hints:
-    """Return hints for a value that is not the next `count` bytes."""
+    """Return hints for a value other than the next `count` bytes."""
     return [
         (None, NO_RETURN),
         (

@@ -18,7 +18,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
-# A float32 stores this fraction exactly, but a result that is rounded to a few decimals is different.
+# A float32 stores this fraction exactly, but a result with only a few decimals is different.
 BINARY = 65 / 512
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
 NO_PROXY = "Do not use a proxy: connect a socket to the address, and send the bytes yourself."
@@ -101,7 +101,7 @@ ANSWERED = "Return the response, even if it arrives byte by byte."
     goals={ANSWERED: 3, "Raise ServiceException if the server refuses.": 1},
 )
 def call_over_a_socket(context: CheckContext) -> None:
-    """Send a response in one piece or byte by byte, or refuse the connection or the request."""
+    """Send the response in one piece or byte by byte; or refuse the connection or the request."""
     context.require(
         "the function uses only a socket",
         holds=not ROS_CLIENTS & _names(context.source("ask")),
@@ -123,10 +123,10 @@ def call_over_a_socket(context: CheckContext) -> None:
 
 
 def _names(source: str) -> set[str]:
-    """Return the names in the code of a function, without the words in comments and docstrings."""
+    """Return the names in the code of a function, without words in comments and docstrings."""
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
-    except SyntaxError:  # the source of a lambda, for example, is only a part of a line
+    except SyntaxError:  # for example, the source of a lambda is only a part of a line
         return set()
     return {node.id for node in nodes if isinstance(node, ast.Name)} | {
         node.attr for node in nodes if isinstance(node, ast.Attribute)

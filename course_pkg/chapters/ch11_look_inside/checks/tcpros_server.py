@@ -1,6 +1,6 @@
-"""A TCPROS server that records a client's first mistake, and can send its response byte by byte.
+"""A TCPROS server that records the first mistake of a client, and can send its response byte by byte.
 
-The protocol is described at http://wiki.ros.org/ROS/TCPROS. The server is not registered with the master: the
+The protocol is described at http://wiki.ros.org/ROS/TCPROS. The server is not registered at the master; the
 client gets the address as an argument.
 """
 
@@ -18,34 +18,35 @@ from types import TracebackType
 
 from course_pkg.waiting import wait_until
 
-LONGEST = 4096  # bytes of a header, or of a request
-TIMEOUT = 8.0  # s for the next bytes of a client, on a busy machine
-EARLY = 0.1  # s for which the server waits for a request that the client sends too early
-LINGER = 3.0  # s after the response in which the client has to close the connection, on a busy machine
-UNREAD = 1.0  # s in total for which a slow response waits until the client has read single bytes
-REQUEST = 12  # bytes of three float32
+LONGEST = 4096  # maximum bytes of a header or of a request
+TIMEOUT = 8.0  # time limit for the next bytes of a client on a busy machine (s)
+EARLY = 0.1  # s for which the server waits for a request that comes too early
+# s after the response; the client has to close the connection within this time, even on a busy machine
+LINGER = 3.0
+UNREAD = 1.0  # s; sum of the times for which a slow response waits until the client has read a byte
+REQUEST = 12  # bytes of three float32 values
 
 
 @dataclass
 class Conversation:
-    """The data that one client sent; `mistake` is the client's first mistake."""
+    """The data that one client has sent; `mistake` is its first mistake."""
 
     header: dict[str, str] = field(default_factory=dict)
     sides: list[float] = field(default_factory=list)
     mistake: str = ""
     over: bool = False
-    left_open: bool = False  # the client did not close the connection after the response
+    left_open: bool = False  # whether the client left the connection open after the response
 
 
 class ProtocolMistake(Exception):
-    """The client sent something that TCPROS does not allow."""
+    """The client has sent something that TCPROS does not allow."""
 
 
 class TcprosServer:
-    """Responds to geometry calls with the two `numbers`, area and volume, until the block ends.
+    """Responds to geometry calls with the two `numbers`, area and volume, until the end of the block.
 
-    With a `refusal`, it sends this error message instead; with `in_handshake`, it sends the message in its
-    header. With `slowly`, it sends each byte separately.
+    With a `refusal`, it sends this error message in place of a response; with `in_handshake`, the message is
+    in the server's header. With `slowly`, it sends each byte separately.
     """
 
     def __init__(
@@ -64,7 +65,7 @@ class TcprosServer:
 
     @property
     def uri(self) -> str:
-        """The address of the service, as the master would return it."""
+        """The address of the service, in the same form as from the master."""
         return f"rosrpc://localhost:{self._listener.getsockname()[1]}"
 
     def __enter__(self) -> TcprosServer:
@@ -79,7 +80,7 @@ class TcprosServer:
         self._listener.close()
 
     def _accept(self) -> None:
-        with suppress(OSError):  # the listener is closed when the block ends
+        with suppress(OSError):  # the listening socket is closed when the block ends
             while True:
                 sock, _ = self._listener.accept()
                 self.conversations.append(Conversation())
@@ -125,12 +126,12 @@ class TcprosServer:
         deadline = time.monotonic() + UNREAD
         for each in data:
             sock.sendall(bytes([each]))
-            time.sleep(0.0005)  # without this pause, TCP would join the bytes
+            time.sleep(0.0005)  # without this pause, TCP would send several bytes together
             wait_until(lambda: not _has_unread_bytes(sock), deadline - time.monotonic(), interval=0.001)
 
 
 def _has_unread_bytes(sock: socket.socket) -> bool:
-    """Return whether the client (on this computer) has unread bytes, according to /proc/net/tcp."""
+    """Return whether the client on this computer has unread bytes; /proc/net/tcp contains this number."""
     ends = [f":{port:04X}" for port in (sock.getpeername()[1], sock.getsockname()[1])]
     for line in Path("/proc/net/tcp").read_text().splitlines()[1:]:
         _, local, remote, _, queues, *_ = line.split()
@@ -156,7 +157,7 @@ def _header(sock: socket.socket) -> dict[str, str]:
 
 
 def _nothing_yet(sock: socket.socket) -> None:
-    """Raise ProtocolMistake if the client sends its request before it has the server's header."""
+    """Raise ProtocolMistake if the client sends its request before it has received the server's header."""
     if select.select([sock], [], [], EARLY)[0] and sock.recv(1, socket.MSG_PEEK):
         raise ProtocolMistake("early request")
 

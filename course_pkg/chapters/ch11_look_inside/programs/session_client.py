@@ -1,4 +1,4 @@
-"""The node `session_client`: adds up amounts in one session of the service `add_up`."""
+"""The node `session_client`: adds amounts in one session of the service `add_up`."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ USAGE = (
 
 
 def main() -> None:
-    """Print the total after each amount; exit with 1 if a call fails, with 2 for wrong arguments."""
+    """Print the total after each amount; the exit status is 1 if a call fails, and 2 for wrong arguments."""
     arguments = read_arguments(rospy.myargv(sys.argv)[1:])
     if arguments is None:
         sys.exit(complain(USAGE, 2))
@@ -36,7 +36,7 @@ def main() -> None:
 
 
 def read_arguments(arguments: Sequence[str]) -> tuple[str, list[int]] | None:
-    """Return the session and the amounts, or None if the arguments are not a name and whole numbers."""
+    """Return the session and the amounts; None if the arguments are not a name and whole numbers."""
     try:
         session, amounts = arguments[0], [int(argument) for argument in arguments[1:]]
     except (IndexError, ValueError):
@@ -46,7 +46,7 @@ def read_arguments(arguments: Sequence[str]) -> tuple[str, list[int]] | None:
 
 
 def _add_up(session: str, amounts: list[int]) -> None:
-    MasterClient(master_uri()).pid()  # init_node would wait for a master without a limit
+    MasterClient(master_uri()).pid()  # init_node would wait for a master for ever
     rospy.init_node("session_client", anonymous=True)
     prepare_node()
     again = rospy.has_param("~rate")

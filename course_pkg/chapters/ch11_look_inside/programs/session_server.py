@@ -1,7 +1,7 @@
-"""The node `session_server`: offers `add_up`, which has a separate total for each session.
+"""The node `session_server`: serves `add_up`, which has a separate total for each session.
 
-A request does not contain the name of its sender. So a client writes the name of its session into the field
-`session` of the connection header. A header may contain any field
+A request does not contain the name of its sender. Therefore, a client writes the name of its session into the
+field `session` of the connection header. A header may contain any field
 (http://wiki.ros.org/ROS/Connection%20Header), and rospy passes all fields to the handler.
 """
 
@@ -15,19 +15,23 @@ from course_pkg.ros.node.program import serve_until_shutdown
 from course_pkg.srv import AddUp, AddUpRequest, AddUpResponse
 
 FIELD = "session"
-LARGEST = 2**31 - 1  # largest value of an int32
-MOST = 1000  # largest number of sessions; then a new session replaces the session with the oldest last call
+LARGEST = 2**31 - 1  # maximum value of an int32
+MOST = 1000  # maximum number of sessions; a further session replaces the one whose last call is the oldest
 
 
 class Sessions:
     """The totals of all sessions; a lock protects them, because rospy handles each call on its own thread."""
 
     def __init__(self) -> None:
-        self._totals: dict[str, tuple[int, int]] = {}  # total and calls, in the order of the last call
+        # total and number of calls, in the order of the last call
+        self._totals: dict[str, tuple[int, int]] = {}
         self._lock = threading.Lock()
 
     def add_up(self, request: AddUpRequest) -> AddUpResponse:
-        """Add the amount and return the total of the session; raise ServiceException without a session."""
+        """Add the amount and return the total of the session.
+
+        Raises ServiceException if there is no session.
+        """
         session = request._connection_header.get(FIELD, "")  # type: ignore[attr-defined] # rospy adds it
         if not session:
             raise rospy.ServiceException(

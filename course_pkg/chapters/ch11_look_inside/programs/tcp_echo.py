@@ -1,7 +1,7 @@
-"""The node `tcp_echo`: sends back all bytes that it receives over TCP, on the port in `~port`.
+"""The node `tcp_echo`: listens on the TCP port `~port`, and sends back all bytes that it receives.
 
-It uses no protocol of ROS. So a round trip to this program shows the shortest time that a service call could
-take.
+It uses no protocol of ROS. Therefore, a round trip to this program is the shortest possible time of a service
+call.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from course_pkg.ros.node.program import start_node
 
 
 def main() -> None:
-    """Echo until the node is shut down."""
+    """Send back all bytes until the node is shut down."""
     if not start_node("tcp_echo"):
         return
     with socket.create_server(("127.0.0.1", 0)) as listener:
@@ -27,7 +27,7 @@ def main() -> None:
 
 
 def _accept(listener: socket.socket) -> None:
-    with suppress(OSError):  # the listener was closed
+    with suppress(OSError):  # the listening socket was closed
         while True:
             sock, _ = listener.accept()
             threading.Thread(target=_echo, args=(sock,), daemon=True).start()

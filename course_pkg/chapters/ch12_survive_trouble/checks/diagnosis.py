@@ -47,5 +47,5 @@ CASES = Cases(
 
 @part("12.5", points=2, goal="Find the cause of each of seven problems.", needs=["diagnosis"])
 def diagnose(context: CheckContext) -> None:
-    """Compare the student's diagnosis of each case with the right cause."""
+    """Compare the cause that the student chose for each case with the right one."""
     compare_cases(context, "diagnosis", CASES)

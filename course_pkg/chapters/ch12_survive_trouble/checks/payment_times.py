@@ -1,4 +1,4 @@
-"""The time measurements of 12.3; each check uses the shortest of several, because the machine may be busy."""
+"""The times that 12.3 measures; each is the shortest of several, because the machine may be busy."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from course_pkg.chapters.ch12_survive_trouble.checks.payments import DEADLINE, G
 from course_pkg.checking import CheckContext, HangUp, matches
 from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
-PAUSE = 0.1  # s before the second try
-FIRST = 1.8 * PAUSE  # s; upper limit for the first pause and a new connection in the fastest payment
-PAYMENTS = 5  # largest number of payments; the check uses the fastest payment
-AT_END = 0.9  # s until the deadline. It is in the fourth pause, which would end after 1.5 s.
-ENDED = 1.3  # s; upper limit for the duration of the fastest of these payments
-AT_WORK = 0.5  # s; lower limit for the time in which a client tries
+PAUSE = 0.1  # s before the second attempt
+FIRST = 1.8 * PAUSE  # s; maximum time for the first pause and a new connection, in the fastest payment
+PAYMENTS = 5  # maximum number of payments; the fastest one counts
+AT_END = 0.9  # s until the deadline. it is in the fourth pause, which would end after 1.5 s
+ENDED = 1.3  # s; maximum duration of the fastest of these payments
+AT_WORK = 0.5  # s; least time in which a client has to make attempts
 GONE = (
     "The till has no server, but pay() waits for it without a time limit. Use the "
     "remaining time as the limit of each wait."
@@ -29,7 +29,7 @@ OVERSLEPT = (
 
 
 def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let one try fail, and measure the pause after it; use the shortest pause of several payments."""
+    """Let one attempt fail, and measure the pause after it; the shortest pause of several payments counts."""
     pauses = []
     for _ in range(PAYMENTS):
         before = len(till.arrivals)
@@ -49,7 +49,7 @@ def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) ->
 
 
 def ends_without_a_till(context: CheckContext) -> None:
-    """Pay when no till is running; use the fastest of several payments."""
+    """Pay while no till is running; the fastest of several payments counts."""
     times = []
     for _ in range(PAYMENTS):
         cents = context.random.integer(100, 900)

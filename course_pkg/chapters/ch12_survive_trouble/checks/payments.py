@@ -1,4 +1,4 @@
-"""The payments of 12.3: the payments that a till stores, and an assertion that a payment succeeds."""
+"""12.3: the payments that a till stores, and an assertion that a payment succeeds."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 CHARGE = "course_pkg/Charge"
-DEADLINE = 6.0  # s, in cases in which the client succeeds
+DEADLINE = 6.0  # s until the deadline in the cases in which the client succeeds
 ERRORS = [
     (
         matches("TimesUp"),
@@ -36,7 +36,7 @@ GIVEN_UP = [(matches("^TimeoutError|^ServiceException"), UNKNOWN), *ERRORS]
 
 
 class Books:
-    """The payments of a till, one for each request id."""
+    """The payments that a till has charged, one for each request id."""
 
     def __init__(self, context: CheckContext) -> None:
         self.charged: dict[str, int] = {}
@@ -44,19 +44,19 @@ class Books:
         self._lock = threading.Lock()
 
     def work(self, request: Message) -> dict[str, Json]:
-        """Charge the request if it was not charged before; return the number of its receipt."""
+        """Charge the request, unless this request was charged before; return the number of the receipt."""
         with self._lock:
             self.charged.setdefault(request.request_id, request.cents)
             return {"receipt": self.receipt({"request_id": request.request_id})}
 
     def receipt(self, request: dict[str, Json]) -> int:
-        """Return the number of the receipt of a request, or 0 if the request was not charged."""
+        """Return the number of the receipt for a request, or 0 if the request was not charged."""
         known = list(self.charged)
         return self._first + known.index(request["request_id"]) if request["request_id"] in known else 0
 
 
 def pay(context: CheckContext, name: str, cents: int, deadline: float, hints: Hints = ERRORS) -> Result:
-    """Run the student's function with a `deadline` (s), and stop it 6 s after the deadline."""
+    """Run the student's function with a `deadline` (s); stop it 6 s after the deadline."""
     return context.run("pay", name, cents, deadline, within=deadline + 6.0, hints=hints)
 
 
@@ -68,7 +68,10 @@ def pays_after(
     words: str,
     deadline: float = DEADLINE,
 ) -> int:
-    """Assert that a payment succeeds; return the number of requests. `words` describe the till."""
+    """Assert that a payment succeeds; return the number of requests.
+
+    `words` describe the state of the till.
+    """
     before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
     result = pay(context, name, context.random.integer(100, 900), deadline)
     requests = till.requests[before:]

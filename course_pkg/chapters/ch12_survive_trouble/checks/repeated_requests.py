@@ -1,4 +1,4 @@
-"""12.2: a server that must charge a repeated request only once."""
+"""12.2: a server that has to charge a repeated request only once."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from course_pkg.checking.plain_values import Value
 from course_pkg.checking.result import Result
 
 AT_ONCE = 50
-ONE = 6.0  # s for a single call
-MANY = 20.0  # s for 50 calls at the same time, on a busy machine
+ONE = 6.0  # time limit for a single call (s)
+MANY = 20.0  # time limit for 50 simultaneous calls on a busy machine (s)
 MEETING = 0.05  # s for which a call of take() waits for another call with the same amount
-FIRST_MEETING = 0.5  # s for which the first of many calls waits, so that the other calls can begin
-BUYERS = 10  # each of them sends its request five times
+FIRST_MEETING = 0.5  # s for which the first of many calls waits, so that the other calls can start
+BUYERS = 10  # number of clients; each of them sends its request five times
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -87,7 +87,10 @@ FAILED = "Charge again after the purse has failed, and refuse a request without 
     goals={CHARGED: 2, FAILED: 1, "Charge only once when 50 requests come at the same time.": 1},
 )
 def charge_once(context: CheckContext) -> None:
-    """Send new and repeated requests; let the purse fail; omit the id; send 50 requests at the same time."""
+    """Send new and repeated requests; let the purse fail; leave out the id.
+
+    Send 50 requests at the same time.
+    """
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     purse, opened = _opened(context, name)
@@ -117,13 +120,13 @@ def charge_once(context: CheckContext) -> None:
 class CheckedPurse:
     """A purse. The kernel has a proxy for it.
 
-    A call of take() returns when there is another call with the same amount, or after a short time. So two
-    repetitions without a lock always run at the same time here.
+    A call of take() returns when there is another call with the same amount, or after a short time.
+    Therefore, two repeated requests without a lock always run at the same time here.
     """
 
     def __init__(self) -> None:
         self.took: list[Value] = []
-        self.stuck = False  # whether the next take() fails
+        self.stuck = False  # whether the next call of take() fails
         self.meeting = MEETING
         self._long_waits = 0
         self._asked: Counter[str] = Counter()
@@ -146,12 +149,12 @@ class CheckedPurse:
             self.took.append(cents)
 
     def await_crowd(self) -> None:
-        """Let the next take() wait longer, so that the other calls can begin even on a busy machine."""
+        """Let the next call of take() wait longer. The other calls can then start even on a busy machine."""
         self._long_waits = 1
 
 
 def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Serve `name` with a new Till; return its purse and the result of the call that creates it."""
+    """Serve `name` with a new Till; return its purse, and the result of the call that creates the Till."""
     purse = CheckedPurse()
     context.place("checked_purse", purse)
     its = Its("Till"), Its("checked_purse")
@@ -169,7 +172,7 @@ ANOTHER_RECEIPT: Hints = [
 
 
 def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> tuple[str, int]:
-    """Send new requests, and repeat them; return the id and the receipt of a request that was charged."""
+    """Send new requests and repeat them; return the id and the receipt of a charged request."""
     cents = context.random.integer(100, 900)
     first, second = context.random.word(12), context.random.word(12)
     receipt = charge(request_id=first, cents=cents).receipt
@@ -214,7 +217,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
 
 
 def _only_one(words: str) -> Hints:
-    """Return the hint `words` with the condition that the purse was used only once."""
+    """Return the hint `words`, with the condition that the purse was used only once."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -236,9 +239,11 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
 
 
 def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send a request twice at the same time, and let the purse fail once: a receipt needs a charge.
+    """Send a request twice at the same time, and let the purse fail once.
 
-    If the two requests share one call of take(), both clients get an error.
+    There may be a receipt only for a charge.
+
+    If both requests share one call of take(), both clients get an error.
     """
     before, cents = len(purse.took), context.random.integer(10_000, 19_000)
     purse.stuck = True
@@ -311,7 +316,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
 
 
 def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send so many requests that receipt numbers drawn at random would probably be equal."""
+    """Send so many requests that two random receipt numbers would probably be equal."""
     purse.meeting = 0.0
     requests = [
         {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}

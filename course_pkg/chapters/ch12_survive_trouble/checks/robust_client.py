@@ -24,15 +24,15 @@ from course_pkg.checking.peers.faulty_server import Crash, Fault, FaultyServer, 
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
-TRY = 0.5  # s for one try, as the exercise says
-PAUSE = 0.1  # s before the second try; each further pause is twice as long as the previous pause
+TRY = 0.5  # time limit for one attempt, as in the exercise (s)
+PAUSE = 0.1  # s before the second attempt; each further pause is twice as long as the one before
 SHORT = 1.0  # s until the deadline in the case in which the client has to give up
-SLACK = 1.5  # s that a busy machine may need
-AWAY = 0.5  # s until a killed till is started again; the second try finds no server
-A_LITTLE = 0.2  # s, less than one try
-KEEPING = 2.0  # s that the check waits for a payment that ends in time
-MOST = 5  # failing tries, unless the pauses grow quickly
-LONG = 12.0  # s until the deadline in the case of MOST failing tries
+SLACK = 1.5  # additional s for a busy machine
+AWAY = 0.5  # s until a killed till is started again; the second attempt finds no server
+A_LITTLE = 0.2  # s; less than one attempt
+KEEPING = 2.0  # s for which the check waits for a payment that ends in time
+MOST = 5  # maximum number of failing attempts, if the pauses grow slowly
+LONG = 12.0  # s until the deadline in the case with MOST failing attempts
 
 SLOW = "slow"
 FAULTS = {
@@ -167,7 +167,7 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
 
 
 def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
-    """Mix refusals with failures, so that an answer that only counts its calls fails."""
+    """Mix refusals with failures, so that an answer that counts its calls fails."""
     refusals, failures = (context.random.integer(1, 2) for _ in range(2))
     for refuses in context.random.shuffled([True] * refusals + [False] * failures):
         if refuses:
@@ -178,7 +178,7 @@ def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, boo
 
 
 def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the handler work and return None; the text of this error is similar to that of a refusal."""
+    """Let the handler do its work and return None; the text of this error is similar to that of a refusal."""
     till.plan.append(Fault(Refuse("service handler returned None"), worked=True))
     result = pay(context, name, context.random.integer(100, 900), DEADLINE)
     context.require(
@@ -194,7 +194,10 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
 
 
 def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
-    """Assert that there were several `tries` at a slow till, and only one try at a till in time."""
+    """Assert that there were several attempts at a slow till.
+
+    There must be only one attempt at a till that responds in time.
+    """
     context.require(
         "the receipt is returned at the end",
         holds=tries > 1,
@@ -219,7 +222,7 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
 
 
 def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
-    """Fail three times; the third pause shows whether the pauses grow. Longer pauses are allowed."""
+    """Let three attempts fail; the third pause shows whether the pauses grow. Longer pauses are allowed."""
     before = len(till.arrivals)
     till.plan.extend([Fault(HangUp())] * 3)
     pays_after(context, name, till, books, "failing three times")
@@ -239,7 +242,8 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         actual=f"{pauses[2]:.2f} s",
         hints="The pause did not grow enough. After each failed try, make the pause at least twice as long.",
     )
-    if pauses[2] < 8 * PAUSE:  # the pauses grow slowly, so the deadline leaves time for MOST failing tries
+    # the pauses grow slowly, so before the deadline there is time for MOST failing attempts
+    if pauses[2] < 8 * PAUSE:
         till.plan.extend([Fault(HangUp())] * MOST)
         pays_after(context, name, till, books, f"failing {MOST} times", LONG)
 
@@ -273,10 +277,10 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
 
 
 def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the till respond after the deadline, but within the half second of a try.
+    """Let the till respond after the deadline, but within the 0.5 s of an attempt.
 
-    On a busy machine, a client may notice the deadline late. So the check repeats the payment until one ends
-    in time.
+    On a busy machine, a client may notice its deadline late. Therefore, the check repeats the payment until
+    one of them ends in time.
     """
     returned: list[Json] = []
 

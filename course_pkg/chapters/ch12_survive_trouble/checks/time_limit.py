@@ -1,4 +1,4 @@
-"""12.1: a call with a time limit, for a proxy without a time limit."""
+"""12.1: a call with a time limit through a proxy that has none."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Result
 
 ADD = "course_pkg/AddTwoInts"
-LIMIT = 0.8  # s that the student's function may wait
-LONG = 4.0  # s; a time limit that no call reaches
-WORK = 0.3  # s that a slow handler takes
-SLACK = 1.2  # s that a busy machine may add
+LIMIT = 0.8  # s for which the student's function may wait
+LONG = 4.0  # s; a time limit that is longer than every call
+WORK = 0.3  # duration of a slow handler in s
+SLACK = 1.2  # additional s for a busy machine
 KERNEL_CODE = """
 import threading
 import time
@@ -35,7 +35,7 @@ class CheckedCall:
 
 checked_call = CheckedCall()
 """
-BUSY = 0.8  # s of processor time; a thread that waits without a pause uses more in LONG s
+BUSY = 0.8  # CPU time in s; a thread that waits without a pause uses more in LONG s
 ERRORS = [
     (
         matches("TimesUp"),
@@ -56,14 +56,14 @@ ERRORS = [
 
 
 class Adder:
-    """Adds two numbers, or executes `act` instead."""
+    """Adds two numbers, or does `act` instead."""
 
     def __init__(self) -> None:
         self.act: Act | None = None
         self.requests = 0
 
     def __call__(self, request: Message) -> Act:
-        """Handle a request of a scripted server."""
+        """Handle a request to the scripted server."""
         self.requests += 1
         total = {"sum": request.a + request.b}
         if isinstance(self.act, Late):
@@ -99,7 +99,10 @@ def a_call_with_a_limit(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
-    """Mix the cases with one limit, so that an answer that depends on the limit or on a count fails."""
+    """Mix the cases with the same limit.
+
+    An answer that depends on the limit or counts its calls then fails.
+    """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses
     acts += [Refuse(f"no {context.random.integer(100, 999)}") for _ in range(failures)]

@@ -1,4 +1,4 @@
-"""12.4: a thread that registers a service again after a restart of the master."""
+"""12.4: a thread that registers a service again when the master was restarted."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
 EVERY = 0.1  # s between two polls of the watchdog
-SELDOM = 0.5  # s; even on a busy machine, at least one of several pauses is shorter
-CALLS = 4  # largest number of calls of the master in one poll
-SOON = 5.0  # s for a few polls, on a busy machine
-AWAY = 3.0  # s without a master, for a watchdog whose polls the check does not see
+SELDOM = 0.5  # s; of several pauses, at least one is shorter than this, even on a busy machine
+CALLS = 4  # maximum number of calls to the master in one poll
+SOON = 5.0  # time limit for a few polls on a busy machine (s)
+AWAY = 3.0  # s without a master; for a watchdog whose polls the check cannot see
 LEFT_ALONE = 0.8  # s in which a wrong watchdog would register the name again
 LATE = 0.5  # s for which the check waits for a wrong registration after stop()
-READY = 15.0  # s for a master to answer
+READY = 15.0  # time limit for the start of a master (s)
 
 ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread, and start the thread in __init__."
 DIED = (
@@ -44,7 +44,7 @@ class SecondMaster:
         self._running: Running | None = None
 
     def start(self) -> MasterClient:
-        """Start the master without registrations; return a client after the master responds."""
+        """Start the master without registrations; return a client when the master responds."""
         words = ("rosmaster", "--core", "-p", str(self.port))
         self._running = self._folder.start(*words, worded="a second master")
         client = MasterClient(self.uri, 1.0)
@@ -52,7 +52,7 @@ class SecondMaster:
         return client
 
     def stop(self) -> None:
-        """Stop the master; all registrations are lost."""
+        """Stop the master, so that all registrations are lost."""
         if self._running is not None:
             self._running.stop()
             self._running = None
@@ -176,7 +176,7 @@ def _is_registered(
 
 
 def _leaves_the_name(context: CheckContext, master: MasterClient, name: str) -> None:
-    """Register another node under the name; the master uses the newest registration."""
+    """Register another node with this name; the master returns the latest registration."""
     other = f"rosrpc://localhost:{closed_port()}"
     master.register_service("/another", name, other, f"http://localhost:{closed_port()}/")
     fought = wait_until(lambda: master.lookup_service(name) != other, LEFT_ALONE)
@@ -205,7 +205,7 @@ def _registers_both_addresses(context: CheckContext, watched: CheckedMaster, uri
 
 
 def _polls_with_pauses(context: CheckContext, watched: CheckedMaster, took: float) -> None:
-    """Assert that the watchdog pauses between polls: it must not make too many polls in `took` s."""
+    """Assert that the watchdog pauses between polls; it must not poll too often in `took` s."""
     looks = watched.looks
     context.require(
         "the watchdog polls the master at intervals of `every` seconds",
@@ -272,7 +272,10 @@ def _stops(context: CheckContext, watched: CheckedMaster) -> None:
 
 
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
-    """Return "" or the mistake: the watchdog registers the service up to LATE s after stop() has returned."""
+    """Return the mistake of a watchdog that registers the service within LATE s after stop() has returned.
+
+    "" if it does not.
+    """
     watched.hold()
     if not watched.inside.wait(SOON):
         return "no look"

@@ -1,4 +1,4 @@
-"""A master that the check can pause during a poll, and the student's watchdog in the kernel."""
+"""A master that the check can pause during a poll; the student's watchdog in the kernel uses this master."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 from course_pkg.ros.protocol.xmlrpc import XmlRpcClient
 
-TIMEOUT = 5.0  # s; time limit of a call of the master
-PAUSE = 5.0  # s; longest time for which a registration waits
+TIMEOUT = 5.0  # time limit for a call to the master (s)
+PAUSE = 5.0  # maximum time for which a registration waits (s)
 
-# A service in the kernel, and the student's watchdog. The watchdog's calls of the master go through the check
+# A service in the kernel, and the student's watchdog. The watchdog's calls to the master go through the check
 # runner.
 KERNEL_CODE = """
 import rosgraph
@@ -48,19 +48,19 @@ checked_watch = CheckedWatch()
 
 
 class CheckedMaster:
-    """Calls a master for the watchdog, and records the calls.
+    """Calls a master for the watchdog, and records these calls.
 
-    After a call of `hold`, the master seems to know no service, so the watchdog registers its service. This
-    registration waits until stop() has returned. If stop() waits for the registration, the registration waits
-    only for `slow` s.
+    After hold(), the master seems to know no service, so the watchdog registers its service. This
+    registration waits until stop() has returned. If stop() itself waits for the registration, the
+    registration waits only for `slow` s.
     """
 
     def __init__(self, uri: str, slow: float) -> None:
-        self.addresses: list[list[str]] = []  # the last arguments of each registration
-        self.registered: list[float] = []  # times of the registrations, by time.monotonic()
-        self.looks = 0  # number of calls of the master
-        self.gap = 60.0  # s; the shortest time between two calls of the same kind
-        self.inside = threading.Event()  # set while a registration waits
+        self.addresses: list[list[str]] = []  # the last arguments of each registration call
+        self.registered: list[float] = []  # times of the registrations (s, time.monotonic())
+        self.looks = 0  # number of calls to the master
+        self.gap = 60.0  # s; shortest time between two calls of the same kind
+        self.inside = threading.Event()  # this event is set while a registration waits
         self.stopped_at: float | None = None  # when stop() returned
         self._uri, self._slow = uri, slow
         self._times: dict[str, float] = {}
@@ -88,7 +88,7 @@ class CheckedMaster:
 
     @remote
     def stopping(self) -> None:
-        """Record that stop() is called now."""
+        """Record that stop() was called now."""
         threading.Timer(self._slow, self._release).start()
 
     @remote
@@ -110,7 +110,7 @@ class CheckedMaster:
         self._go.set()
 
     def _note(self, method: str) -> None:
-        """Record the time of a call that is not a registration."""
+        """Record the time of a call other than a registration."""
         now = time.monotonic()
         if method != "registerService":
             self.gap = min(self.gap, now - self._times.get(method, now - self.gap))

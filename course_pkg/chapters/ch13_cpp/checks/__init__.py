@@ -1,4 +1,4 @@
-"""The checks of chapter 13: they compile the student's C++ programs in a new folder, and run them."""
+"""The checks of chapter 13 compile the student's C++ programs in a new folder, and run them."""
 
 from course_pkg.chapters.ch13_cpp.checks.client import patient_client
 from course_pkg.chapters.ch13_cpp.checks.cmake_lists import cmake_list_file

@@ -1,4 +1,4 @@
-"""13.3: a C++ client with limits for its wait and for its number of calls."""
+"""13.3: a C++ client that limits its wait and the number of its calls."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Finished
 
 FILE = f"{PACKAGE}/src/patient_client.cpp"
-WAIT = 2.0  # s for which the client waits for a service
-TRIES = 3  # largest number of calls
-SLACK = 2.5  # additional s that a busy machine may need
-PAUSE = 0.045  # s between two calls; slightly less than the 0.05 s of the exercise
+WAIT = 2.0  # s for which the client waits for the service
+TRIES = 3  # maximum number of calls
+SLACK = 2.5  # additional s for a busy machine
+PAUSE = 0.045  # s between two calls; this is slightly less than the 0.05 s of the exercise
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
-LIMIT = 5.0  # s after which a program that runs too long is stopped
+LIMIT = 5.0  # s after which the check stops the program
 
 MILLISECONDS = (
     "The program waited only a few milliseconds, because ros::service::waitForService reads a plain "
@@ -58,7 +58,10 @@ REPEATS = "Call at most 3 times, with pauses, and end with 1 after the last refu
     goals=[REPEATS, "Wait at most 2 s for the service."],
 )
 def patient_client(context: CheckContext) -> None:
-    """Run it with servers that respond, refuse twice, refuse always or start late, and without a server."""
+    """Run the client with servers that respond, refuse twice, always refuse or start late.
+
+    Run it also without a server.
+    """
     folder = compiled(context, FILE)
     shapes = _prints_the_answer(context, folder)
     calls = _asks_again(context, folder)
@@ -69,7 +72,7 @@ def patient_client(context: CheckContext) -> None:
 
 
 def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
-    """Return the printed lines that contain the volume; each number is replaced by #."""
+    """Return the printed lines with the volume; each number is replaced by #."""
     name, sides, volume = _random_box(context)
     server = context.serve(name, BOX, lambda _: {"volume": volume})
     finished = _run(folder, name, sides)
@@ -93,7 +96,7 @@ def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
 
 
 def _prints_a_volume_of_0(context: CheckContext, folder: Folder) -> None:
-    """Respond with the volume 0: only the return value of call() shows whether a response came."""
+    """Respond with the volume 0. Then only the return value of call() tells whether there was a response."""
     name, sides, _ = _random_box(context)
     context.serve(name, BOX, lambda _: {"volume": 0.0})
     _prints(
@@ -222,7 +225,7 @@ def _gives_up_without_a_server(context: CheckContext, folder: Folder, shapes: se
 
 
 def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
-    """Return a random name, three sides, and a volume that differs from the product of the sides."""
+    """Return a random name, three sides, and a volume that is not the product of the sides."""
     sides = [round(side, 2) for side in context.random.numbers(3, 0.5, 9.0)]
     return f"/{context.random.word()}", sides, float(context.random.integer(1000, 9000))
 
@@ -230,7 +233,7 @@ def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
 def _refusing(
     context: CheckContext, name: str, times: int, volume: float
 ) -> tuple[ScriptedServer, list[float]]:
-    """Serve, but refuse the first `times` calls; return the server and the times of its calls in s."""
+    """Serve, but refuse the first `times` calls; return the server and the times of its calls (s)."""
     calls: list[float] = []
 
     def act(_: object) -> Refuse | dict[str, float]:
@@ -247,7 +250,7 @@ def _run(folder: Folder, name: str, sides: list[float]) -> Finished:
 
 
 def _numbers(out: str) -> list[float]:
-    """Return the printed numbers, without the numbers in log lines of roscpp."""
+    """Return the printed numbers, without those in roscpp's log messages."""
     return [float(text) for line in _lines(out) for text in NUMBER.findall(line)]
 
 
@@ -257,9 +260,11 @@ def _lines(out: str) -> list[str]:
 
 
 def _volumes(out: str, shapes: set[str]) -> list[str]:
-    """Return the lines with a volume: only a number, "volume" and a number, or a line like one in `shapes`.
+    """Return the lines with a volume.
 
-    Numbers in other lines, such as a number of tries or seconds, are not volumes.
+    A line is a number alone, "volume" and a number, or has a form in `shapes`.
+
+    Numbers in other lines, such as a number of attempts or seconds, are not volumes.
     """
     volume = rf"(?i)(.*\bvolume\W*(is|was)?\W*)?{NUMBER.pattern}"
     return [line for line in _lines(out) if re.fullmatch(volume, line) or NUMBER.sub("#", line) in shapes]

@@ -14,7 +14,7 @@ from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.cmake_messages import cmake_commands
 
 FILE = f"{PACKAGE}/CMakeLists.txt"
-BUILDING = 75.0  # s; it takes 4 s on an idle machine
+BUILDING = 75.0  # time limit in s; the build takes 4 s on an idle machine
 NO_ROSCPP = (
     "catkin_LIBRARIES contains only the libraries of the packages in "
     "find_package(catkin … COMPONENTS …). Add roscpp to this list."
@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     start=START,
 )
 def cmake_list_file(context: CheckContext) -> None:
-    """Build a program of the check with the student's CMakeLists.txt, and look for the executable."""
+    """Build a program of the check with the student's CMakeLists.txt; the executable has to exist."""
     require_tools()
     drawn = context.random.word(12)
     code = PROGRAM.replace("DRAWN", drawn)
@@ -101,7 +101,7 @@ def _builds(context: CheckContext, finished: Finished) -> None:
     printed = f"{finished.out}\n{finished.err}"
     last = " / ".join([line for line in printed.strip().splitlines() if line.strip()][-3:])
     fault = explain(printed) or Fault("catkin_make failed", f"Read the end of its output: {last}.")
-    if not fault.file.endswith("CMakeLists.txt"):  # the check's own program has no mistake
+    if not fault.file.endswith("CMakeLists.txt"):  # there is no mistake in the check's own program
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
         if _lacks_roscpp(context.source(f"file:{FILE}")):
             fault = replace(fault, remedy=NO_ROSCPP)
@@ -114,7 +114,7 @@ def _builds(context: CheckContext, finished: Finished) -> None:
 
 
 def _lacks_roscpp(text: str) -> bool:
-    """Return whether the program is linked with catkin_LIBRARIES, but roscpp is not a component."""
+    """Return whether the program is linked with catkin_LIBRARIES although roscpp is not a component."""
     code = re.sub(r"#[^\n]*", "", text)
     return (
         bool(re.search(r"(?i)target_link_libraries\s*\([^)]*catkin_LIBRARIES", code)) and "roscpp" not in code

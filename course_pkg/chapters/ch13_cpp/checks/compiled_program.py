@@ -1,4 +1,4 @@
-"""Functions that compile a C++ program of the student, and start it with a random service name."""
+"""Functions that compile a C++ program of the student, and start it with random names."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from course_pkg.workspace.cpp_support import compile_command
 
 PACKAGE = "src/cpp_boxes"
 BOX = "course_pkg/geometry"
-LIMITS = "ulimit -t 30 -f 100000"  # s of CPU time and KiB of a file; compiling one file takes 2 s
-COMPILING = 60.0  # s; it takes 2 s on an idle machine
-STARTING = 6.0  # s until the node of a program is on the graph; it takes 0.1 s on an idle machine
-REGISTERING = 1.5  # s from this time until the program offers its service
-STAYING = 0.4  # s for which the program has to keep running; without ros::spin(), it ends within 0.1 s
+# maximum CPU time in s and file size in KiB; the compilation of one file takes 2 s
+LIMITS = "ulimit -t 30 -f 100000"
+COMPILING = 60.0  # time limit in s; the compilation takes 2 s on an idle machine
+STARTING = 6.0  # time limit in s until the program's node is on the graph; it takes 0.1 s on an idle machine
+REGISTERING = 1.5  # time limit in s after this, until the program serves
+STAYING = 0.4  # s for which the program has to continue to run; without ros::spin(), it ends within 0.1 s
 POLL = 0.05  # s between polls
 SERVED = "the program offers /{0} and continues to run"
 
@@ -39,7 +40,7 @@ def code_of(context: CheckContext, file: str) -> str:
 
 
 def compiled(context: CheckContext, file: str) -> Folder:
-    """Compile the student's `file` to ./program in a new folder, and assert that this works."""
+    """Compile the student's `file` to ./program in a new folder; assert that the compilation succeeds."""
     require_tools()
     folder = context.folder(files=[file])
     line = f"{LIMITS}; exec {shlex.join(compile_command(file, 'program'))}"
@@ -63,13 +64,13 @@ def compiled(context: CheckContext, file: str) -> Folder:
 
 
 def started(context: CheckContext, folder: Folder, service: str, name: str) -> Running:
-    """Start ./program with a random node name, and `name` for its `service` (such as "box")."""
+    """Start ./program with a random node name; its `service` (such as "box") is remapped to `name`."""
     line = ["./program", f"/{service}:={name}", f"__name:={context.random.word()}"]
     return folder.start(*line, worded=f"the program that serves /{service}")
 
 
 def serves(context: CheckContext, running: Running, service: str, name: str, code: str) -> None:
-    """Assert that the program offers `name` and keeps running; otherwise report what happened instead."""
+    """Assert that the program serves `name` and continues to run; if it does not, report what happened."""
     assertion, deadline = SERVED.format(service), time.monotonic() + at_this_load(STARTING)
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:
@@ -84,7 +85,7 @@ def serves(context: CheckContext, running: Running, service: str, name: str, cod
 
 
 def _drops_the_service(code: str) -> bool:
-    """Return whether the code does not store the result of advertiseService, so that the service ends."""
+    """Return whether the code drops the result of advertiseService, so that the service ends."""
     return bool(re.search(r"(?:^|[;{}])\s*\w+\.advertiseService", code))
 
 

@@ -12,11 +12,11 @@ from course_pkg.waiting import wait_until
 
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
-THINKING, COUNTING = 0.4, 0.05  # s, as in the file at the start of the exercise
-# Limit in s between two responses. If all calls overlap, the time is shorter; if a call has to wait for a
-# thread, the time is longer.
+THINKING, COUNTING = 0.4, 0.05  # s; the same times as in the file that the exercise gives
+# Limit in s for the time between two responses. If all calls overlap, this time is shorter; if a call has to
+# wait for a thread, it is longer.
 APART = 0.15
-# Time in s in which the check repeats six calls until they overlap; on a busy machine, a call may begin late.
+# Time in s in which the check repeats six calls until they overlap. On a busy machine, a call may start late.
 OVERLAPPING = 3.0
 
 START = f"""%%writefile {FILE}
@@ -95,7 +95,7 @@ OWN_LOCK = (
     start=START,
 )
 def number_server(context: CheckContext) -> None:
-    """Call once, and then six times at the same time; compare the numbers and the times."""
+    """Make one call, and then six calls at the same time; compare the numbers and the times."""
     code = code_of(context, FILE)
     _still_thinks(context, code, THINKING + COUNTING)
     folder = compiled(context, FILE)
@@ -118,7 +118,10 @@ def number_server(context: CheckContext) -> None:
 
 
 def _still_thinks(context: CheckContext, code: str, took: float) -> None:
-    """Assert that the code of think() and count(), and the duration `took` of a call in s, are unchanged."""
+    """Assert that the code of think() and count() is unchanged.
+
+    The duration `took` of a call (s) must be unchanged, too.
+    """
     context.require(
         "think() and count() take as long as before",
         holds=len(re.findall(r"\bsleep\(\)", code)) >= 2
@@ -136,10 +139,10 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
 
 
 def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str) -> None:
-    """Assert that six calls at the same time get six numbers, and wait until all six overlap.
+    """Assert that six simultaneous calls get six numbers; repeat this until all six overlap.
 
-    A call that waits for a thread begins think() only after another call has finished. So its response is
-    late by the duration of think().
+    If a call waits for a thread, think() begins only when another call has ended. Then its response is late
+    by the duration of think().
     """
     numbers_to_come = itertools.count(2)
     took: list[float] = []
@@ -170,7 +173,7 @@ def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str
 
 
 def _number(message: str) -> int:
-    """Return the number in a response, or -1 if the response is not a number."""
+    """Return the number in a response, or -1 if the response contains no number."""
     return int(message) if message.isdecimal() else -1
 
 

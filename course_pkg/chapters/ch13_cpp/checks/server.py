@@ -1,4 +1,4 @@
-"""13.2: a repaired C++ server: its handler and its main function."""
+"""13.2: a repaired C++ server; its handler and its main function have mistakes at first."""
 
 from __future__ import annotations
 

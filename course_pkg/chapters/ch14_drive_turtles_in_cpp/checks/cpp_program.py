@@ -1,4 +1,4 @@
-"""Compiles a turtle program in C++, and puts it into a folder in which rosrun finds it."""
+"""Compiles a turtle program in C++, and puts it into a folder in which rosrun can find it."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ from course_pkg.workspace import Fault, explain, missing_for_cpp
 from course_pkg.workspace.cpp_support import compile_command
 
 NAME = "my_turtles_cpp"
-LIMITS = "ulimit -t 40 -f 100000"  # s of processor time and KiB of a file; compiling one file takes 4 s
-COMPILING = 90.0  # s; it takes 4 s on an idle machine
+# maximum CPU time in s and file size in KiB; the compilation of one file takes 4 s
+LIMITS = "ulimit -t 40 -f 100000"
+COMPILING = 90.0  # time limit in s; the compilation takes 4 s on an idle machine
 COMPILES = "the compiler accepts the file"
 
 
@@ -29,7 +30,7 @@ def cpp(name: str) -> TurtleProgram:
 
 
 def _compiled(context: CheckContext, program: TurtleProgram) -> BuiltPackage:
-    """Compile one file with the options of catkin; CMake would take some seconds longer."""
+    """Compile one file with catkin's options, because CMake would take some seconds longer."""
     if missing := missing_for_cpp():
         raise ToolMissing(missing)
     copy = runnable_copy(context, program.package, [program.path])

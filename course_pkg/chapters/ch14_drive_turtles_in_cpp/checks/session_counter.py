@@ -1,4 +1,4 @@
-"""14.9: a handler that reads the connection header of its client."""
+"""14.9: a handler that reads the connection header of a client."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from course_pkg.checking.plain_values import ServiceClass
 
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
-WITHIN = 4.0  # s for a call
+WITHIN = 4.0  # time limit for a call (s)
 COUNTED = "Count the calls of each session separately."
 
 
@@ -50,28 +50,36 @@ def count_sessions(context: CheckContext) -> None:
                 "the field with find()."
             ),
         )
-        session = sessions[0]
-        counts[session] += 1
-        _counts(context, service.name, service.kind, session, counts)
+        counts[first] += 1
+        _counts(context, service.name, service.kind, first, counts, f"/{context.random.word()}")
 
 
 def _counts(
-    context: CheckContext, name: str, kind: ServiceClass, session: str, counts: dict[str, int]
+    context: CheckContext,
+    name: str,
+    kind: ServiceClass,
+    session: str,
+    counts: dict[str, int],
+    caller: str = "",
 ) -> None:
     context.expect(
         "the message is the number of calls in this session",
         expected=str(counts[session]),
-        actual=_call(name, kind, session, f"/{context.random.word()}"),
+        actual=_call(name, kind, {"session": session, **({"callerid": caller} if caller else {})}),
         hints=[
+            (
+                lambda _: bool(caller),
+                "Another node may continue a session. Count only by the value of the field.",
+            ),
             (
                 str(sum(counts.values())),
                 "This is the number of all calls. Store a separate count for each session.",
             ),
+            ("1", "The count starts again in each call. Create the map outside the handler."),
             (
                 str(counts[session] - 1),
                 "This is the number of calls before this call. Increase the count first.",
             ),
-            ("1", "The count starts again in each call. Create the map outside the handler."),
             ("", "The message is empty. Set it to the number, with std::to_string."),
             (
                 ANYTHING,
@@ -82,10 +90,9 @@ def _counts(
     )
 
 
-def _call(name: str, kind: ServiceClass, session: str, caller: str) -> str:
-    """Call as the node `caller` in the given session; return the message of the response, or the error."""
+def _call(name: str, kind: ServiceClass, headers: dict[str, str]) -> str:
+    """Call with these `headers` within a time limit; return the message in the response, or the error."""
     inbox: queue.Queue[str] = queue.Queue()
-    headers = {"session": session, "callerid": caller}
 
     def call() -> None:
         try:

@@ -17,7 +17,7 @@ RATE = cpp("pubvel_toggle_plus")
 IMPROVED = cpp("improved_pubvel_toggle")
 FOLLOW = cpp("spawn_turtle_plus")
 LAUNCH = LaunchFile(IMPROVED, FOLLOW)
-DEADLINE = 150.0  # s; the compiler alone may need 90 s on a busy machine
+DEADLINE = 150.0  # s; the compiler may need 90 s of this on a busy machine
 
 
 @part(
@@ -30,7 +30,7 @@ DEADLINE = 150.0  # s; the compiler alone may need 90 s on a busy machine
     goals=SPAWN_GOALS,
 )
 def wait_and_spawn(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     spawns(context, SPAWN)
 
 
@@ -44,7 +44,7 @@ def wait_and_spawn(context: CheckContext) -> None:
     goals=TOGGLE_GOALS,
 )
 def toggle_direction(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     toggles(context, TOGGLE)
 
 
@@ -58,7 +58,7 @@ def toggle_direction(context: CheckContext) -> None:
     goals=RATE_GOALS,
 )
 def change_the_rate(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     changes_its_rate(context, RATE)
 
 
@@ -75,7 +75,7 @@ def change_the_rate(context: CheckContext) -> None:
     goals=IMPROVED_GOALS,
 )
 def change_speed_and_stop(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     is_improved(context, IMPROVED)
 
 
@@ -92,7 +92,7 @@ def change_speed_and_stop(context: CheckContext) -> None:
     goals=FOLLOW_GOALS,
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
-    """Compile the program, and check it as in chapter 09."""
+    """Compile the program, and check it in the same way as in chapter 09."""
     follows(context, FOLLOW)
 
 
@@ -108,5 +108,5 @@ def bring_a_second_turtle(context: CheckContext) -> None:
     start=f"%%writefile {LAUNCH.path}\n...",
 )
 def two_turtles_or_one(context: CheckContext) -> None:
-    """Check the launch file as in chapter 09."""
+    """Check the launch file in the same way as in chapter 09."""
     launches(context, LAUNCH)

@@ -1,4 +1,4 @@
-"""15.4: a program that waits for the detector with a limit, calls it once, and ends."""
+"""15.4: a program that waits for the detector for a limited time, calls it once, and ends."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from course_pkg.waiting import wait_until
 NAME = "ask_customer"
 DETECT = "detect_customer"
 AWAIT = "course_pkg/AwaitCustomer"
-STARTING = 20.0  # s for Python and rospy on a busy machine
-ENDING = 6.0  # s in which a program has to end after the response
+STARTING = 20.0  # time limit for the start of Python and rospy on a busy machine (s)
+ENDING = 6.0  # s; a program has to end within this time after the response
 LIMIT = 3.0  # s for which the program waits for the service
 SOON = 1.0  # s between the start of the node and the start of the service
 REASON = "no message from the camera"
 REFUSED = 55.0  # s; the service refuses a call with this value of `patience`
-LOGGED = matches(r"^(\x1b\[[\d;]*m)*\[|warn")  # lines of rospy's log, and warnings of Python
+LOGGED = matches(r"^(\x1b\[[\d;]*m)*\[|warn")  # lines of rospy's log, and Python's warnings
 
 LATE = (
     "The service started 1 s after the program, but the program had already ended. "
@@ -82,7 +82,7 @@ ASKED = "Wait for detect_customer, call it once, and print customer or nobody."
     goals={ASKED: 3, "End with the right status after a refusal or without a service.": 1},
 )
 def the_client(context: CheckContext) -> None:
-    """Start the program before its service; use a service that responds or refuses, and no service."""
+    """Start the program before its service; the service responds or refuses, or there is none."""
     package = examined(context, NAME)
     with ExitStack() as ending:
         detector = _Detector(context.random.number(3.0, 30.0, digits=1))
@@ -106,7 +106,7 @@ def the_client(context: CheckContext) -> None:
 
 
 class Run:
-    """One run of the program, in a separate namespace."""
+    """One run of the program in a separate namespace."""
 
     def __init__(
         self, context: CheckContext, package: BuiltPackage, ending: ExitStack, given: dict[str, float]
@@ -133,7 +133,10 @@ class Run:
         )
 
     def end(self, within: float = ENDING) -> Run:
-        """Wait for the program to end; stop it `within` s after its node is on the graph (status None)."""
+        """Wait until the program ends.
+
+        Stop it `within` s after its node was on the graph (then the status is None).
+        """
         self.is_on_the_graph()
         wait_until(self.has_ended, within, 0.05)
         finished = self._running.stop()
@@ -147,18 +150,18 @@ class Run:
 
     @property
     def found_no_service(self) -> bool:
-        """Whether the program's output shows that the service did not exist."""
+        """Whether the program's output says that the service does not exist."""
         return "timeout exceeded" in self.out or "unavailable" in self.out
 
     @property
     def last(self) -> str:
-        """The last line that the program printed, and how it ended."""
+        """The last line that the program printed, and how the program ended."""
         ended = "still running" if self.status is None else f"exit status {self.status}"
         return f"{self.lines[-1] if self.lines else 'no output'} ({ended})"
 
 
 class _Detector:
-    """Finds a customer only if `patience` is `wait`; refuses a call whose `patience` is REFUSED."""
+    """Returns a customer only if `patience` is equal to `wait`; refuses the call if `patience` is REFUSED."""
 
     def __init__(self, wait: float) -> None:
         self.wait = wait

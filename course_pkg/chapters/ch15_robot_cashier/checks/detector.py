@@ -1,4 +1,7 @@
-"""15.2 and 15.3: a service that waits for a customer with a limit, and refuses if the camera is silent."""
+"""15.2 and 15.3: a service that waits for a customer for a limited time.
+
+It refuses if the camera is silent.
+"""
 
 from __future__ import annotations
 
@@ -19,10 +22,10 @@ NAME = "customer_detector"
 SEEN, DETECT = "customer_seen", "detect_customer"
 INTERFACE = Interface(services=[DETECT], subscribes=[SEEN])
 AWAIT = "course_pkg/AwaitCustomer"
-LONG = 6.0  # s; a value of `patience` that is longer than any successful wait
+LONG = 6.0  # s; a value of `patience` that is longer than every successful wait
 LATER = 2.2  # s until a customer comes
-SLACK = 2.0  # s that a call may take longer on a busy machine
-EARLY = 0.1  # s by which a call may seem to end too early, because of rounding
+SLACK = 2.0  # additional s for a call on a busy machine
+EARLY = 0.1  # s by which a call may seem to end too early because of rounding
 CALLERS = 4
 
 NOT_SEEN = (
@@ -71,7 +74,7 @@ SILENT_CAMERA = "Refuse before the first message, and after 1 s without a messag
     goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible patience.": 1},
 )
 def the_detector(context: CheckContext) -> None:
-    """Publish on customer_seen; call with and without a customer; then make several calls at once."""
+    """Publish on customer_seen; call with and without a customer; then make several simultaneous calls."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -117,7 +120,7 @@ def _finds_nobody(context: CheckContext, detect: Service, patience: float) -> No
 
 
 def _serves_several_callers(context: CheckContext, detect: Service, vision: SeenCustomers) -> None:
-    """Let several calls wait, make a short call while they wait, and then let a customer come."""
+    """Let several calls wait, make a short call during this time, and then let a customer come."""
     with ThreadPoolExecutor(1) as pool:
         began = time.monotonic()
         vision.show_later(LATER, True)
@@ -194,7 +197,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     goals={SILENT_CAMERA: 3, "Notice a camera that becomes silent or comes back during a call.": 1},
 )
 def the_silent_camera(context: CheckContext) -> None:
-    """Call before the first message, shortly and long after the last message, and while new messages come."""
+    """Call before the first message, shortly and long after the last one, and while new messages arrive."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)

@@ -1,4 +1,4 @@
-"""The joint states that a check sends to the student's mirror."""
+"""The joint states that a check publishes for the student's mirror."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from course_pkg.checking import CheckContext
 from course_pkg.checking.plain_values import Fields
 
 JOINTS = "sensor_msgs/JointState"
-FIRST = 1000  # s, the stamp of the first joint state; each further stamp is 1 s later
+FIRST = 1000  # s; the stamp of the first joint state; each following stamp is 1 s later
 COUNT = 24
-EFFORT = 7  # index of the joint state with an infinite effort
+EFFORT = 7  # index of the joint state that has an infinite effort
 
 
 @dataclass
@@ -28,25 +28,25 @@ class JointState:
 
     @classmethod
     def of(cls, fields: Fields) -> JointState:
-        """Return the joint state of a message."""
+        """Return a joint state with the fields of a message."""
         stamp = fields["header"]["stamp"]
         arrays = (fields["name"], fields["position"], fields["velocity"], fields["effort"])
         return cls(stamp["secs"], stamp["nsecs"], fields["header"]["frame_id"], *arrays)
 
     def fields(self) -> Fields:
-        """Return the fields of the message."""
+        """Return the fields for a message."""
         header = {"stamp": {"secs": self.secs, "nsecs": self.nsecs}, "frame_id": self.frame_id}
         arrays = {"position": self.position, "velocity": self.velocity, "effort": self.effort}
         return {"header": header, "name": self.name, **arrays}
 
     @property
     def misses_positions(self) -> bool:
-        """Whether there are more or fewer positions than names."""
+        """Whether the number of positions differs from the number of names."""
         return len(self.position) != len(self.name)
 
     @property
     def misses_velocities(self) -> bool:
-        """Whether there are velocities, but more or fewer than names."""
+        """Whether there are velocities, and their number differs from the number of names."""
         return len(self.velocity) not in (0, len(self.name))
 
     @property
@@ -63,7 +63,10 @@ class JointState:
 
 
 def joint_states(context: CheckContext) -> list[JointState]:
-    """Return joint states. The first, the last, and the state after each invalid state are valid."""
+    """Return joint states. Return joint states.
+
+    The first one, the last one, and the one after each invalid one are valid.
+    """
     states = [_joint_state(context, number) for number in range(COUNT)]
     states[3].position = states[3].position[:2]
     states[5].position = [*states[5].position, 0.5]  # this joint state has no velocities

@@ -1,4 +1,4 @@
-"""15.10: a launch file with two arguments; the check reads it with roslaunch."""
+"""15.10: a launch file with two arguments; roslaunch reads it for the check."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from course_pkg.waiting import wait_until
 FILE = MY_CASHIER.path(LAUNCH)
 START = f"%%writefile {FILE}\n..."
 HARDWARE = ("counter_camera", "robot", "receipt_printer")
-READING = 20.0  # s for roslaunch to read the file on a busy machine
+READING = 20.0  # time limit for roslaunch to read the file on a busy machine (s)
 OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
 # This code prints the nodes and the parameters that roslaunch reads from a launch file with the given
 # arguments.

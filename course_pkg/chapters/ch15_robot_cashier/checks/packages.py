@@ -1,4 +1,7 @@
-"""The package of chapter 15; the check adds its own version of each file that is not written yet."""
+"""The package of chapter 15.
+
+For each file that the student has not written yet, the check uses its own version.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +27,7 @@ project(my_cashier)
 find_package(catkin REQUIRED)
 catkin_package()
 """
-# This program starts a node of the course, because the student has not written this node yet.
+# This program starts a node of the course in place of a node that the student has not written yet.
 STAND_IN = """\
 #!/usr/bin/env python3
 from course_pkg.chapters.ch15_robot_cashier.programs.{name} import main
@@ -33,7 +36,7 @@ if __name__ == "__main__":
     main()
 """
 LAUNCH = "launch/cashier.launch"
-NODES = ("vision", "customer_detector", "robot_cashier", "till")  # each is a script of the package
+NODES = ("vision", "customer_detector", "robot_cashier", "till")  # the names of the package's scripts
 
 MY_CASHIER = Package(
     "my_cashier",
@@ -46,7 +49,7 @@ MY_CASHIER = Package(
 
 
 def program(name: str) -> Program:
-    """Return the script `name` of the package; `name` has no .py."""
+    """Return the script `name` of the package; `name` is without .py."""
     return Program(f"scripts/{name}.py", name)
 
 

@@ -1,4 +1,4 @@
-"""Replaces the node receipt_printer: prints lines, jams, refuses lines, and pauses."""
+"""Used in place of the node receipt_printer: it prints lines, jams, refuses lines, and pauses."""
 
 from __future__ import annotations
 
@@ -7,28 +7,28 @@ import threading
 from course_pkg.checking.peers.scripted_server import Act, Refuse
 from course_pkg.srv import PrintLineRequest
 
-PRINTING = 0.02  # s for a line
+PRINTING = 0.02  # duration of printing a line (s)
 JAM = "paper jam: two lines at once"
 
 
 class Printer:
-    """Serves print_line; it refuses each line if the error message `fault` is not empty.
+    """Serves print_line; as long as the error message `fault` is not empty, it refuses each line.
 
-    `lines` are the printed lines. While the event `held` is not set, each line waits, but at most 10 s.
+    `lines` are the printed lines. While the event `held` is not set, each line waits for at most 10 s.
     """
 
     def __init__(self) -> None:
         self.lines: list[str] = []
         self.fault = ""
         self.jams = 0
-        self.calls = 0  # number of lines that were printed, or refused because of `fault`
-        self.began = threading.Event()  # set when the first line begins
+        self.calls = 0  # number of lines that it has printed, or has refused because of `fault`
+        self.began = threading.Event()  # this event is set when the first line begins
         self.held = threading.Event()
         self.held.set()
         self._busy = threading.Lock()
 
     def answer(self, request: PrintLineRequest) -> Act:
-        """Print a line, or refuse."""
+        """Print a line, or refuse it."""
         if not self._busy.acquire(blocking=False):
             self.jams += 1
             return Refuse(JAM)

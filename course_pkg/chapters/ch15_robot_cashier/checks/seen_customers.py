@@ -1,4 +1,4 @@
-"""Replaces the node vision: publishes on customer_seen whether a customer is there."""
+"""Used in place of the node vision: it publishes on customer_seen whether a customer is there."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ EVERY = 0.1  # s between two messages
 
 
 class SeenCustomers:
-    """Publishes `customer` every 0.1 s unless it is None; `last` is the time of the last message."""
+    """Publishes `customer` every 0.1 s, unless it is None; `last` is the time of the last message."""
 
     def __init__(self, topic: str) -> None:
         self.customer: bool | None = None
@@ -35,20 +35,20 @@ class SeenCustomers:
         )
 
     def show(self, customer: bool | None) -> None:
-        """Publish `customer` from now on; return when the first message has arrived."""
+        """From now on, publish `customer`; return when the first message has arrived."""
         with self._lock:
             self.customer = customer
             self._send()
         time.sleep(0.05)
 
     def show_later(self, after: float, customer: bool) -> None:
-        """Publish `customer` after a delay of `after` s, and from then on."""
+        """Publish `customer` from `after` s on."""
         timer = threading.Timer(after, self.show, [customer])
         timer.daemon = True
         timer.start()
 
     def silent_for(self) -> float:
-        """Return the time since the last message, in s."""
+        """Return the time since the last message (s)."""
         return time.monotonic() - self.last
 
     def _send(self) -> None:

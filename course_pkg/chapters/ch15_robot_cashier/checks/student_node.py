@@ -1,4 +1,4 @@
-"""A program of the student that a check runs: a node in a namespace of the check."""
+"""A program of the student that a check runs as a node in a namespace of the check."""
 
 from __future__ import annotations
 
@@ -24,11 +24,12 @@ from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.ros import Snapshot
 from course_pkg.workspace import explain
 
-STARTING = 40.0  # s for a node to appear; it takes 1 s on an idle machine
-# Time in s from the first name of a node to all its names. It is longer if the node appeared late.
+STARTING = 40.0  # time limit in s until a node is on the graph; it takes 1 s on an idle machine
+# Time in s from the first name of a node to all its names; it is longer if the node started late. It is
+# longer if the node appeared late.
 COMPLETE = 3.0
 POLL = 0.1  # s between two snapshots of the graph
-WITH_SLASH = "with_slash"  # the namespace to which the check remaps global names
+WITH_SLASH = "with_slash"  # the check remaps global names to names in this namespace
 MISSING = (
     "The node called a service that did not exist yet, and the "
     "rospy.ServiceException ended the node. Programs can start in any order: catch "
@@ -39,7 +40,7 @@ OF_EVERY_NODE = ("/get_loggers", "/set_logger_level")
 
 @dataclass(frozen=True)
 class Interface:
-    """The relative names of the services and topics that a node offers, publishes and subscribes to."""
+    """The relative names of the services and topics that a node serves, publishes on and subscribes to."""
 
     services: Sequence[str] = ()
     publishes: Sequence[str] = ()
@@ -51,7 +52,7 @@ class Interface:
         return [*self.services, *self.publishes, *self.subscribes]
 
     def missing(self, seen: Snapshot, space: str, node: str) -> list[str]:
-        """Return the missing parts of `node`, such as "serves till/set"."""
+        """Return the missing names of `node`, such as "serves till/set"."""
         topics = {topic.name: topic for topic in seen.topics}
         served = {service.name for service in seen.services if service.node == node}
         lacking = [f"serves {name}" for name in self.services if f"{space}/{name}" not in served]
@@ -70,9 +71,9 @@ class Interface:
 def student_node(
     context: CheckContext, name: str, interface: Interface, *, calls: Sequence[str] = ()
 ) -> Iterator[str]:
-    """Start the student's program `name` with rosrun; yield its namespace as soon as all its names exist.
+    """Start the student's program `name` with rosrun; yield its namespace when all its names exist.
 
-    `calls` are services that the program calls as a client.
+    `calls` are the services that the program calls as a client.
     """
     package = examined(context, name)
     space = f"/{context.random.word()}"
@@ -82,7 +83,7 @@ def student_node(
 
 
 def examined(context: CheckContext, name: str) -> BuiltPackage:
-    """Assert that the student's script can be run and imported; return a copy of the package."""
+    """Assert that the student's script can run and can be imported; return a copy of the package."""
     script = program(name)
     is_a_script(context, file_of(name))
     is_executable(context, file_of(name))
@@ -98,7 +99,11 @@ def started(
     names: Sequence[str],
     parameters: Mapping[str, float] | None = None,
 ) -> Running:
-    """Start a program in the namespace `space`. Global names of the exercise are remapped to it, too."""
+    """Start a program in the namespace `space`.
+
+    The exercise's global names are remapped to this namespace, too. Global names of the exercise are remapped
+    to it, too.
+    """
     remapped = [f"/{each}:={space}/{WITH_SLASH}/{each}" for each in names]
     given = [f"_{key}:={value}" for key, value in (parameters or {}).items()]
     line = f"rosrun my_cashier {name}.py"
@@ -110,7 +115,7 @@ def started(
 def complete(
     context: CheckContext, running: Running, script: Program, space: str, interface: Interface
 ) -> None:
-    """Wait until the node has all names of the interface; otherwise report what happened instead."""
+    """Wait until the node has all names of its interface; if it does not, report what happened."""
     assertion = f"rosrun starts the node {script.node} with all its names"
     node = f"{space}/{script.node}"
     seen = context.look()
@@ -135,7 +140,7 @@ def complete(
 
 
 def still(started: float, least: float) -> float:
-    """Return the time until which a check waits for missing names, if the first name has just appeared.
+    """Return the time until which a check waits for missing names, if the first name exists now.
 
     The check waits `least` s, or longer on a busy machine. `started` and the result are in s of
     time.monotonic().

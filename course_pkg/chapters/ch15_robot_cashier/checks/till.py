@@ -1,4 +1,4 @@
-"""15.7, 15.8 and 15.9: a till that adds up prices, prints each item first, and can be reset."""
+"""15.7, 15.8 and 15.9: a till that adds prices, prints each item first, and can be reset."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ TILL_SET, TILL_TOTAL, TRIGGER, PRINT_LINE = (
     "std_srvs/Trigger",
     "course_pkg/PrintLine",
 )
-MANY = 8  # calls at the same time
-ANSWER = 5.0  # s for a call
-HOLDING = 0.4  # s that the printing of a line takes while a reset waits
+MANY = 8  # number of simultaneous calls
+ANSWER = 5.0  # time limit for a call (s)
+HOLDING = 0.4  # duration of printing a line while a reset waits (s)
 
 SET_HINTS: Hints = [
     (
@@ -61,13 +61,13 @@ class Till:
     set: Service
 
     def service(self, context: CheckContext, name: str, kind: str, hints: Hints = ()) -> Service:
-        """Return another service of the till."""
+        """Return a proxy for another service of the till."""
         return context.service(f"{self.space}/{name}", kind, timeout=ANSWER, hints=hints)
 
 
 @contextmanager
 def running_till(context: CheckContext, *names: str) -> Iterator[Till]:
-    """Start the student's till with a printer of the check."""
+    """Start the student's till together with a printer of the check."""
     with student_node(context, NAME, Interface(services=[SET, *names]), calls=[PRINT]) as space:
         printer = Printer()
         server = context.serve(f"{space}/{PRINT}", PRINT_LINE, printer.answer)
@@ -76,7 +76,7 @@ def running_till(context: CheckContext, *names: str) -> Iterator[Till]:
 
 
 def _items(context: CheckContext, count: int) -> list[tuple[str, int]]:
-    """Return items with different names and with amounts in cents."""
+    """Return items with different names; amounts are in cents."""
     cents = context.random.integers(count, 50, 900)
     return [(context.random.word(), amount) for amount in cents]
 
@@ -205,7 +205,10 @@ ORDER = (
     goals={PRINTED: 2, "Print one line at a time, and refuse an item without a printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
-    """Set items with a printer that works or refuses; then many items at once; then without a printer."""
+    """Set items with a printer that works or refuses; then many items at the same time.
+
+    Then without a printer.
+    """
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         (item, cents), (other, more), (third, rest) = _items(context, 3)
@@ -281,7 +284,7 @@ def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:
 
 
 def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int]) -> None:
-    """Set many items at the same time; after each printed line, the total has to grow by its price."""
+    """Set many items at the same time; after each printed line, the total has to be larger by its price."""
     before = len(till.printer.lines)
     items = _items(context, MANY)
     replies = till.set.at_once([{"item": item, "cents": cents} for item, cents in items])
@@ -347,7 +350,7 @@ LEFT = (
     goals={EMPTIED: 3, "Wait for a line that is being printed, and reset without a printer.": 1},
 )
 def the_reset(context: CheckContext) -> None:
-    """Reset a till with and without items, with a free item, and while a line is being printed."""
+    """Reset a till with and without items, with an item that costs nothing, and while a line is printed."""
     with running_till(context, TOTAL, RESET) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         reset = till.service(context, RESET, TRIGGER, [(ANYTHING, SUCCEEDS)])
@@ -374,7 +377,7 @@ def _resets(context: CheckContext, reset: Service, message: str, hint: str) -> N
 
 
 def _waits_for_a_line(context: CheckContext, till: Till, reset: Service, total: Service) -> None:
-    """Call till/reset while a line is being printed."""
+    """Call till/reset while a line is printed."""
     first, second = _items(context, 2)
     till.set(item=first[0], cents=first[1])
     till.printer.began.clear()

@@ -1,4 +1,4 @@
-"""15.1: a node that publishes for each valid frame whether it shows a customer."""
+"""15.1: a node that publishes for each valid frame whether the frame shows a customer."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ FRAMES, SEEN = "frames", "customer_seen"
 INTERFACE = Interface(publishes=[SEEN], subscribes=[FRAMES])
 BOOL = "std_msgs/Bool"
 DARK = 96
-ANSWER = 8.0  # s for a message after a frame, on a busy machine; it usually takes 5 ms
-AGAIN = 0.03  # s for which the check waits for a wrong second message
-SILENT = 0.25  # s for which the check waits for a wrong message after a malformed frame
+ANSWER = 8.0  # time limit in s for the message after a frame on a busy machine; it usually takes 5 ms
+AGAIN = 0.03  # s for which the check waits for a second message, which would be wrong
+SILENT = 0.25  # s for which the check waits for a message after a malformed frame, which would be wrong
 
 AVERAGE = (
     "A fifth of the points is dark, and all other points are very light. Count the dark points; do not "
@@ -63,7 +63,7 @@ SHOWN = "Publish for each valid frame whether it shows a customer."
     goals={SHOWN: 3, "Leave out malformed frames.": 1},
 )
 def the_vision(context: CheckContext) -> None:
-    """Send frames with dark points around the limit, frames with padding, and malformed frames."""
+    """Send frames with about as many dark points as the limit, frames with padding, and malformed frames."""
     with student_node(context, NAME, INTERFACE) as space:
         seen = context.subscribe(f"{space}/{SEEN}", BOOL)
         seen.published()
@@ -79,7 +79,7 @@ def the_vision(context: CheckContext) -> None:
 
 @dataclass(frozen=True)
 class Frame:
-    """A valid frame, whether it shows a customer, and the hint for a wrong message."""
+    """A valid frame, whether it shows a customer, and the hint if the message is wrong."""
 
     assertion: str
     image: Image
@@ -89,7 +89,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Style:
-    """The brightness of dark points; the number of padding bytes in a row, and their value."""
+    """The brightness of dark points, the number of padding bytes in a row, and their value."""
 
     dark: tuple[int, int] = field(default=(0, DARK - 1))
     padding: int = 0
@@ -119,7 +119,7 @@ class Camera:
 
 
 def image_of(context: CheckContext, width: int, height: int, dark: int, style: Style | None = None) -> Image:
-    """Return a frame with `dark` dark points at random places; all other points are very light."""
+    """Return a frame with `dark` dark points at random places; all other points are very bright."""
     style = style or Style()
     points = [context.random.integer(*style.dark) for _ in range(dark)]
     points += [context.random.integer(230, 255) for _ in range(width * height - dark)]
@@ -214,7 +214,7 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
 def _leaves_out(
     context: CheckContext, camera: Camera, seen: Subscription, malformed: Image, what: str, hint: str
 ) -> None:
-    """Send a malformed frame and then a valid frame; exactly one message has to come."""
+    """Send a malformed frame and then a valid one; there has to be exactly one message."""
     before = seen.count
     camera.send(malformed)
     seen.until(lambda arrivals: len(arrivals) > before, SILENT)
@@ -238,7 +238,7 @@ def _leaves_out(
 
 
 def _once(context: CheckContext, seen: Subscription, before: int) -> None:
-    """Assert that exactly one message has come after the first `before` messages."""
+    """Assert that there is exactly one message after the first `before` messages."""
     seen.until(lambda arrivals: len(arrivals) > before + 1, AGAIN)
     context.require(
         "the node publishes one message for each frame",

@@ -1,4 +1,4 @@
-"""15.6: a node that waits for customers and greets them, while it mirrors the arm."""
+"""15.6: a node that waits for customers and greets them, and mirrors the arm at the same time."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ TRIGGER = "std_srvs/Trigger"
 STRING = "std_msgs/String"
 GREETING = "Good day!"
 STANDING = 1.2  # s for which the first call waits
-PAUSE, TOO_LONG = 0.4, 2.0  # s; limits for a pause of half a second, measured on a busy machine
-BETWEEN = 0.18  # s, the shortest time between two calls while a customer is there
-NEXT_CALL = 6.0  # s for the next call, on a busy machine
+PAUSE, TOO_LONG = 0.4, 2.0  # s; limits for a pause of 0.5 s that is measured on a busy machine
+BETWEEN = 0.18  # s; shortest time between two calls while a customer is there
+NEXT_CALL = 6.0  # time limit for the next call on a busy machine (s)
 
 
 class Step(NamedTuple):
-    """One call that the node has to make: its `patience`, the response, and the name of the response."""
+    """One call that the node has to make: its `patience`, the response, and the name of this response."""
 
     waits: bool  # True means that `patience` has to be ~wait, and False means 0
     act: Act
@@ -61,8 +61,8 @@ STEPS = (
     Step(False, found(False), "False"),
     Step(True, Late(0.3, found(False)), "False"),
 )
-# The numbers of the calls of detect_customer that end a visit, counted from 1. Each of them is followed by a
-# call of till/reset.
+# The numbers of the calls of detect_customer that end a visit; the first call has the number 1. Each of them
+# is followed by a call of till/reset.
 VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits and step.name == "False"]
 NO_CALL = "No call came. Let the main thread call detect_customer in a loop until rospy.is_shutdown()."
 GIVEN_UP = "There was no call after a failed call. Catch rospy.ServiceException, wait 0.5 s, and call again."
@@ -133,7 +133,7 @@ GREETED = "Greet each customer once, and mirror the arm at the same time."
     goals={GREETED: 3, "Call detect_customer in a loop, with a patience of 2 s without the parameter.": 1},
 )
 def the_visits(context: CheckContext) -> None:
-    """Serve a detector that responds, refuses and breaks a connection, and a till that refuses once."""
+    """Serve a detector that responds, refuses and closes a connection, and a till that refuses once."""
     package = examined(context, NAME)
     names = [*INTERFACE.names, DETECT, RESET]
     space, other = (f"/{context.random.word()}" for _ in range(2))
@@ -176,7 +176,7 @@ def the_visits(context: CheckContext) -> None:
 
 
 class Alone:
-    """Serves a node that has no till: a customer comes, and leaves after one call."""
+    """Serves a node without a till: a customer comes, and leaves after one call."""
 
     def __init__(self) -> None:
         self.patiences: list[float] = []
@@ -197,7 +197,7 @@ class Call:
 
 
 class Detector:
-    """Responds to the calls as in STEPS, and records them."""
+    """Responds to the calls as STEPS says, and records them."""
 
     def __init__(self, wait: float) -> None:
         self.wait = wait
@@ -205,7 +205,7 @@ class Detector:
         self._lock = threading.Lock()
 
     def answer(self, request: AwaitCustomerRequest) -> Act:
-        """Return the response or the failure of this call."""
+        """Return the response to this call, or the failure."""
         with self._lock:
             step = STEPS[min(len(self.calls), len(STEPS) - 1)]
             now = time.monotonic()
@@ -215,26 +215,26 @@ class Detector:
 
 
 class Till:
-    """Refuses the second reset; stores for each reset how often the detector was called before."""
+    """Refuses the second reset; for each reset, it stores the number of earlier calls to the detector."""
 
     def __init__(self, detector: Detector) -> None:
         self.resets: list[int] = []
         self._detector = detector
 
     def answer(self, _: TriggerRequest) -> Act:
-        """Return the response or the failure of this call."""
+        """Return the response to this call, or the failure."""
         self.resets.append(len(self._detector.calls))
         second = len(self.resets) == 2
         return Refuse("no till today") if second else {"success": True, "message": "paid 5 cents"}
 
 
 def _called(detector: Detector, times: int) -> bool:
-    """Wait for the call number `times` of the detector; return whether it came in time."""
+    """Wait for the detector's call with the number `times`; return whether it came in time."""
     return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
 
 
 def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscription) -> None:
-    """Wait for the calls of STEPS one after the other, and compare their `patience` and their times."""
+    """Wait for the calls of STEPS in order, and compare their `patience` and their times."""
     for number, step in enumerate(STEPS):
         came = _called(detector, number + 1)
         before = STEPS[number - 1].name if number else "nothing"
@@ -283,7 +283,7 @@ def _wrong_patience(number: int, patience: float, wanted: float) -> str:
 
 
 def _mirrors_meanwhile(context: CheckContext, mirrored: Subscription, call: Call) -> None:
-    """Count the images that arrive while the first call waits."""
+    """Count the mirror images that arrive while the first call waits."""
     wait_until(lambda: time.monotonic() > call.answered, STANDING + 1.0)
     meanwhile = [each for each in mirrored.arrivals if call.came + 0.2 < each.at < call.answered]
     context.require(

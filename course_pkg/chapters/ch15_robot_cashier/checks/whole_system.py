@@ -1,4 +1,4 @@
-"""15.11: the student's whole system; the check launches it, uses it like a customer, and causes faults."""
+"""15.11: the student's whole system; the check launches it, uses it as a customer does, and causes faults."""
 
 from __future__ import annotations
 
@@ -26,14 +26,16 @@ from course_pkg.ros import Snapshot
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient, items
 from course_pkg.waiting import wait_until
 
-STARTING = 40.0  # s for the system to start on a busy machine; it takes 3 s on an idle machine
-# Time in s from the first node to all other nodes. It is longer if the first node appeared late.
+# time limit for the start of the system on a busy machine (s); it takes 3 s on an idle machine
+STARTING = 40.0
+# Time in s from the first node to all other nodes; it is longer if the first node started late. It is longer
+# if the first node appeared late.
 COMPLETE = 6.0
 POLL = 0.1  # s between two snapshots of the graph
-REACTION = 5.0  # s for a greeting, for a reset, and until the detector notices a change
-BACK = 8.0  # s until killed nodes run again; or twice the time that the system needed to start
+REACTION = 5.0  # time limit for a greeting, for a reset, and for the detector to notice a change (s)
+BACK = 8.0  # time limit until killed nodes run again (s), or twice the time of the start if this is longer
 EVERY = 0.1  # s between two frames
-WAIT = 1.5  # s, the argument wait
+WAIT = 1.5  # s; the value of the argument `wait`
 SERVICES = {
     "detect_customer": "customer_detector",
     "till/set": "till",
@@ -43,8 +45,8 @@ SERVICES = {
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
 SYSTEM = "roslaunch starts the whole system"  # an assertion
-VISITS = 2  # largest number of customers after the restart until one of them is greeted
-MANY = 6  # calls at the same time, by two customers
+VISITS = 2  # maximum number of customers after the restart until one of them is greeted
+MANY = 6  # number of simultaneous calls of two customers
 
 NOT_LAUNCHED = (
     "roslaunch ended. Type roslaunch my_cashier cashier.launch hardware:=false, and read its output."
@@ -86,7 +88,7 @@ AFTERWARDS = (
     start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
 )
 def the_whole_system(context: CheckContext) -> None:
-    """Be two customers at once, with faults of the printer and of the camera; then kill all nodes."""
+    """Act as two customers, with faults of the printer and of the camera; then kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
     command = f"python3 -c '{READER}' {FILE} hardware:=false"
     programs = package.start(command, worded="roslaunch")
@@ -115,7 +117,10 @@ def the_whole_system(context: CheckContext) -> None:
 
 
 class Counter:
-    """The camera of the counter: publishes a frame every 0.1 s, with or without a customer, or no frames."""
+    """The camera of the counter.
+
+    It publishes a frame every 0.1 s, with or without a customer, or no frames.
+    """
 
     def __init__(self, context: CheckContext, topic: str) -> None:
         self._frames = {there: image_of(context, 40, 30, 500 * there) for there in (False, True)}
@@ -124,7 +129,7 @@ class Counter:
         threading.Thread(target=self._publish, daemon=True).start()
 
     def show(self, customer: bool | None) -> None:
-        """Publish frames with or without a customer from now on; None publishes no frame."""
+        """From now on, publish frames with or without a customer; None means that no frames are published."""
         self._shown = None if customer is None else self._frames[customer]
 
     def _publish(self) -> None:
@@ -135,7 +140,7 @@ class Counter:
 
 
 def _comes_up(context: CheckContext, running: Running, space: str) -> float:
-    """Wait until all services and topics exist, or report the first missing name.
+    """Wait until all services and topics exist; if one is missing, report its name.
 
     Return the time in s that the system needed to start.
     """
@@ -163,7 +168,7 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
 
 
 def _missing(seen: Snapshot, space: str) -> list[tuple[str, str]]:
-    """Return the missing services and topics, each with its node."""
+    """Return the missing services and topics, each with the node to which it belongs."""
     published = {(topic.name, node) for topic in seen.topics for node in topic.publishers}
     served = {(service.name, service.node) for service in seen.services if service.reachable}
     return [
@@ -176,7 +181,7 @@ def _missing(seen: Snapshot, space: str) -> list[tuple[str, str]]:
 
 @dataclass
 class Shop:
-    """The system, used like a customer."""
+    """The whole system, used as a customer does."""
 
     context: CheckContext
     space: str
@@ -186,7 +191,7 @@ class Shop:
     counter: Counter
 
     def service(self, name: str, kind: str, hint: str, timeout: float = 5.0) -> Service:
-        """Return a service of the system; `hint` is for a call that fails."""
+        """Return a proxy for a service of the system; `hint` is used if a call fails."""
         return self.context.service(f"{self.space}/{name}", kind, timeout=timeout, hints=[(ANYTHING, hint)])
 
     def looks_at_frames(self) -> None:
@@ -201,7 +206,7 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer soon responds with `customer`; `hint` is for a call that fails."""
+        """Return whether detect_customer soon returns `customer`; `hint` is used if a call fails."""
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:
@@ -269,7 +274,7 @@ class Shop:
         )
 
     def is_greeted(self, count: int, hint: str) -> None:
-        """Assert that `count` greetings have come."""
+        """Assert that `count` greetings were published."""
         self.context.require(
             "a customer is greeted",
             holds=len(self.greetings.wait(count, REACTION)) == count,
@@ -279,7 +284,7 @@ class Shop:
         )
 
     def notices_a_silent_camera(self) -> None:
-        """Stop the frames, and then continue."""
+        """Stop the frames, and continue them later."""
         self.counter.show(None)
         time.sleep(1.4)
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", NOT_RECOVERED)
@@ -311,7 +316,7 @@ class Shop:
 
 
 def _restarts_killed_nodes(context: CheckContext, package: BuiltPackage, space: str, within: float) -> None:
-    """Kill the four nodes; each of them has to run again `within` s, as another process."""
+    """Kill the four nodes; each of them has to run again `within` s, as a new process."""
     before = {node: _pid(context.look(), f"{space}/{node}") for node in NODES}
     package.folder.command("kill", "-9", *map(str, before.values()), worded="kill -9 for each node")
 

@@ -1,1 +1,1 @@
-"""The nodes that only chapter 15 runs; CMakeLists.txt turns each module into an executable."""
+"""The nodes that only chapter 15 uses; CMakeLists.txt makes an executable from each module."""

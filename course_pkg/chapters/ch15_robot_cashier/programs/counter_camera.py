@@ -35,7 +35,10 @@ class CounterCamera:
         self._publisher = rospy.Publisher("frames", Image, queue_size=1, tcp_nodelay=True)
 
     def handle_let_in(self, request: LetInRequest) -> LetInResponse:
-        """Let customers in, and return when each of them comes; raise ServiceException for wrong values."""
+        """Let customers in, and return the time at which each of them comes.
+
+        Raises ServiceException for invalid values.
+        """
         try:
             with self._lock:
                 visits = self._counter.let_in(time.time(), request.after, request.stay)
@@ -55,7 +58,7 @@ class CounterCamera:
                 return
 
     def _there(self) -> int:
-        """Return the number of customers at the counter; if no customer is expected, let one come later."""
+        """Return the number of customers at the counter; if no customer is planned, plan one."""
         with self._lock:
             now = time.time()
             if self._every and self._counter.next_change(now) == math.inf:
@@ -64,7 +67,7 @@ class CounterCamera:
 
 
 def frame_of(customers: int) -> Image:
-    """Return an image with this number of customers and with the current time as its stamp."""
+    """Return an image with this number of customers; its stamp is the current time."""
     frame = Image(height=HEIGHT, width=WIDTH, encoding="mono8", step=WIDTH)
     frame.header.stamp = rospy.Time.now()
     frame.header.frame_id = "counter"

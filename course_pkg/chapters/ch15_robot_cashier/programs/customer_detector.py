@@ -1,7 +1,7 @@
-"""The node `customer_detector`: waits for a customer at the counter, and returns whether one is there.
+"""The node `customer_detector`: waits for a customer at the counter, and returns whether there is one.
 
 It subscribes to `customer_seen` (std_msgs/Bool), and serves `detect_customer` (course_pkg/AwaitCustomer). A
-call waits for a customer, but never longer than the request allows.
+call waits for a customer, for at most the time in the request.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from course_pkg.ros.node.program import start_node, undisturbed
 from course_pkg.shop.watch import Eye, await_customer
 from course_pkg.srv import AwaitCustomer, AwaitCustomerRequest
 
-LONGEST = 60.0  # s that a client may wait
+LONGEST = 60.0  # maximum time in s for which a client can wait
 
 
 class CustomerDetector:
@@ -25,11 +25,11 @@ class CustomerDetector:
         rospy.Subscriber("customer_seen", Bool, self._eye.hear, queue_size=1, tcp_nodelay=True)
 
     def handle_detect(self, request: AwaitCustomerRequest) -> bool:
-        """Return True as soon as a customer is there, and False after `patience` s.
+        """Return True as soon as there is a customer, and False after `patience` s.
 
-        Raise ServiceException if `patience` is impossible, or if the camera is silent.
+        Raise ServiceException if `patience` is out of range, or if the camera sends no messages.
         """
-        if not 0.0 <= request.patience <= LONGEST:  # this comparison is false for nan
+        if not 0.0 <= request.patience <= LONGEST:  # this condition is false for NaN
             message = f"patience is {request.patience:g} s, but it has to be from 0 to {LONGEST:g} s"
             raise rospy.ServiceException(message)
         try:
@@ -39,7 +39,7 @@ class CustomerDetector:
 
 
 def main() -> None:
-    """Detect until the node is shut down."""
+    """Handle calls until the node is shut down."""
     if not start_node("customer_detector"):
         return
     with undisturbed():

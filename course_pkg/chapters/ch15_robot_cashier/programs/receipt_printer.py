@@ -1,7 +1,7 @@
-"""The node `receipt_printer`: prints lines, one after the other, as long as it has paper.
+"""The node `receipt_printer`: prints one line at a time, as long as it has paper.
 
 It serves `print_line` (course_pkg/PrintLine), and publishes each printed line on `receipt` (std_msgs/String).
-The private parameter `~paper` (default 1000) is the number of lines until the paper is used up.
+The private parameter `~paper` (default 1000) is the number of lines for which there is paper.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class ReceiptPrinter:
         self._receipt = rospy.Publisher("receipt", String, queue_size=100)
 
     def handle_print(self, request: PrintLineRequest) -> PrintLineResponse:
-        """Print a line; raise ServiceException if nothing was printed."""
+        """Print a line; raises ServiceException if nothing was printed."""
         try:
             self._printer.print(request.line)
         except PrinterFailed as error:
@@ -35,7 +35,7 @@ class ReceiptPrinter:
 
 
 def main() -> None:
-    """Print until the node is shut down."""
+    """Print lines until the node is shut down."""
     if not start_node("receipt_printer"):
         return
     paper = int(number_parameter("~paper", PAPER, 0, 1e6))

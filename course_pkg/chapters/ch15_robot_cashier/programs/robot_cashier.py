@@ -1,8 +1,8 @@
-"""The node `robot_cashier`: mirrors the arm and greets customers at the same time.
+"""The node `robot_cashier`: mirrors the arm, and greets customers at the same time.
 
 It publishes the mirror image of each message of `joint_states` on `mirrored_joints`. It calls
-`detect_customer` (course_pkg/AwaitCustomer) repeatedly; in these calls, `patience` is `~wait` (default 2) s.
-For each visit, it publishes one greeting on `greetings` (std_msgs/String). After a visit it calls
+`detect_customer` (course_pkg/AwaitCustomer) again and again; in these calls, `patience` is `~wait` (default
+2) s. For each visit, it publishes one greeting on `greetings` (std_msgs/String). After a visit it calls
 `till/reset` (std_srvs/Trigger).
 """
 
@@ -23,14 +23,14 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import AwaitCustomer
 
 QUIET = 5.0  # s between two warnings
-GRACE = 2.0  # s that a call may take longer than its `patience`
+GRACE = 2.0  # maximum time in s by which a call may exceed its `patience`
 AGAIN = 0.5  # s between a failed call and the next call
 POLL = 0.2  # s between calls while a customer is there
-FAILED = (rospy.ServiceException, CourseError)  # errors of a call
+FAILED = (rospy.ServiceException, CourseError)  # the errors that a call can raise
 
 
 class RobotCashier:
-    """Mirrors the arm, and waits for customers and greets them."""
+    """Mirrors the arm; it also waits for customers and greets them."""
 
     def __init__(self) -> None:
         self._mirror = rospy.Publisher("mirrored_joints", JointState, queue_size=10, tcp_nodelay=True)
@@ -39,12 +39,12 @@ class RobotCashier:
         self._reset = BoundedProxy("till/reset", Trigger)
         self._over = threading.Event()
         for proxy in (self._detect, self._reset):
-            rospy.on_shutdown(proxy.cancel)  # without this, the shutdown would wait for a pending call
+            rospy.on_shutdown(proxy.cancel)  # without this, the shutdown would wait for the end of a call
         rospy.on_shutdown(self._over.set)
         rospy.Subscriber("joint_states", JointState, self.mirror, tcp_nodelay=True)
 
     def mirror(self, joints: JointState) -> None:
-        """Publish the mirror image of a joint state; rospy calls this on its own thread."""
+        """Publish the mirror image of a joint state; rospy calls this method on a separate thread."""
         try:
             self._mirror.publish(mirrored(joints))
         except ValueError as error:
@@ -59,22 +59,22 @@ class RobotCashier:
                 self._empty_till()
 
     def _is_there(self, wait: float, otherwise: bool = False) -> bool:
-        """Return whether a customer comes within `wait` s; return `otherwise` after a failed call."""
+        """Return whether a customer comes within `wait` s; if the call fails, return `otherwise`."""
         try:
             return bool(self._detect.call(patience=wait, timeout=wait + GRACE).found)
         except FAILED as error:
-            if not self._over.is_set():  # the shutdown of the node has cancelled the call
+            if not self._over.is_set():  # the shutdown of the node has not cancelled the call
                 rospy.logwarn_throttle(QUIET, "Cannot detect customers, trying again: %s", error)
             self._over.wait(AGAIN)
             return otherwise
 
     def _await_departure(self) -> None:
-        """Return when no customer is there. After a failed call, the customer may still be there."""
+        """Return when there is no customer. If a call has failed, the customer may still be there."""
         while not self._over.wait(POLL) and self._is_there(0, otherwise=True):
             pass
 
     def _empty_till(self) -> None:
-        """Reset the till once; if no till is running, the cashier continues."""
+        """Reset the till once; if there is no till, the cashier continues."""
         try:
             self._reset.call(timeout=GRACE)
         except FAILED as error:
@@ -83,7 +83,7 @@ class RobotCashier:
 
 
 def main() -> None:
-    """Mirror and greet until the node is shut down."""
+    """Mirror the arm and greet customers until the node is shut down."""
     if not start_node("robot_cashier"):
         return
     wait = number_parameter("~wait", 2.0, 0.1, 60.0)

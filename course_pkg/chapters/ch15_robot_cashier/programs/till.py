@@ -1,8 +1,8 @@
-"""The node `till`: adds up the prices of a customer's items.
+"""The node `till`: adds the prices of a customer's items.
 
-It has three services. `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
+It has three services: `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
 (course_pkg/TillTotal) returns the sum, and `till/reset` (std_srvs/Trigger) removes all items. A price counts
-only if `print_line` (course_pkg/PrintLine) has printed it.
+only after `print_line` (course_pkg/PrintLine) has printed it.
 """
 
 from __future__ import annotations
@@ -17,21 +17,21 @@ from course_pkg.ros.node.program import serve_until_shutdown
 from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import PrintLine, TillSet, TillSetRequest, TillTotal, TillTotalRequest
 
-PRINTING = 5.0  # s in which the printer has to respond
+PRINTING = 5.0  # time limit for a response of the printer (s)
 
 
 class Till:
-    """A till that several clients can call at the same time. It prints one line at a time."""
+    """A till; several clients can call it at the same time. It prints one line at a time."""
 
     def __init__(self) -> None:
-        self._turn = threading.Lock()  # held while a line is printed and counted
-        self._cents: dict[str, int] = {}  # the price of each item
+        self._turn = threading.Lock()  # this lock is held while a line is printed and counted
+        self._cents: dict[str, int] = {}  # the price of each item in cents
 
     def handle_set(self, request: TillSetRequest) -> int:
         """Print and store the price of an item, and return the total in cents.
 
-        Raise ServiceException, and change nothing, if the item has no name, if the price is negative, or if
-        the printer refuses or is missing.
+        Raise ServiceException and change nothing if the item has no name, if the price is negative, or if
+        there is no printer or it refuses.
         """
         if not request.item:
             raise rospy.ServiceException("an item needs a name")
@@ -48,12 +48,15 @@ class Till:
             return sum(self._cents.values())
 
     def handle_total(self, _: TillTotalRequest) -> tuple[int, int]:
-        """Return the sum in cents, and the number of items."""
+        """Return the sum of the prices in cents, and the number of items."""
         with self._turn:
             return sum(self._cents.values()), len(self._cents)
 
     def handle_reset(self, _: TriggerRequest) -> tuple[bool, str]:
-        """Remove all items; the message contains their sum in cents. A second reset succeeds, too."""
+        """Remove all items; the message contains the sum of their prices in cents.
+
+        If the till is already empty, this succeeds, too.
+        """
         with self._turn:
             if not self._cents:
                 return True, "already empty"

@@ -16,15 +16,15 @@ QUIET = 5.0  # s between two warnings
 
 
 class Vision:
-    """Checks each frame for a customer."""
+    """Looks for customers in each frame."""
 
     def __init__(self) -> None:
         self._seen = rospy.Publisher("customer_seen", Bool, queue_size=1, tcp_nodelay=True)
-        # Only the newest frame is used, so a queue for older frames is not necessary.
+        # Only the newest frame is used, so a queue of older frames is not needed.
         rospy.Subscriber("frames", Image, self.handle_frame, queue_size=1, tcp_nodelay=True)
 
     def handle_frame(self, frame: Image) -> None:
-        """Publish whether a frame shows a customer; publish nothing for a malformed frame."""
+        """Publish whether a frame shows a customer; if the frame is malformed, publish nothing."""
         try:
             self._seen.publish(sees_customer(frame))
         except ValueError as error:
@@ -32,7 +32,7 @@ class Vision:
 
 
 def main() -> None:
-    """Check frames until the node is shut down."""
+    """Handle frames until the node is shut down."""
     if not start_node("vision"):
         return
     with undisturbed():

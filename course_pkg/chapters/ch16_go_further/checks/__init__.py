@@ -1,4 +1,4 @@
-"""The checks of chapter 16: an action server, an action client, a parameter, and a node with four names."""
+"""The checks of chapter 16: an action server, an action client, a parameter, and a whole node."""
 
 from course_pkg.chapters.ch16_go_further.checks.action_client import bounded_goal
 from course_pkg.chapters.ch16_go_further.checks.action_server import executed_goal

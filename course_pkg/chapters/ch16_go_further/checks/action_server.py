@@ -1,4 +1,4 @@
-"""16.1: an action server with feedback, result and cancellation."""
+"""16.1: an action server with feedback, a result and cancellation."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ kept = []
 def begin(kind, name):
     kept.append(kind(name))
 """
-# Time in s for one thing, in two goals: the times differ, so that no fixed time fits both goals.
+# Time in s for one thing in each of two goals; the times differ, so that no fixed time is right for both.
 QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
-TIMEOUT = 6.0  # s for a goal that needs less than one second
-BUSY = 2.0  # s in which the check repeats a goal that was too slow, because a busy machine can delay messages
-STARTING = 2.0  # s for a server to start
-CANCELLING = 3.0  # s in which a goal has to end after its cancellation
+TIMEOUT = 6.0  # time limit for a goal that needs less than 1 s (s)
+BUSY = 2.0  # s in which the check repeats a goal that was too slow, because a busy machine may delay messages
+STARTING = 2.0  # time limit for the start of a server (s)
+CANCELLING = 3.0  # s; a goal has to end within this time after its cancellation
 FIXED = "The time for one thing is different in each goal: sleep for goal.seconds, not for a fixed time."
 NO_STATE = (
     "The function ended without a state for the goal. Call set_succeeded, "
@@ -111,7 +111,7 @@ def _wrong_feedback(things: int) -> Hints:
 
 
 def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
-    """Send a quick goal; if it was too slow, send another goal, because the machine may be busy."""
+    """Send a quick goal; if it was too slow, send another one, because the machine may be busy."""
     things = context.random.integer(3, 4)
     each = context.random.number(*QUICK, digits=3)
     limit = Deadline(BUSY)
@@ -144,7 +144,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
 
 
 def _pace(at: list[float], alone: float) -> float:
-    """Return the usual time between two messages in s, or `alone` if there are not enough messages."""
+    """Return the median time between two messages in s, or `alone` if there are too few messages."""
     gaps = [after - before for before, after in itertools.pairwise(at)]
     return statistics.median(gaps) if gaps else alone
 
@@ -159,7 +159,7 @@ def _sends_feedback(context: CheckContext, feedback: Subscription, before: int, 
 
 
 def _is_on_time(context: CheckContext, at: list[float], began: float, each: float) -> None:
-    """Assert that each feedback message comes when its thing has been fetched, and not earlier or later."""
+    """Assert that each feedback message comes when a thing has been fetched, neither earlier nor later."""
     context.require(
         "the feedback arrives while the goal is executed",
         holds=at[-1] - at[0] > 0.4 * (len(at) - 1) * each,
@@ -280,7 +280,7 @@ def _ends_as(context: CheckContext, client: actionlib.SimpleActionClient, assert
 def _is_over(client: actionlib.SimpleActionClient, timeout: float) -> bool:
     """Return whether the goal ends within `timeout` s.
 
-    The client's method wait_for_result() does not notice a goal that ends before send_goal() returns.
+    The client's method wait_for_result() misses the end of a goal that ends before send_goal() returns.
     """
     handle = client.gh
     assert handle is not None
@@ -292,6 +292,6 @@ def _counts(feedback: Subscription) -> list[int]:
 
 
 def _last(feedback: Subscription) -> int:
-    """Wait 0.3 s for late messages, and return the number in the last feedback."""
+    """Wait 0.3 s for late messages, and return the number in the last feedback message."""
     feedback.during(0.3)
     return _counts(feedback)[-1]

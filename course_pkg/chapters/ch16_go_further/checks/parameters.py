@@ -1,4 +1,4 @@
-"""16.3: a parameter, with a default for missing and invalid values."""
+"""16.3: a parameter; if its value is missing or invalid, a default is used."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
-SETTLING = 1.0  # s for a new value to reach a node that reads its parameters from a cache
+SETTLING = 1.0  # s until a new value reaches a node that reads parameters from a cache
 NAME = "The name of the parameter has to contain the name of the robot: f'/{robot}/speed'."
 CHANGED = (
     "The parameter was changed, but the function returned the old value: read the parameter in each call."
@@ -36,7 +36,7 @@ ZERO = "The value was 0, but a speed has to be above 0. Return the default."
     deadline=20.0,
 )
 def speed_parameter(context: CheckContext) -> None:
-    """Set the parameter of a robot with a random name to valid and invalid values, one after the other."""
+    """Set the parameter of a robot with a random name to several valid and invalid values."""
     robot = context.random.word()
     first, default = context.random.numbers(2, 1.0, 9.0)
     (second,) = context.random.numbers(1, 0.1, 0.9)

@@ -1,4 +1,7 @@
-"""16.4: a whole node with a topic, a service, an action and a parameter; the student chooses the kinds."""
+"""16.4: a whole node with a topic, a service, an action and a parameter.
+
+The student decides which is which.
+"""
 
 from __future__ import annotations
 
@@ -23,14 +26,14 @@ from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.msg import FetchAction, FetchGoal
 from course_pkg.waiting import wait_until
 
-USUAL = 5  # parcels, the capacity without an argument
-FEW = 4  # parcels, the capacity of the first robot: less than the default capacity
-PARCELS = 3  # parcels of a delivery; fewer than the smallest capacity
-EACH = 0.2  # s for one parcel
+USUAL = 5  # number of parcels; the capacity if there is no argument
+FEW = 4  # number of parcels; the capacity of the first robot, which is less than the default
+PARCELS = 3  # number of parcels in a delivery, which is less than the smallest capacity
+EACH = 0.2  # time for one parcel (s)
 PERIOD = 0.2  # s between two values of the battery
-ENDING = 4.0  # s for a goal to end
-SETTLING = 1.0  # s for the battery to show a delivery
-NOT_AT_ONCE = 0.9  # a goal that took this fraction of its full time was not aborted immediately
+ENDING = 4.0  # time limit for the end of a goal (s)
+SETTLING = 1.0  # s until the battery's charge shows a delivery
+NOT_AT_ONCE = 0.9  # if a goal took this fraction of its full time, it was not aborted at once
 
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -189,7 +192,7 @@ def _counts(feedback: Subscription) -> list[int]:
 def _cancels(
     context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription, battery: Subscription
 ) -> float:
-    """Cancel a delivery after its first parcel; return the charge after the delivery."""
+    """Cancel a delivery after its first parcel; return the charge of the battery afterwards."""
     before = feedback.count
     client.send_goal(FetchGoal(things=PARCELS, seconds=EACH))
     feedback.wait(before + 1, ENDING)
@@ -237,9 +240,9 @@ def _cancels(
 
 
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
-    """Assert that the impossible goal before the last goal did not reduce the charge."""
+    """Assert that the charge did not change because of the impossible goal before the last goal."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
-    battery.during(3 * PERIOD)  # wait, because the charge may have this value only for a short time
+    battery.during(3 * PERIOD)  # the charge may have this value only for a short time
     context.expect(
         "an impossible delivery delivers nothing",
         expected=f"a charge of {charge:g}",
@@ -252,7 +255,7 @@ def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, c
 
 
 def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClient, capacity: int) -> None:
-    """Send a goal with one parcel too many, and a goal with as many parcels as the robot can carry."""
+    """Send a goal with one parcel too many, and one with as many parcels as the robot can carry."""
     began = time.monotonic()
     client.send_goal(FetchGoal(things=capacity + 1, seconds=EACH))
     _ends_as(
@@ -281,7 +284,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
             )
         ],
     )
-    time.sleep(2 * EACH)  # in this time, a function that continues after set_aborted delivers a parcel
+    time.sleep(2 * EACH)  # in this time, a function that continues after set_aborted would deliver a parcel
     client.send_goal(FetchGoal(things=capacity, seconds=0.0))
     _ends_as(
         context,
@@ -295,7 +298,10 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
 def _ends_as(
     context: CheckContext, client: actionlib.SimpleActionClient, assertion: str, state: int, hint: str
 ) -> None:
-    """Assert that the goal ends in `state`; an exception of the student's function is shown first."""
+    """Assert that the goal ends in `state`.
+
+    If the student's function raised an exception, report this first.
+    """
     handle = client.gh
     assert handle is not None
     over = wait_until(lambda: handle.get_comm_state() == CommState.DONE, ENDING)

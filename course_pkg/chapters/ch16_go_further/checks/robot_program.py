@@ -1,4 +1,4 @@
-"""Functions that start the student's parcel robot, and find the kind of interface of each name."""
+"""Functions that start the student's parcel robot, and find out what each of its names is."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.waiting import at_this_load
 
 FILE = "parcel_robot.py"
-STARTING = 8.0  # s for the program to register something; it takes 1 s on an idle machine
-REGISTERING = 1.5  # s after the first registration in which the program has to register all other interfaces
+STARTING = 8.0  # time limit in s until the program has registered a name; it takes 1 s on an idle machine
+# s after the first registration; the program has to register all other names within this time
+REGISTERING = 1.5
 POLL = 0.05  # s between two snapshots of the graph
 FITTING = {"battery": "topic", "door": "service", "deliver": "action"}
 CAPACITY = (
@@ -36,7 +37,7 @@ ABSOLUTE = (
 
 @dataclass(frozen=True)
 class Robot:
-    """A running copy of the student's program, in a separate namespace."""
+    """A running copy of the student's program in a separate namespace."""
 
     running: Running
     space: str  # such as "/abcdef"
@@ -49,19 +50,19 @@ class Robot:
         self.running.__exit__(None, None, None)
 
     def name(self, name: str) -> str:
-        """Return the full name of a relative name of the robot."""
+        """Return the full name for one of the robot's relative names."""
         return f"{self.space}/{name}"
 
 
 def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
-    """Start the student's program with `arguments`, a random namespace and a random node name."""
+    """Start the student's program with `arguments`, in a random namespace, and with a random node name."""
     space, node = f"/{context.random.word()}", context.random.word()
     line = ["python", FILE, f"__ns:={space}", f"__name:={node}", *arguments]
     return Robot(folder.start(*line, worded=f"python3 {FILE}"), space, f"{space}/{node}")
 
 
 def offers_what_fits(context: CheckContext, robot: Robot) -> None:
-    """Wait until the robot offers its three names; assert that each name has a fitting kind of interface."""
+    """Wait until the robot has its three names; assert that each is of the right kind."""
     deadline = time.monotonic() + at_this_load(STARTING)
     found: dict[str, str] = {}
     while time.monotonic() < deadline:
@@ -95,7 +96,7 @@ def offers_what_fits(context: CheckContext, robot: Robot) -> None:
 
 
 def kind_of(seen: Snapshot, robot: Robot, name: str) -> str:
-    """Return "topic", "service" or "action", or "" if the robot offers nothing of this name."""
+    """Return "topic", "service" or "action"; return "" if the robot has nothing with this name."""
     return _kind(seen, robot, robot.name(name))
 
 
@@ -110,7 +111,7 @@ def _kind(seen: Snapshot, robot: Robot, full: str) -> str:
 
 
 def _elsewhere(seen: Snapshot, robot: Robot, name: str) -> bool:
-    """Return whether the robot offers an absolute or a private name instead of the relative name."""
+    """Return whether the robot uses an absolute or a private name in place of the relative name."""
     return bool(_kind(seen, robot, f"/{name}") or _kind(seen, robot, f"{robot.node}/{name}"))
 
 

@@ -1,4 +1,4 @@
-"""The node `bridge`: programs without ROS can call services through it, with JSON over a websocket.
+"""The node `bridge`: through it, programs without ROS can call services, with JSON over a websocket.
 
 It listens only on this computer. It implements the part of the rosbridge protocol that calls services
 (sections 3.4.6 and 3.4.7 of
@@ -25,9 +25,9 @@ from course_pkg.errors import GraphError
 from course_pkg.ros.node.program import number_parameter, start_node
 from course_pkg.ros.node.proxy import BoundedProxy
 
-PORT = 9090  # the port of rosbridge; `_port:=0` takes any free port
-TIMEOUT = 10.0  # s for one call
-LARGEST = 1 << 20  # bytes of a message
+PORT = 9090  # the port of rosbridge; with `_port:=0`, a free port is used
+TIMEOUT = 10.0  # time limit for one call (s)
+LARGEST = 1 << 20  # maximum bytes of a message
 
 JSON: TypeAlias = "bool | int | float | str | list[JSON] | dict[str, JSON] | None"
 
@@ -58,7 +58,7 @@ def answered(text: str | bytes) -> dict[str, JSON]:
 
 
 def _called(name: str, args: JSON) -> JSON:
-    """Call a service with fields by name or by position, and return the fields of its response."""
+    """Call a service with named or positional fields, and return the fields of its response."""
     cls = rosservice.get_service_class_by_name(name)
     if cls is None:
         raise ValueError(f"the type of service [{name}] is not known here")
@@ -84,7 +84,7 @@ def _error(message: str) -> dict[str, JSON]:
 
 
 class Connection(tornado.websocket.WebSocketHandler):
-    """One connection; each call runs on its own thread."""
+    """One connection of a client; each call runs on a separate thread."""
 
     def data_received(self, chunk: bytes) -> None:
         """Do nothing, because the request that opens a websocket has no body."""

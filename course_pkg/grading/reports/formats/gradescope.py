@@ -8,6 +8,7 @@ https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from course_pkg.checking.report import Report, Verdict
@@ -25,7 +26,7 @@ def write(book: Book, out: Path) -> None:
     for student in book.students:
         grades = [grade.for_student() for grade in book.of(student)]
         path = out / "gradescope" / clean.file_name(student or "nobody") / "results.json"
-        results = {**_results(grades), "extra_data": _identity(book, student)}
+        results = {**results_of(grades), "extra_data": _identity(book, student)}
         write_atomically(path, json.dumps(results, indent=1, ensure_ascii=False) + "\n")
 
 
@@ -42,7 +43,8 @@ def _identity(book: Book, student: str) -> dict[str, Plain]:
     return {key: value for key, value in known.items() if value}
 
 
-def _results(grades: list[Grade]) -> dict[str, Plain]:
+def results_of(grades: Sequence[Grade]) -> dict[str, Plain]:
+    """Return the results of one student; `grades` contain only what the student may see."""
     words = [
         text for grade in grades for text in (grade.problem, about_lateness(grade), *grade.notes) if text
     ]

@@ -1,0 +1,1 @@
+"""Writes the zip with which Gradescope grades submissions by this course."""

@@ -1,0 +1,28 @@
+"""How a worker separates students' code from the grader and from the machine."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import NamedTuple
+
+from course_pkg.sandbox.users import Users
+
+
+class Kind(str, Enum):
+    """The kinds of isolation; the value is the first argument of a worker."""
+
+    NAMESPACES = "sandboxed"  # bubblewrap, namespaces, limits, and a filter of system calls
+    USERS = "users"  # other users of the machine, limits, and a filter of system calls
+    NONE = "unsafe"  # students' code runs with the rights of the grader
+
+
+class Isolation(NamedTuple):
+    """The isolation of a running worker; `users` is set only if its kind is USERS."""
+
+    kind: Kind
+    users: Users | None = None
+
+    @property
+    def namespaces(self) -> bool:
+        """Whether the processes of a part have their own network and folders."""
+        return self.kind is Kind.NAMESPACES

@@ -1,0 +1,127 @@
+"""`course autograde` in a folder with Gradescope's layout: it always writes results.json."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from course_pkg.grading.autograder.run import OUT_OF_TIME, autograde
+from course_pkg.grading.autograder.settings import Settings, days_late
+from course_pkg.types.fields import Plain
+from tests.grading.handing_in import NAMES, folder, handed_out, raw, zipped
+from tests.grading.submitted import WRONG, hand_in
+
+VISIBLE = {"hidden", "after_due_date", "after_published", "visible"}
+NOBODY = {
+    "a file with another name": ("homework.txt", b"my answers"),
+    "a damaged notebook": (NAMES["05"], b"{"),
+}
+
+
+def graded(root: Path, files: dict[str, bytes], **settings: float | tuple[str, ...]) -> dict[str, Plain]:
+    """Grade `files` in the layout of Gradescope below `root`, and return results.json."""
+    known = Settings(**{"chapters": ("05",), "minutes": 5.0, **settings})  # type: ignore[arg-type]
+    folder(root, {"source/settings.json": known.as_json().encode()})
+    (root / "submission").mkdir(exist_ok=True)
+    folder(root / "submission", files)
+    assert autograde(root) == 0
+    results: dict[str, Plain] = json.loads((root / "results" / "results.json").read_text("utf-8"))
+    return results
+
+
+def blank(chapter: str = "05") -> bytes:
+    """Return the students' notebook of a chapter, without answers."""
+    return raw(handed_out(chapter))
+
+
+def test_without_a_notebook_each_part_is_listed_without_points(tmp_path: Path) -> None:
+    """Without a notebook, the output names the file to hand in, and the maximum of points stays the same."""
+    results = graded(tmp_path, {})
+    assert results["score"] == 0
+    assert f"{NAMES['05']} was not handed in." in str(results["output"])
+    tests = results["tests"]
+    assert isinstance(tests, list)
+    assert tests
+    for test in tests:
+        assert isinstance(test, dict)
+        assert test["score"] == 0 < int(str(test["max_score"]))
+        assert test["status"] in ("passed", "failed")
+        assert test["visibility"] in VISIBLE
+    assert results["stdout_visibility"] in VISIBLE
+
+
+@pytest.mark.parametrize("case", NOBODY)
+def test_a_file_that_cannot_be_graded_has_a_message(tmp_path: Path, case: str) -> None:
+    """A file that is no notebook of the chapter has a message with its name."""
+    name, content = NOBODY[case]
+    results = graded(tmp_path, {name: content})
+    assert results["score"] == 0
+    assert name in str(results["output"])
+
+
+def test_a_notebook_of_another_chapter_has_a_message(tmp_path: Path) -> None:
+    """A notebook of another chapter is not graded, and the message names both chapters."""
+    output = str(graded(tmp_path, {NAMES["06"]: blank("06")})["output"])
+    assert f"{NAMES['06']} belongs to chapter 06" in output
+    assert NAMES["05"] in output
+
+
+def test_a_zip_inside_the_submission_has_a_message(tmp_path: Path) -> None:
+    """A zip inside is not opened; the message says so."""
+    inside = zipped(tmp_path / "work.zip", {NAMES["05"]: blank()}).read_bytes()
+    assert "archive" in str(graded(tmp_path / "root", {"work.zip": inside})["output"])
+
+
+def test_links_and_pipes_are_not_read(tmp_path: Path) -> None:
+    """A link to another notebook is refused, and a pipe does not block the run."""
+    (tmp_path / "submission").mkdir()
+    (tmp_path / "secret.ipynb").write_bytes(blank())
+    (tmp_path / "submission" / NAMES["05"]).symlink_to(tmp_path / "secret.ipynb")
+    os.mkfifo(tmp_path / "submission" / "pipe.ipynb")
+    assert "link" in str(graded(tmp_path, {})["output"])
+
+
+def test_two_notebooks_of_two_chapters_are_both_graded(tmp_path: Path) -> None:
+    """Both chapters are in the results."""
+    results = graded(tmp_path, {NAMES["05"]: blank(), NAMES["06"]: blank("06")}, chapters=("05", "06"))
+    tests = results["tests"]
+    assert isinstance(tests, list)
+    assert {str(test["number"])[:2] for test in tests if isinstance(test, dict)} == {"05", "06"}
+    assert "was not handed in" not in str(results["output"])
+
+
+def test_broken_settings_still_give_results(tmp_path: Path) -> None:
+    """A damaged settings.json gives results without points, with a message."""
+    folder(tmp_path, {"source/settings.json": b"{"})
+    assert autograde(tmp_path) == 0
+    results = json.loads((tmp_path / "results" / "results.json").read_text("utf-8"))
+    assert results["score"] == 0
+    assert "damaged" in results["output"]
+
+
+def test_the_time_limit_ends_the_run_with_results(tmp_path: Path) -> None:
+    """After the time limit, the remaining parts have the reason in their output."""
+    work = hand_in(tmp_path / "work", "mia", answers={"05.1": WRONG}).read_bytes()
+    results = graded(tmp_path / "root", {NAMES["05"]: work}, minutes=0.0)
+    assert results["score"] == 0
+    assert OUT_OF_TIME in str(results["tests"])
+
+
+@pytest.mark.usefixtures("sandbox")
+def test_an_answer_earns_points_and_is_late(tmp_path: Path) -> None:
+    """A right answer earns its points, less the deduction for one day late."""
+    answers = dict.fromkeys([f"05.{number}" for number in range(2, 9)], "")
+    work = hand_in(tmp_path / "work", "mia", answers=answers).read_bytes()
+    metadata = {
+        "created_at": "2026-11-02T12:00:00.5-07:00",
+        "users": [{"name": "Mia", "assignment": {"due_date": "2026-11-01T23:59:00-07:00"}}],
+        "assignment": {"due_date": "2026-10-01T23:59:00-07:00"},
+    }
+    root = folder(tmp_path / "root", {"submission_metadata.json": json.dumps(metadata).encode()})
+    late = days_late(root / "submission_metadata.json")
+    assert late is not None
+    assert 0.5 < late < 0.51
+    assert graded(root, {NAMES["05"]: work}, late_per_day=50.0)["score"] == 1.0
