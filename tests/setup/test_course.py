@@ -18,6 +18,7 @@ SUBCOMMANDS = (
         "grade",
         "grade-one",
         "points",
+        "review",
         "release",
         "collect",
         "progress",

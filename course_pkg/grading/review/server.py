@@ -100,11 +100,11 @@ class Handler(RequestHandler):
             self.answer(action())
         except (ValueError, GradingError) as error:
             self.set_status(HTTPStatus.CONFLICT)
-            self.answer({"problem": str(error)})
+            self.answer({"problem": f"{str(error).rstrip('.')}."})
         except OSError as error:
             self.set_status(HTTPStatus.INSUFFICIENT_STORAGE)
             why = os.strerror(error.errno) if error.errno else str(error)
-            self.answer({"problem": f"overrides.csv cannot be written: {why}"})
+            self.answer({"problem": f"overrides.csv cannot be written: {why}."})
 
     def sent(self) -> dict[str, Plain]:
         """Return the data of the request; empty if it is not an object."""
