@@ -44,7 +44,7 @@ def close_for_maintenance(context: CheckContext) -> None:
     require_shebang(
         context,
         FILE,
-        missing=("Linux reads in line 1 which program runs the file. Begin with #!/usr/bin/env python3."),
+        missing="Linux reads in line 1 which program runs the file. Begin with #!/usr/bin/env python3.",
     )
     folder = context.folder(files=[FILE])
     _can_be_imported(context, folder.command("python", "-c", IMPORT, within=4.0, worded="import arm"))

@@ -64,7 +64,7 @@ USED = "Print a usage line, and end with 2, if the arguments are wrong."
     goals={
         COMPARED: 2,
         USED: 1,
-        ("Wait for a service that starts late. If the call fails, end the program with exit status 3."): 1,
+        "Wait for a service that starts late. If the call fails, end the program with exit status 3.": 1,
     },
 )
 def does_it_fit(context: CheckContext) -> None:
