@@ -57,7 +57,7 @@ replace("\ncatkin_package()\n", "")
 replace("\nadd_executable(box_server src/box_server.cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
 # %% 13.1 wrong: roscpp not found | hint: catkin_LIBRARIES contains only the libraries of the packages in find_package
 replace("roscpp course_pkg", "course_pkg")
-# %% 13.1 wrong: a library that is not there | hint: Read the end of its output
+# %% 13.1 wrong: a library that is not there | hint: Read the end of the output of catkin_make
 replace("${catkin_LIBRARIES})", "${catkin_LIBRARIES} boxes)")
 
 # %% 13.2 right: the mistakes repaired
@@ -93,7 +93,7 @@ replace("& ", " ", times=2)
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
 replace("volume = response.area", "volume = area")
-# %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every path
+# %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every branch
 replace("\n  return true;", "")
 # %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a good request
 replace("true", "0")

@@ -119,7 +119,7 @@ class ServiceView {
   #drawEmpty(picked) {
     const trouble = this.model.get("trouble");
     const some = this.model.get("services").length > 0;
-    const text = trouble || (picked ? "" : some ? "Pick a service to see what it asks for." :
+    const text = trouble || (picked ? "" : some ? "Pick a service to see the fields of its request." :
       "No node offers a service yet. Run the cell that starts a server; it appears here by itself.");
     say(this.empty, text);
     setAttribute(this.empty, "hidden", !text);
