@@ -157,7 +157,8 @@ def test_the_last_attempt_by_time(tmp_path: Path) -> None:
     (chosen,) = attempts_to_grade([given], "last", lambda each: times[each.origin])
     assert chosen.origin == f"s01/a/{FILE}"
     assert chosen.notes == (
-        f"Handed in 2 times: {chosen.origin} was handed in last and was graded. These do not count: s01/b/{FILE}.",
+        f"Handed in 2 times: {chosen.origin} was handed in last and was graded. "
+        f"These do not count: s01/b/{FILE}.",
     )
     assert attempts_to_grade([given], "last", lambda _: None) == [given]
 
