@@ -57,7 +57,7 @@ replace("\ncatkin_package()\n", "")
 replace("\nadd_executable(box_server src/box_server.cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
 # %% 13.1 wrong: roscpp not found | hint: catkin_LIBRARIES contains only the libraries of the packages in find_package
 replace("roscpp course_pkg", "course_pkg")
-# %% 13.1 wrong: a library that is not there | hint: Read the end of the output of catkin_make
+# %% 13.1 wrong: a library that is not there | hint: Read the end of its output
 replace("${catkin_LIBRARIES})", "${catkin_LIBRARIES} boxes)")
 
 # %% 13.2 right: the mistakes repaired

@@ -167,7 +167,7 @@ class ServiceView {
     say(this.clock, outcome.at ? `#${outcome.number} at ${outcome.at}` : "");
     clearInterval(this.ticking);
     if (phase === "running") this.#tick();
-    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields: its arrival is the answer.")] : []));
+    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields. It shows only that the handler has returned.")] : []));
     this.answer.classList.toggle("ros-past-answer", phase === "running");
     this.#drawButtons();
   }
