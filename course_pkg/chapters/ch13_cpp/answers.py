@@ -93,7 +93,7 @@ replace("& ", " ", times=2)
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
 replace("volume = response.area", "volume = area")
-# %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every path
+# %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every branch
 replace("\n  return true;", "")
 # %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a good request
 replace("true", "0")
