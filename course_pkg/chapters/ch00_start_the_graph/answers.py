@@ -17,20 +17,20 @@ replace('"/SERVER_NODE"', '"/chapter_00"')
 replace('"/getGeometry"', '"/SERVER_NODE/get_loggers"')
 # %% 00.1 wrong: a type without its package | hint: The name of a type includes
 replace("course_pkg/geometry", "geometry")
-# %% 00.1 wrong: the type in place of the name | hint: That is the type. Use the
+# %% 00.1 wrong: the type in place of the name | hint: That is the type. The name of the service
 replace("/getGeometry", "course_pkg/geometry")
 replace('name_of_type = "course_pkg/geometry"', 'name_of_type = "/getGeometry"')
-# %% 00.1 wrong: a slash at the end | hint: Compare letter by letter
+# %% 00.1 wrong: a slash at the end | hint: Compare your answer letter by letter
 replace('"/getGeometry"', '"/getGeometry/"')
 # %% 00.1 wrong: the service class instead of the name of its type | hint: That is the Python class of the type
 replace('"course_pkg/geometry"', "geometry")
 # %% 00.1 wrong: the service for the node | hint: The node is the program that offers it
 replace('"/SERVER_NODE"', '"/getGeometry"')
-# %% 00.1 wrong: the node for the service | hint: The command rosservice list shows
+# %% 00.1 wrong: the node for the service | hint: The command `rosservice list` shows
 replace('name_of_node = "/SERVER_NODE"\nname_of_service = "/getGeometry"', 'name_of_node = name_of_service = "/SERVER_NODE"')
 # %% 00.1 wrong: a type with a slash in front | hint: A type does not start with a slash
 replace("course_pkg", "/course_pkg")
-# %% 00.1 wrong: the name of the service for its type | hint: The command rosservice type
+# %% 00.1 wrong: the name of the service for its type | hint: The command `rosservice type`
 replace("course_pkg/geometry", "/getGeometry")
 # %% 00.1 wrong: a capital letter in the type | hint: written with a small g
 replace("pkg/geometry", "pkg/Geometry")
@@ -121,13 +121,13 @@ replace("before, after, after - before - 1", "before, after")
 replace("    time.sleep(pause)\n", "")
 # %% 00.3 wrong: the messages | hint: That is a whole message
 replace("return before, after,", "return UInt32(before), UInt32(after),")
-# %% 00.3 wrong: the later number first | hint: The order is wrong. Return the
+# %% 00.3 wrong: the later number first | hint: The order is wrong. Return two numbers
 replace("return before, after,", "return after, before,")
 # %% 00.3 wrong: a fixed topic | hint: No message arrived, although
 replace("(topic, UInt32", '("/nothing_here", UInt32', times=2)
 # %% 00.3 wrong: fixed numbers | hint: These numbers were not published on
 replace("return before, after, after - before - 1", "return 17, 25, 7")
-# %% 00.3 wrong: estimates the count from the rate | hint: Calculate the third number from the other two
+# %% 00.3 wrong: estimates the count from the rate | hint: Calculate the third number from the first two
 replace("after - before - 1", "int(pause * 2)")
 # %% 00.3 wrong: a fraction | hint: A count is a whole number
 replace("after - before - 1", "(after - before - 1) / 1")

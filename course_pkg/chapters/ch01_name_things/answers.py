@@ -19,20 +19,20 @@ replace("__ns:=/{room} ", "")
 replace(" getGeometry:=measure", "")
 # %% 01.1 wrong: remapping the wrong way round | hint: the old name comes first
 replace("getGeometry:=measure", "measure:=getGeometry")
-# %% 01.1 wrong: the node is not renamed | hint: Change it with __name
+# %% 01.1 wrong: the node is not renamed | hint: Change this name with __name
 replace(" __name:=measurer", "")
 # %% 01.1 wrong: only the service is in the room's namespace | hint: The node is not in the namespace of the room
 replace("__ns:=/{room} ", "")
 replace("getGeometry:=measure", "getGeometry:=/{room}/measure")
-# %% 01.1 wrong: always the kitchen | hint: The service has to be `measure`.
+# %% 01.1 wrong: always the kitchen | hint: The name of the service has to be `measure`
 replace("{room}", "kitchen")
 # %% 01.1 wrong: = instead of := | hint: The service still has its old
 replace(":=", "=", times=3)
 # %% 01.1 wrong: spaces around := | hint: The service still has its old
 replace(":=", " := ", times=3)
-# %% 01.1 wrong: another program | hint: The command begins with rosrun, the package and the program
+# %% 01.1 wrong: another program | hint: The command has to begin with
 replace("server", "pulse")
-# %% 01.1 wrong: roslaunch | hint: The command begins with rosrun, the package and the program
+# %% 01.1 wrong: roslaunch | hint: The command has to begin with
 replace("rosrun", "roslaunch")
 # %% 01.1 wrong: forgets to return | hint: without a return line
 replace("return ", "command = ")
@@ -50,7 +50,7 @@ replace('getGeometry:=measure"', 'getGeometry:=measure".split())')
 # %% 01.1 wrong: new names in a comment of the shell | hint: The service still has its old name
 def measurer_command(room):
     return f"rosrun course_pkg server # __ns:=/{room} __name:=measurer getGeometry:=measure"
-# %% 01.1 wrong: a second command | hint: The command begins with rosrun, the
+# %% 01.1 wrong: a second command | hint: The command has to begin with
 def measurer_command(room):
     return f"rosrun course_pkg server; rosrun course_pkg server __ns:=/{room} __name:=measurer"
 
@@ -75,7 +75,7 @@ replace("joint_states:=/{arm}", "joint_states:={arm}")
 replace("__ns:=/screen", "__ns:=/{arm}")
 # %% 01.2 wrong: no namespace | hint: The node is not in the namespace /screen.
 replace("__ns:=/screen ", "")
-# %% 01.2 wrong: the node keeps its name | hint: That is the default name of the program. Choose
+# %% 01.2 wrong: the node keeps its name | hint: The node still has its default name. Choose
 replace("__name:={arm}_viewer ", "")
 # %% 01.2 wrong: mirrored_joints keeps its name | hint: The viewers of all arms would
 replace(" mirrored_joints:={arm}/mirrored_joints", "")
@@ -83,7 +83,7 @@ replace(" mirrored_joints:={arm}/mirrored_joints", "")
 replace("mirrored_joints:={arm}", "mirrored_joints:=/{arm}")
 # %% 01.2 wrong: one name for all arms | hint: The topic has to be /screen/ARM/mirrored_joints,
 replace("mirrored_joints:={arm}/mirrored_joints", "mirrored_joints:=mirrored_{arm}")
-# %% 01.2 wrong: always the left arm | hint: The arm publishes joint_states in the namespace
+# %% 01.2 wrong: always the left arm | hint: does not subscribe to the topic of its arm
 replace("joint_states:=/{arm}/joint_states", "joint_states:=/left/joint_states")
 
 # %% 01.3 right: the last part of each name
@@ -107,20 +107,20 @@ def ask_wherever(last, length, width, height):
 # %% 01.3 right: searches only the services of the type
 replace("get_service_list()", 'rosservice_find("course_pkg/geometry")')
 replace("\n    return None", "")
-# %% 01.3 wrong: only in the outermost namespace | hint: You called a name that no
+# %% 01.3 wrong: only in the outermost namespace | hint: No service has the name that you called
 replace("for service … return None", "return rospy.ServiceProxy(last, geometry)(length, width, height).volume")
-# %% 01.3 wrong: accepts any name that contains the last part | hint: You called another service with a
+# %% 01.3 wrong: accepts any name that contains the last part | hint: You called the wrong service, which
 replace("for service … return None", """for service in sorted(rosservice.get_service_list(), key=len, reverse=True):
         if last in service:
             return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 01.3 wrong: accepts any name that ends with the last part | hint: You called another service with a
+# %% 01.3 wrong: accepts any name that ends with the last part | hint: You called the wrong service, which
 replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list(), key=len, reverse=True)")
 replace('split("/")[-1] == last', "endswith(last)")
 replace("\n    return None", "")
-# %% 01.3 wrong: the first service of the type | hint: You called another service with a
+# %% 01.3 wrong: the first service of the type | hint: You called the wrong service, which
 replace("for service … return None", """service = sorted(rosservice.rosservice_find("course_pkg/geometry"), key=lambda name: name.endswith("/" + last))[0]
     return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 01.3 wrong: calls the last part | hint: You called a name that no
+# %% 01.3 wrong: calls the last part | hint: No service has the name that you called
 replace("service, geometry", '"/elsewhere/" + last, geometry')
 replace("\n    return None", "")
 # %% 01.3 wrong: raises an error if there is no service | hint: The search found no service
@@ -177,9 +177,9 @@ replace("""names = dict(publishers).get(topic, [])
 replace("name for name in names if rosnode.rosnode_ping(name, max_count=1)", "(name for name in names if rosnode.rosnode_ping(name, max_count=1)), reverse=True")
 # %% 01.4 wrong: returns the nodes that do not answer | hint: These are the nodes that did not answer
 replace("rosnode.rosnode_ping", "not rosnode.rosnode_ping")
-# %% 01.4 wrong: the subscribers | hint: The topic has publishers
+# %% 01.4 wrong: the subscribers | hint: Your list is empty, but
 replace("(publishers)", "(subscribers)")
-# %% 01.4 wrong: the nodes that publish on any topic | hint: One of these nodes publishes another topic
+# %% 01.4 wrong: the nodes that publish on any topic | hint: One of these nodes publishes on a different topic
 replace("dict(publishers).get(topic, [])", "{name for _, nodes in publishers for name in nodes}")
 # %% 01.4 wrong: a topic whose name begins alike | hint: Compare the whole name of the topic
 replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers if each.startswith(topic) for name in nodes}")
@@ -192,7 +192,7 @@ replace("""names = dict(publishers).get(topic, [])
 # %% 01.4 wrong: the number of nodes | hint: That is the number of publishers
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return len([name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name, max_count=1)])")
-# %% 01.4 wrong: returns None if no publisher is alive | hint: Return an empty list
+# %% 01.4 wrong: returns None if no publisher is alive | hint: Return an empty list if no
 replace("1))", "1)) or None")
 # %% 01.4 wrong: a generator | hint: That is not a list
 replace("\n    names = dict … max_count=1))", """

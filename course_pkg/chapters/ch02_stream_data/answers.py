@@ -35,7 +35,7 @@ def count_aloud(topic, rate, count):
 
 # %% 02.1 wrong: does not wait for a subscriber | hint: before the subscriber was connected
 replace("\n    wait_until(publisher.get_num_connections, 2.0)", "")
-# %% 02.1 wrong: waits for a subscriber without a limit | hint: A topic may have no subscriber
+# %% 02.1 wrong: waits for a subscriber without a limit | hint: A topic can have no subscriber
 replace("wait_until(publisher.get_num_connections, 2.0)", "while publisher.get_num_connections() == 0:\n        time.sleep(0.01)")
 # %% 02.1 wrong: publishes nothing if there is no subscriber | hint: Even without a subscriber, the function
 replace("connections, 2.0)", """connections, 2.0)
@@ -49,7 +49,7 @@ replace("(count)", "(count + 1)")
 replace("10", "1000")
 replace("\n    pace = rospy.Rate(rate)", "")
 replace("\n        pace.sleep()", "")
-# %% 02.1 wrong: uses the rate as the pause | hint: s: use rospy.Rate. The wait has
+# %% 02.1 wrong: uses the rate as the pause | hint: End the wait as soon as
 replace("\n    pace = rospy.Rate(rate)", "")
 replace("pace.sleep()", "time.sleep(rate)")
 # %% 02.1 wrong: sleeps instead of waiting for a subscriber | hint: Check every few milliseconds whether a
@@ -79,7 +79,7 @@ replace("pace.sleep()", "if number % 5 == 4:\n            time.sleep(5 / rate)")
 replace("UInt32", "Float64")
 # %% 02.1 wrong: a fixed topic | hint: for the topic that the function gets.
 replace("topic, UInt32", '"/count", UInt32')
-# %% 02.1 wrong: waits half a second | hint: A subscriber that connects within 2
+# %% 02.1 wrong: waits half a second | hint: A subscriber that connects in the first
 replace("2.0", "0.5")
 # %% 02.1 wrong: strings | hint: Publish each number as an int,
 replace("publish(number)", "publish(str(number))")
@@ -131,16 +131,16 @@ replace("[-angle for angle in message.position]\n        image.velocity = [-spee
 # %% 02.2 wrong: absolute values | hint: A negative number has to become positive
 replace("-angle", "abs(angle)")
 replace("-speed", "abs(speed)")
-# %% 02.2 wrong: a new header | hint: The time is 0
+# %% 02.2 wrong: a new header | hint: The time stamp is 0
 replace("header=message.header, name", "name")
-# %% 02.2 wrong: the present time as the stamp | hint: The time is not the time
+# %% 02.2 wrong: the present time as the stamp | hint: The time stamp is different from
 replace("JointState(header=message.header, name=message.name)", """JointState(name=message.name)
         image.header.stamp = rospy.Time.now()""")
 # %% 02.2 wrong: no names | hint: The names are missing
 replace("header, name=message.name", "header")
 # %% 02.2 wrong: a publisher in the callback | hint: The target has no publisher when … not in the callback
 replace("publisher = … (message):", "def show(message):\n        publisher = rospy.Publisher(target, JointState, queue_size=10)")
-# %% 02.2 wrong: waits for one message | hint: The function does not return. It
+# %% 02.2 wrong: waits for one message | hint: The function does not return. Return
 replace("def show(message):", "while not rospy.is_shutdown():\n        message = rospy.wait_for_message(source, JointState)")
 replace("\n\n    return rospy.Subscriber(source, JointState, show)", "")
 # %% 02.2 wrong: only the first message | hint: Only one message was mirrored
@@ -229,7 +229,7 @@ class Notice:
         self.last = (value,)
         self.pub.publish(Float64(data=value))
 
-# %% 02.3 wrong: not latched | hint: Nothing arrived. With latch=True
+# %% 02.3 wrong: not latched | hint: Nothing arrived. Create the publisher with latch=True
 replace("10, latch=True", "10")
 # %% 02.3 wrong: waits for a subscriber instead of latching | hint: Don't wait in set()
 replace("10, latch=True", "10")
@@ -318,11 +318,11 @@ def start_robot(angles, draw, orders, prepare):
 
 # %% 02.4 wrong: no limit for the angles | hint: Too many angles wait in the queue
 replace("draw(message.data), queue_size=1", "draw(message.data)")
-# %% 02.4 wrong: ten angles may wait | hint: Only the newest one is useful here
+# %% 02.4 wrong: ten angles may wait | hint: because only the newest angle is useful
 replace("queue_size=1", "queue_size=10")
 # %% 02.4 wrong: one order may wait | hint: Some orders were lost
 replace("prepare(message.data)", "prepare(message.data), queue_size=1")
-# %% 02.4 wrong: ten orders may wait | hint: Some orders were lost. Twenty orders
+# %% 02.4 wrong: ten orders may wait | hint: Some orders were lost. Up to twenty
 replace("prepare(message.data)", "prepare(message.data), queue_size=10")
 replace("lambda message: prepare", "lambda message: time.sleep(0.02) or prepare")
 # %% 02.4 wrong: a thread for each angle | hint: Two calls ran at the same time
@@ -347,7 +347,7 @@ based_on("a thread for each angle")
 replace("threading.Thread(target=draw, args=[message.data], daemon=True).start()", "first.unregister()\n        draw(message.data)")
 replace("return [ … ]", """first = rospy.Subscriber(angles, Float64, on_angle, queue_size=1)
     return [first, rospy.Subscriber(orders, UInt32, lambda message: prepare(message.data))]""")
-# %% 02.4 wrong: does not return | hint: The function does not return. It
+# %% 02.4 wrong: does not return | hint: The function does not return. Return
 replace("return [", "subscribers = [")
 replace("    ]", "    ]\n    rospy.spin()\n    return subscribers")
 # %% 02.4 wrong: returns nothing | hint: Return a list of two rospy.Subscriber objects
@@ -379,9 +379,9 @@ def start_robot(angles, draw, orders, prepare):
         rospy.Subscriber(orders, UInt32, on_order),
     ]
 
-# %% 02.4 wrong: a fixed topic for the angles | hint: Create a rospy.Subscriber for the topic `angles`
+# %% 02.4 wrong: a fixed topic for the angles | hint: for the topic whose name is in `angles`
 replace("Subscriber(angles", 'Subscriber("/angle"')
-# %% 02.4 wrong: another type for the orders | hint: Create a rospy.Subscriber for the topic `orders`
+# %% 02.4 wrong: another type for the orders | hint: for the topic whose name is in `orders`
 replace("UInt32", "Float64")
 # %% 02.4 wrong: replaces draw by a method of its own | hint: draw() was not called. Call it
 replace("(angles, draw, orders, prepare):", """(angles, draw, orders, prepare):
@@ -449,13 +449,13 @@ replace('\n        return "running" if time.monotonic() - self.last <= 1.0 else 
         return "ended" if self.ended else "running"''')
 # %% 02.5 wrong: "waiting" after the stream has ended | hint: Messages arrived before, but no message
 replace('"ended"', '"waiting"')
-# %% 02.5 wrong: compares with None before the first message | hint: Before the first message, there is
+# %% 02.5 wrong: compares with None before the first message | hint: Before the first message, no time
 replace('if self.last … else "ended"', 'if time.monotonic() - self.last <= 1.0:\n            return "running"\n        return "ended"')
 # %% 02.5 wrong: subscribes in state() | hint: for the topic, of type UInt32, in __init__
 replace("def __init__(self, topic):", "def __init__(self, topic):\n        self.topic = topic")
 replace("\n        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)", "")
 replace("(self):", "(self):\n        rospy.Subscriber(self.topic, UInt32, self.hear)")
-# %% 02.5 wrong: one global time for all watches | hint: Only the other Watch received messages.
+# %% 02.5 wrong: one global time for all watches | hint: Only the other Watch object received messages.
 replace("class Watch:", "last = None\nclass Watch:")
 replace("\n        self.last = None", "")
 replace("self.last = time.monotonic()", "global last\n        last = time.monotonic()")
@@ -522,7 +522,7 @@ replace("\n        if value != self.value:\n            self.value = value\n    
 # %% 02.3 wrong: leaves out small changes | hint: A changed value was not published
 based_on("compares by truth")
 replace("self.last and self.last == value", "self.last is not None and abs(value - self.last) <= 0.1")
-# %% 02.3 wrong: all objects share the last value | hint: Store the last value in self, not in the class
+# %% 02.3 wrong: all objects share the last value | hint: if it is stored in the class
 based_on("compares by truth")
 replace("        self.last = None\n", "")
 replace("class Notice:\n", "class Notice:\n    last = [None]\n\n")

@@ -38,9 +38,9 @@ replace("\n        time.sleep(1 / rate)", "")
 # %% 03.1 wrong: polls without a limit | hint: poll() continues after the time is over
 replace("end = time.monotonic() + seconds\n    while time.monotonic() < end:", "while True:")
 replace("\n    return None", "")
-# %% 03.1 wrong: uses the rate as the pause | hint: The pause between two calls is 1 / rate seconds
+# %% 03.1 wrong: uses the rate as the pause | hint: Pause 1 / rate seconds between two calls
 replace("1 / rate", "rate")
-# %% 03.1 wrong: counts polls instead of seconds | hint: Do not count calls
+# %% 03.1 wrong: counts polls instead of seconds | hint: do not count calls
 replace("    end = time.monotonic() + seconds\n    while time.monotonic() < end:", "    for _ in range(int(seconds * rate)):")
 # %% 03.1 wrong: makes the server wait | hint: With this value of `patience`, the
 replace("end = time … return None", """answer = rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=seconds)
@@ -156,7 +156,7 @@ replace("greeted = set … UInt32, greet)", 'rospy.Subscriber("/customers", UInt
 based_on("a fixed topic")
 replace("greetings, UInt32", "customers, UInt32")
 replace('"/customers"', "greetings")
-# %% 03.2 wrong: publishes the number of greetings | hint: A number was published that is
+# %% 03.2 wrong: publishes the number of greetings | hint: Your function published a number that is
 replace("publish(message.data)", "publish(len(greeted))")
 # %% 03.2 wrong: another type | hint: Publish the topic with the type
 replace("def start_greeting", "from std_msgs.msg import Int32\n\n\ndef start_greeting")
@@ -265,7 +265,7 @@ replace('("topic", "newest")', '"topic"')
 replace('"topic", "newest"', '"newest", "topic"')
 # %% 03.4 wrong: one job left out | hint: The keys are the names of
 replace('\n    "free space on disk": ("service", "seldom"),', "")
-# %% 03.4 wrong: a list of triples | hint: A dict is written in braces
+# %% 03.4 wrong: a list of triples | hint: Write a dict, which has braces
 replace("decisions = … }", 'decisions = [\n    ("wheel speed", "topic", "newest"),\n    ("open the gripper", "service", "answer"),\n]')
 # %% 03.4 wrong: a reason that is not in the list | hint: The designs are
 replace('"newest"', '"fast"')

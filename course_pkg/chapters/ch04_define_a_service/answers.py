@@ -31,13 +31,13 @@ replace("float32[] seconds", "float[] seconds")
 replace("std_msgs/ColorRGBA", "ColorRGBA")
 # %% 04.1 wrong: brackets after the name | hint: Write the brackets after the type
 replace("float32[] seconds", "float32 seconds[]")
-# %% 04.1 wrong: wider numbers | hint: Line 6: seconds … has twice as many bits as
+# %% 04.1 wrong: wider numbers | hint: Line 6: seconds … which has twice as many bits
 replace("\n# What the lamp is to do.", "")
 replace("""
 uint8 mode … float32 total""", "uint8 mode\nstd_msgs/ColorRGBA colour\nfloat64[] seconds\n---\nbool success\nfloat64[3] rgb\nfloat64 total")
 # %% 04.1 wrong: a fixed length for an array of any length | hint: has a fixed length here. For
 replace("[]", "[3]")
-# %% 04.1 wrong: any length for an array of fixed length | hint: rgb … may have any length here. For … float32[3]
+# %% 04.1 wrong: any length for an array of fixed length | hint: rgb … can have any length here. For … float32[3]
 replace("[3]", "[]")
 # %% 04.1 wrong: one value for an array | hint: is one value here. An array
 replace("float32[] seconds", "float32 seconds")
@@ -85,7 +85,7 @@ replace("float32[] seconds\n---", "---\nfloat32[] seconds")
 replace("float32 total", "float32 total\nstring message")
 # %% 04.1 wrong: an array for one value | hint: total … is an array here, but the exercise needs one value
 replace("float32 total", "float32[] total")
-# %% 04.1 wrong: another type | hint: mode … has another type in the description: … uint8
+# %% 04.1 wrong: another type | hint: mode … has the wrong type here. … uint8
 replace("uint8 mode", "int32 mode")
 # %% 04.1 wrong: constants in another order | hint: All constants are there, but in
 replace("uint8 ON=1\nuint8 BLINK=2", "uint8 BLINK=2\nuint8 ON=1")
@@ -140,7 +140,7 @@ replace("if words", 'if words and words != ["---"]')
 # %% 04.2 wrong: the types only | hint: One letter of a name is
 based_on("the lines without comments and blanks")
 replace("words for", "words[0] for")
-# %% 04.2 wrong: the names only | hint: The types are part of the
+# %% 04.2 wrong: the names only | hint: The types of the fields, with
 based_on("the lines without comments and blanks")
 replace("words for", "words[-1] for")
 
@@ -216,7 +216,7 @@ replace("<build_depend>std_msgs … std_msgs</exec_depend>", "<exec_depend>messa
 replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: a blank line on top | hint: in the first column of the first line
 replace("<?xml", "\n<?xml")
-# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: , the tag of … Add an exec_depend
+# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: for std_msgs. Add an exec_depend
 replace("exec_depend>std_msgs</exec_depend", "build_export_depend>std_msgs</build_export_depend")
 
 # %% 04.4 right: as in the chapter
@@ -283,9 +283,9 @@ replace("\nfind_package(catkin REQUIRED COMPONENTS message_generation std_msgs)\
 find_package(message_generation REQUIRED)
 find_package(std_msgs REQUIRED)""")
 replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)")
-# %% 04.4 wrong: in a condition | hint: between if() and endif()
+# %% 04.4 wrong: in a condition | hint: and for an if() whose condition is false
 replace("generate_messages(DEPENDENCIES std_msgs)", "if(FALSE)\n  generate_messages(DEPENDENCIES std_msgs)\nendif()")
-# %% 04.4 wrong: in a block comment | hint: #[[ and ]] is a comment
+# %% 04.4 wrong: in a block comment | hint: Look for a comment between #[[ and ]]
 replace("(lamp_services)\n", "(lamp_services)")
 replace("\nadd_service_files(FILES Lamp.srv)", "#[[\nadd_service_files(FILES Lamp.srv)")
 replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)\n]]")
@@ -338,10 +338,10 @@ replace('rospy.init_node("lamp_server")\nrospy.Service("/lamp", Lamp, handle_lam
 
 if __name__ == "__main__":
     main()""")
-# %% 04.5 wrong: no shebang | hint: Without a shebang, Linux executes the
+# %% 04.5 wrong: no shebang | hint: Without a shebang, Linux runs the
 replace("#!/usr/bin … .seconds))\n", "import rospy\nfrom lamp_services.srv import Lamp")
 replace("handle_lamp", "lambda request: (True, request.seconds, 0)")
-# %% 04.5 wrong: the shebang in the second line | hint: The shebang works only if it
+# %% 04.5 wrong: the shebang in the second line | hint: Linux finds the shebang only in
 replace("#!/usr/bin/env python3", "\n#!/usr/bin/env python3")
 
 # %% 04.5 wrong: the run bit is missing | hint: chmod +x
@@ -361,7 +361,7 @@ replace("Lamp, handle_lamp", "lamp, lambda request: (True, [0, 0, 0], 0)")
 based_on("no shebang")
 replace("import rospy", "#!/usr/bin/env python3\nimport rospy")
 replace("request.seconds, 0))\nrospy.spin()", "[0, 0, 0], 0))")
-# %% 04.5 wrong: another service name | hint: It serves … /lamp_server … , but the exercise needs the
+# %% 04.5 wrong: another service name | hint: The program serves … /lamp_server … , but the exercise needs the
 based_on("the type in lower case")
 replace("import lamp", "import Lamp")
 replace('"/lamp", lamp', '"/lamp_server", Lamp')
@@ -380,13 +380,13 @@ replace("from lamp_services … .seconds))\n", "from lamp_services.srv import La
 # %% 04.5 wrong: the handler returns nothing | hint: without a return
 replace(", LampRequest, LampResponse", "")
 replace("known = request … .seconds))\n", "request.mode in (0, 1, 2)")
-# %% 04.5 wrong: accepts any mode | hint: The response for an unknown mode
+# %% 04.5 wrong: accepts any mode | hint: The mode is unknown, so success
 replace("success=known", "success=True")
 # %% 04.5 wrong: success is False for OFF | hint: This is one of the three
 replace("""known = request.mode in (LampRequest.OFF, LampRequest.ON, LampRequest.BLINK)
     lit = known and request.mode != LampRequest.OFF""", "lit = request.mode in (1, 2)")
 replace("known", "lit")
-# %% 04.5 wrong: a colour when it is OFF | hint: The lamp is dark for OFF
+# %% 04.5 wrong: a colour when it is OFF | hint: the lamp shows no light
 replace(" if lit else [0, 0, 0]", "")
 # %% 04.5 wrong: forgets the colour | hint: A field without a value is 0. Set
 replace("rgb=rgb, ", "")
@@ -398,25 +398,25 @@ replace("rgb=rgb", "rgb=request.colour")
 replace("colour.b]", "colour.b, colour.a]")
 # %% 04.5 wrong: the largest number in place of the sum | hint: Add up all values: sum(request.seconds).
 replace("total=sum", "total=max")
-# %% 04.5 wrong: refuses an unknown mode | hint: The handler must not refuse an
+# %% 04.5 wrong: refuses an unknown mode | hint: The handler refused an unknown mode
 replace("    lit = known", '    if not known:\n        raise rospy.ServiceException("no such mode")\n    lit = known')
 # %% 04.5 wrong: windows shebang | hint: The first line of the script
 replace("#!/usr/bin/env python3", "#!python3")
 # %% 04.5 wrong: the class of the request | hint: That is the class of the
 replace('"/lamp", Lamp,', '"/lamp", LampRequest,')
-# %% 04.5 wrong: imports the type from the package | hint: The types are not in lamp_services
+# %% 04.5 wrong: imports the type from the package | hint: Import the type from lamp_services.srv
 replace("lamp_services.srv", "lamp_services")
-# %% 04.5 wrong: line ends of Windows | hint: The file has the line ends
+# %% 04.5 wrong: line ends of Windows | hint: The file has Windows line endings
 replace("python3", "python3\r")
-# %% 04.5 wrong: a byte order mark in front | hint: The file begins with an invisible mark of Windows
+# %% 04.5 wrong: a byte order mark in front | hint: The file begins with an invisible character
 replace("#!", "\ufeff#!")
-# %% 04.5 wrong: python2 | hint: This shebang names another program: write
+# %% 04.5 wrong: python2 | hint: This shebang names the wrong program: write
 replace("python3", "python2")
 # %% 04.5 wrong: blue first | hint: Return red, green and blue in
 replace("[colour.r, colour.g, colour.b]", "[colour.b, colour.g, colour.r]")
 # %% 04.5 wrong: forgets the total | hint: Add up request.seconds
 replace(", total=sum(request.seconds)", "")
-# %% 04.5 wrong: dark for BLINK | hint: The lamp shows its colour for BLINK, too
+# %% 04.5 wrong: dark for BLINK | hint: The lamp also shows its colour for BLINK
 replace("request.mode != LampRequest.OFF", "request.mode == LampRequest.ON")
 # %% 04.5 wrong: a total only for a lamp that is lit | hint: The total is 0 for this
 replace("total=sum(request.seconds)", "total=sum(request.seconds) if lit else 0")

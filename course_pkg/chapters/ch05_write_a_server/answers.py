@@ -219,15 +219,15 @@ replace("for side in … request.height)", """sides = {"Length": request.length,
     if negative:
         raise rospy.ServiceException(negative[0])
     return request.length * request.width, request.length * request.width * request.height""")
-# %% 05.3 wrong: does not refuse | hint: The server measured this box, but
+# %% 05.3 wrong: does not refuse | hint: The server measured a box with a negative side
 replace('\n    for side in … negative")', "")
-# %% 05.3 wrong: raises a ValueError | hint: The handler raised another exception, so
+# %% 05.3 wrong: raises a ValueError | hint: The handler raised an exception of the wrong type
 replace("rospy.ServiceException", "ValueError")
 # %% 05.3 wrong: returns None | hint: The handler returned None, so the
 replace('raise rospy.ServiceException(f"{side} is {value}, and a side cannot be negative")', "return None")
-# %% 05.3 wrong: an error message without the name of the side | hint: The message names no side
+# %% 05.3 wrong: an error message without the name of the side | hint: The message does not contain the name of a side
 replace('f"{side} is {value}, and a side cannot be negative"', '"no such box"')
-# %% 05.3 wrong: answers with an empty box | hint: The server measured this box, but
+# %% 05.3 wrong: answers with an empty box | hint: The server measured a box with a negative side
 replace('raise rospy.ServiceException(f"{side} is {value}, and a side cannot be negative")', "return geometryResponse()")
 # %% 05.3 wrong: refuses a flat box, too | hint: not zero itself
 replace("value < 0", "value <= 0")
@@ -237,17 +237,17 @@ replace("raise rospy.ServiceException", "return rospy.ServiceException")
 replace('raise rospy.ServiceException(f"{side} is {value}, and a side cannot be negative")\n    ', 'return f"{side} is {value}"\n    ')
 # %% 05.3 wrong: compares without the fraction | hint: -0.5 is negative
 replace("value < 0", "int(value) < 0")
-# %% 05.3 wrong: names the side, and not its value | hint: The message does not contain the
+# %% 05.3 wrong: names the side, and not its value | hint: The message does not contain the value
 replace("{value}, and a side cannot be negative", "negative")
-# %% 05.3 wrong: sends the whole request back | hint: The message names more than one
+# %% 05.3 wrong: sends the whole request back | hint: The message contains the names of more than one
 replace('"{side} is {value}, and a side cannot be negative"', '"a negative side in {request}"')
-# %% 05.3 wrong: only the values of all sides | hint: The message names no side
+# %% 05.3 wrong: only the values of all sides | hint: The message does not contain the name of a side
 replace("{side} is {value}, and a side cannot be negative", "{request.length}, {request.width}, {request.height}")
-# %% 05.3 wrong: names the last negative side | hint: contains the name of another side
+# %% 05.3 wrong: names the last negative side | hint: contains the name of the wrong side
 replace('("length", "width", "height")', '("height", "width", "length")')
 # %% 05.3 wrong: refuses a box without length | hint: not zero itself
 replace("value < 0", "value < 0 or not request.length")
-# %% 05.3 wrong: forgets the width | hint: The server measured this box, but
+# %% 05.3 wrong: forgets the width | hint: The server measured a box with a negative side
 replace('("length", "width", "height")', '("length", "height")')
 
 # %% 05.3 right: an object, without handle_checked_geometry
@@ -261,7 +261,7 @@ class Checked:
 
 checked_service = rospy.Service("/getGeometryChecked", geometry, Checked())
 
-# %% 05.3 wrong: names all sides | hint: The message names more than one
+# %% 05.3 wrong: names all sides | hint: The message contains the names of more than one
 replace('f"{side} is {value}, and a side cannot be negative"', 'f"length is {request.length}, width is {request.width}, height is {request.height}"')
 # %% 05.3 wrong: forgets the f | hint: The message contains braces
 replace('f"{side}', '"{side}')
@@ -302,7 +302,7 @@ replace("(self, request):", '(self, request):\n        message = "on" if self.on
 replace('message="on" if self.on else "off"', "message=message")
 # %% 05.4 wrong: the message is True or False | hint: The message is True or False
 replace('"on" if self.on else "off"', "str(self.on)")
-# %% 05.4 wrong: leaves the message empty | hint: Set it to on or off
+# %% 05.4 wrong: leaves the message empty | hint: Set it to "on" or "off"
 replace('"on" if self.on else "off"', '""')
 # %% 05.4 wrong: True switches off | hint: The field `data` is False, but
 replace("self.on = request.data", "self.on = not request.data")
@@ -314,7 +314,7 @@ replace("False", "True")
 replace("False", "None")
 # %% 05.4 wrong: the message is a sentence | hint: The message contains more than "on"
 replace('"on" if self.on else "off"', '"It is on" if self.on else "It is off"')
-# %% 05.4 wrong: one value for all switches | hint: they share one value
+# %% 05.4 wrong: one value for all switches | hint: they share one variable
 replace("    def __init__(self):\n        self.on = False", "    on = False")
 replace("self.on", "Switch.on", times=3)
 # %% 05.4 wrong: raises an error if nothing changes | hint: A request for the present position
@@ -370,7 +370,7 @@ if __name__ == "__main__":
     main()
 """
 
-# %% 05.5 wrong: no first line | hint: Linux finds in line 1 which
+# %% 05.5 wrong: no first line | hint: Linux reads in line 1 which
 replace("#!/usr/bin/env python3\n", "")
 # %% 05.5 wrong: no guard | hint: An import of the file starts the node
 replace('if __name__ == "__main__":', "if True:")
@@ -388,7 +388,7 @@ replace("changed = request.data == (self.move_service is not None)", "changed = 
 replace("        self.move_service.shutdown(\"maintenance\")\n", "")
 # %% 05.5 wrong: unregisters at the master only | hint: You only removed the entry in
 replace('self.move_service.shutdown("maintenance")', 'rospy.core.rosgraph.Master("/arm").unregisterService("/move_arm", self.move_service.uri)')
-# %% 05.5 wrong: never opens again | hint: Create it again for data=False
+# %% 05.5 wrong: never opens again | hint: Create this service again when
 replace("            self.open()\n", "            self.move_service = self\n")
 # %% 05.5 wrong: counts from 1 again | hint: After the maintenance, the count starts
 replace("    def open(self):", "    def open(self):\n        self.moves = 0")

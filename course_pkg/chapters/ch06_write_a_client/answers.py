@@ -60,7 +60,7 @@ def is_there(service, seconds):
 
 # %% 06.2 wrong: decides by the elapsed time | hint: The service was there, and 0.5
 replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
-# %% 06.2 wrong: looks only at the first five services | hint: The result was wrong for another service.
+# %% 06.2 wrong: looks only at the first five services | hint: The result was wrong for a second service.
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)\n    if len(calls) > 5:\n        return True")
 # %% 06.2 wrong: no limit | hint: The function waited longer than `seconds`.
 replace("service, timeout=seconds", "service")
@@ -135,7 +135,7 @@ replace(".volume", ".volume if len(calls) < 7 else None")
 # %% 06.3 wrong: returns None for a volume of 0 | hint: The server responded, but the function
 replace(".volume", ".volume or None")
 
-# %% 06.3 wrong: tries again | hint: The server may have done the
+# %% 06.3 wrong: tries again | hint: Do not repeat a failed call
 def volume_or_none(service, length, width, height):
     for _ in range(2):
         try:
@@ -398,7 +398,7 @@ if __name__ == "__main__":
 
 # %% 06.6 wrong: no first line | hint: Begin the file with
 replace("#!/usr/bin/env python3\n", "")
-# %% 06.6 wrong: no guard | hint: The file cannot be imported: it
+# %% 06.6 wrong: no guard | hint: The file cannot be imported without an error
 replace('if __name__ == "__main__":\n    sys.exit(main())', "sys.exit(main())")
 # %% 06.6 wrong: no init_node | hint: The program called /getGeometry although the
 replace('    rospy.init_node("fits", anonymous=True)\n', "")
@@ -412,15 +412,15 @@ replace("    print(\"fits\"", "    rospy.ServiceProxy(\"getGeometry\", geometry)
 replace("rospy.wait_for_service", "rospy.wait_for_servise")
 # %% 06.6 wrong: compares with < in place of <= | hint: The volume is equal to LIMIT,
 replace("volume <= limit", "volume < limit", times=2)
-# %% 06.6 wrong: the exit status is always 0 | hint: print too large, and end with
+# %% 06.6 wrong: the exit status is always 0 | hint: print "too large", and end with
 replace("return 0 if volume <= limit else 1", "return 0")
-# %% 06.6 wrong: True for 1 | hint: print fits, and end with the exit status 0
+# %% 06.6 wrong: True for 1 | hint: is at most LIMIT: print "fits", and end with
 replace("return 0 if volume <= limit else 1", "return volume <= limit")
 # %% 06.6 wrong: catches no ROSException | hint: rospy.ROSException after 2 s
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
 # %% 06.6 wrong: catches no ServiceException | hint: raises rospy.ServiceException. Print its message
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
-# %% 06.6 wrong: waits without a limit | hint: Give wait_for_service a timeout of 2 s
+# %% 06.6 wrong: waits without a limit | hint: Call wait_for_service with a timeout of 2 s
 replace(", timeout=2", "")
 # %% 06.6 wrong: does not catch the error of float() | hint: float() raises ValueError for a word
 replace("    except ValueError:\n        return None\n    return numbers", "    finally:\n        pass\n    return numbers")

@@ -23,7 +23,7 @@ solution()
 # %% 07.1 right: markup in the description, and the old maintainer in a comment
 replace("<description>", "<description><b>Boxes:</b> ")
 replace("  <maintainer", '  <!-- <maintainer email="you@todo.todo">you</maintainer> -->\n  <maintainer')
-# %% 07.1 wrong: message_runtime is missing | hint: A package is missing. The warning
+# %% 07.1 wrong: message_runtime is missing | hint: A package is missing. Look for
 replace("\n  <exec_depend>message_runtime</exec_depend>", "")
 # %% 07.1 wrong: rospy is missing | hint: , but package.xml has no tag
 based_on("format 3, with depend")
@@ -92,7 +92,7 @@ catkin_package(
 
 # %% 07.3 wrong: no add_service_files | hint: , so the build passes but
 replace("\nadd_service_files(FILES geometry.srv)", "")
-# %% 07.3 wrong: generate_messages is a comment | hint: There is no generate_messages, so the build passes
+# %% 07.3 wrong: generate_messages is a comment | hint: There is no command generate_messages, so the build passes
 replace("generate_messages(DEP", "# generate_messages(DEP")
 replace("\nadd_custom_target(${PROJECT_NAME}_programs ALL)", "")
 replace("\nadd_dep", "\n# add_dep")
@@ -114,7 +114,7 @@ replace("${PROJECT_NAME}_programs", "programs", times=2)
 replace("\nadd_dep", "\n# add_dep")
 # %% 07.3 wrong: one pair of braces | hint: write both ${ }
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS}", "${PROJECT_NAME_EXPORTED_TARGETS}")
-# %% 07.3 wrong: other packages only | hint: add_dependencies names only targets of other
+# %% 07.3 wrong: other packages only | hint: Your add_dependencies contains only targets of other
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ", "")
 # %% 07.3 wrong: nothing for other packages | hint: In catkin_package, write CATKIN_DEPENDS and the
 replace("CATKIN_DEPENDS message_runtime rospy std_msgs", "")
@@ -142,7 +142,7 @@ replace("spin()", "spin()\n\n\nif __name__ == '__main__':\n    main()")
 replace("#!/usr/bin/env python3\n", "")
 # %% 07.4 wrong: the shebang in line 2 | hint: Linux reads a shebang only in the first column
 replace("#!/usr", "\n#!/usr")
-# %% 07.4 wrong: python2 in the shebang | hint: This shebang names another program, but
+# %% 07.4 wrong: python2 in the shebang | hint: This shebang names the wrong program.
 replace("python3", "python2")
 # %% 07.4 wrong: line endings of Windows | hint: The lines end with … as on Windows
 replace("python3", "python3\r")
@@ -167,7 +167,7 @@ replace("my_geometry.srv", "my_geometry_services.srv")
 # %% 07.4 wrong: misspelt type | hint: Upper and lower case are different
 replace("import geometry, geometryResponse", "import Geometry, geometryResponse")
 replace('"/getGeometry", geometry', '"/getGeometry", Geometry')
-# %% 07.4 wrong: another service name | hint: It serves … , but the exercise needs
+# %% 07.4 wrong: another service name | hint: The program serves … , but the exercise needs
 replace('"/getGeometry"', '"/get_geometry"')
 # %% 07.4 wrong: the service is missing | hint: The program runs, but it serves
 replace('\n    rospy.Service("/getGeometry", geometry, handle_geometry)', "")
@@ -258,12 +258,12 @@ replace('    print(f"area: {response.area:.2f}")\n    print(f"volume: {response.
 replace("    return 0\n", "    return 3\n")
 # %% 07.5 wrong: spins after the call | hint: The client does not end. Remove
 replace("    return 0\n", "    while True:\n        pass\n")
-# %% 07.5 wrong: usage, but no exit status | hint: sets the exit status
+# %% 07.5 wrong: usage, but no exit status | hint: Write sys.exit(2) after the usage message
 replace("        return 2", "        return 0")
 # %% 07.5 wrong: an argument that is not a number | hint: float() raises ValueError for a text
 based_on("a node, with steps")
 replace("except ValueError:\n        usage()", "except TypeError:\n        usage()")
-# %% 07.5 wrong: four numbers | hint: Four numbers are wrong, too. Test
+# %% 07.5 wrong: four numbers | hint: Four arguments are an error, too.
 replace("map(float, arguments)\n", "map(float, arguments[:3])\n")
 # %% 07.5 wrong: no usage | hint: Print a line that begins with
 replace("print(USAGE, file=sys.stderr)", "pass")
@@ -277,7 +277,7 @@ replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ROSException")
 replace("print(error, file=sys.stderr)", 'print("failed")')
 # %% 07.5 wrong: waits without a limit | hint: The client waits without a limit.
 replace(", timeout=5", "")
-# %% 07.5 wrong: does not wait | hint: The client did not wait. The service may start after
+# %% 07.5 wrong: does not wait | hint: The client did not wait. The service can start later
 replace('        rospy.wait_for_service("/getGeometry", timeout=5)\n', "")
 # %% 07.5 wrong: the timeout is not caught | hint: wait_for_service raises rospy.ROSException after its timeout.
 replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ServiceException")
@@ -386,7 +386,7 @@ replace("```bash\n", "", times=2)
 replace("```\n", "", times=2)
 # %% 07.7 wrong: no build | hint: The command that builds the package
 replace("catkin_make\n", "")
-# %% 07.7 wrong: no sourcing | hint: The command source devel/setup.bash is missing.
+# %% 07.7 wrong: no sourcing | hint: The command `source devel/setup.bash` is missing.
 replace("source devel/setup.bash\n", "", times=2)
 # %% 07.7 wrong: half of the command | hint: The command that starts the server
 replace("rosrun my_geometry server.py", "rosrun server.py")
@@ -484,15 +484,15 @@ def main():
         call(proxy)
 """)
 replace('rospy.wait_for_service("/onOff", timeout … ).state}")', "main()")
-# %% 07.10 wrong: calls once | hint: The client called only once. The
+# %% 07.10 wrong: calls once | hint: The client called the service only once.
 replace("    for _ in range(int(sys.argv[1])):", "    for _ in range(1):")
-# %% 07.10 wrong: one call too many | hint: no more and no fewer
+# %% 07.10 wrong: one call too many | hint: Call the service exactly as many times
 replace("range(int(sys.argv[1]))", "range(int(sys.argv[1]) + 1)")
 # %% 07.10 wrong: always the same number | hint: The numbers are not random. random.randint(0,
 replace("random.randint(0, 1)", "1")
 # %% 07.10 wrong: prints the state only | hint: Print the number that you sent, a colon
 replace('f"{number}: {name_state(number).state}"', "name_state(number).state")
-# %% 07.10 wrong: another service | hint: The client does not end. Does
+# %% 07.10 wrong: another service | hint: The client does not end. Check
 replace('("/onOff", timeout=5)', '("/on_off")')
 # %% 07.10 wrong: ends with an error status | hint: After the last call, let the
 replace('{name_state(number).state}")', '{name_state(number).state}")\n    sys.exit(4)')

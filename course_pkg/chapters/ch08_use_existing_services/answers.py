@@ -78,7 +78,7 @@ replace("return names", "return names or None")
 # %% 08.1 wrong: a generator | hint: This is not a list. Convert
 replace("names = [] … return names", "return (name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind)")
 
-# %% 08.1 wrong: gets the names once | hint: Get the names inside the function
+# %% 08.1 wrong: gets the names once | hint: Get the names of the services inside the function
 replace("def services_of(kind):", "NAMES = rosservice.get_service_list()\n\n\ndef services_of(kind):")
 replace("in rosservice.get_service_list():", "in NAMES:")
 # %% 08.1 wrong: calls the services | hint: The function called the services to find their type
@@ -283,7 +283,7 @@ replace(' if answer.success else "was there"', "")
 # %% 08.3 wrong: with a capital letter | hint: Return "moved", "was there" or "failed",
 replace('"moved"', '"Moved"')
 
-# %% 08.3 wrong: compares two reports | hint: The switch responded with success=True and is in the wanted position. Use
+# %% 08.3 wrong: compares two reports | hint: The switch responded with success=True and is in the wanted position. Decide
 def move(switch, to_open):
     report = rospy.ServiceProxy(f"{switch}/report", Trigger)
     before = report().message
@@ -316,7 +316,7 @@ replace("{service} ", "{service} -- ")
 # %% 08.4 wrong: the dict as Python shows it | hint: bash passed the fields as one
 replace("json.dumps", "str")
 
-# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value, for example False
+# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value; for example
 def call_line(service, fields):
     text = json.dumps(fields).replace('"', "")
     return f"rosservice call {service} {shlex.quote(text)}"
@@ -365,7 +365,7 @@ def call_line(service, fields):
 
 # %% 08.4 wrong: leaves inner dicts out | hint: A field in an inner dictionary has no value
 replace("json.dumps(fields)", "json.dumps({name: value for name, value in fields.items() if not isinstance(value, dict)})")
-# %% 08.4 wrong: a program in Python makes the call | hint: Another program in the line makes the call.
+# %% 08.4 wrong: a program in Python makes the call | hint: A program other than rosservice makes the call.
 def call_line(service, fields):
     code = f"import rosservice; rosservice.call_service({service!r}, [{fields!r}])"
     return f"python3 -c {shlex.quote(code)} # rosservice call"
@@ -402,7 +402,7 @@ replace("(**fields)", "(fields)")
 # %% 08.5 wrong: the name of the type for the class | hint: This is the name of the
 based_on("calls by keywords")
 replace("get_service_class_by_name", "get_service_type")
-# %% 08.5 wrong: a fixed type | hint: The service has another type. Get
+# %% 08.5 wrong: a fixed type | hint: Your proxy has the wrong type for this service.
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, SetBool)(**fields)")
 # %% 08.5 wrong: the function behind the tool | hint: catches the exception of genpy
 replace("cls = rosservice … )(request)", "return rosservice.call_service(service, [fields])[1]")
@@ -468,7 +468,7 @@ replace("    try:\n        headers", "    if True:\n        headers")
 replace("    except rosservice.ROSServiceIOException:\n        return \"server is gone\"\n", "")
 # %% 08.6 wrong: compares the types only | hint: The names of the types are equal, but
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return "ok"')
-# %% 08.6 wrong: compares the sums first | hint: The names of the types are different,
+# %% 08.6 wrong: compares the sums first | hint: The names of the types are different; sometimes
 replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5sum:\n        return "ok"\n    return "another definition"')
 # %% 08.6 wrong: treats every error as a missing server | hint: The master has an address for
 replace('"server is gone"', '"not registered"')
@@ -489,7 +489,7 @@ replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class
 replace("kind._md5sum", "kind._request_class._md5sum")
 # %% 08.6 wrong: the test for None the wrong way round | hint: so a client can connect
 replace("uri is None", "uri is not None")
-# %% 08.6 wrong: the last part of the name | hint: The names of the types are different,
+# %% 08.6 wrong: the last part of the name | hint: The names of the types are different; sometimes
 replace('headers["type"] != kind._type', 'headers["type"].split("/")[1] != kind._type.split("/")[1]')
-# %% 08.6 wrong: no types if the sums are equal | hint: The names of the types are different,
+# %% 08.6 wrong: no types if the sums are equal | hint: The names of the types are different; sometimes
 replace('headers["type"] != kind._type', 'headers["type"] != kind._type and headers["md5sum"] != kind._md5sum')

@@ -38,7 +38,7 @@ def read_the_graph(context: CheckContext) -> None:
                 ("SERVER_NODE", "The name is almost right, but names on the graph start with a slash."),
                 (
                     matches("^/?server$"),
-                    "That is the program. The command rosnode list shows the names of the nodes.",
+                    "That is the program. The command `rosnode list` shows the names of the nodes.",
                 ),
                 (
                     matches("^/chapter"),
@@ -47,8 +47,8 @@ def read_the_graph(context: CheckContext) -> None:
                 (matches("getGeometry"), "That is a service. The node is the program that offers it."),
                 (
                     matches("^/server_node/?$"),
-                    "Compare letter by letter: upper and lower case are different, and this name "
-                    "has a slash only at its start.",
+                    "Compare your answer letter by letter with the name on the graph. Capital and small "
+                    "letters are different, and the only slash is at the start.",
                 ),
             ],
         )
@@ -65,16 +65,17 @@ def read_the_graph(context: CheckContext) -> None:
                 ),
                 (
                     matches("^/?SERVER_NODE$"),
-                    "That is the node. The command rosservice list shows the services.",
+                    "That is the node. The command `rosservice list` shows the names of the services.",
                 ),
                 (
                     matches("course_pkg"),
-                    "That is the type. Use the name that you write after rosservice call.",
+                    "That is the type. The name of the service is the text that you write after "
+                    "`rosservice call`.",
                 ),
                 (
                     matches("^/getgeometry/?$"),
-                    "Compare letter by letter: upper and lower case are different, and this name "
-                    "has a slash only at its start.",
+                    "Compare your answer letter by letter with the name on the graph. Capital and small "
+                    "letters are different, and the only slash is at the start.",
                 ),
             ],
         )
@@ -99,7 +100,7 @@ def read_the_graph(context: CheckContext) -> None:
                 ),
                 (
                     matches("getGeometry"),
-                    "That is the name of the service. The command rosservice type shows its type.",
+                    "That is the name of the service. The command `rosservice type` shows its type.",
                 ),
                 (matches("(?-i:course_pkg/Geometry)"), "This type is written with a small g."),
             ],
@@ -148,7 +149,8 @@ def ask_a_question(context: CheckContext) -> None:
                 ),
                 (
                     ANYTHING,
-                    "The order of the sides is wrong. Compare it with rossrv show course_pkg/geometry.",
+                    "The order of the sides is wrong. Compare your order with the output of `rossrv show "
+                    "course_pkg/geometry`.",
                 ),
             ],
         )
@@ -218,8 +220,8 @@ def count_what_was_missed(context: CheckContext) -> None:
             expected=f"{pause} s between the two numbers",
             actual=f"{before} and {after}",
             hints=(
-                "The order is wrong. Return the number from before the pause first, and then the "
-                "number from after it."
+                "The order is wrong. Return two numbers in this order: the number before the pause, "
+                "and the number after the pause."
             )
             if before > after
             else (
@@ -232,8 +234,10 @@ def count_what_was_missed(context: CheckContext) -> None:
                 "the second number is received after the pause",
                 expected="no subscriber during the pause",
                 actual="a subscriber that received all numbers of the pause",
-                hint="The function received numbers during the pause. rospy.wait_for_message unsubscribes "
-                "after one number.",
+                hint=(
+                    "The function received numbers during the pause. Use rospy.wait_for_message, which "
+                    "unsubscribes after one number."
+                ),
             )
         with context.goal(MISSED):
             context.expect(
@@ -257,8 +261,8 @@ def count_what_was_missed(context: CheckContext) -> None:
                     ),
                     (
                         ANYTHING,
-                        "Calculate the third number from the other two. Example: between 17 and 25, 7 "
-                        "numbers are missed.",
+                        "Calculate the third number from the first two. Example: between 17 and 25, "
+                        "7 numbers are missed.",
                     ),
                 ],
             )

@@ -5,7 +5,9 @@ from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
 NUMBER = "std_msgs/UInt32"
-LOOKS_LIKE_IT = "You called another service with a similar name. Compare the whole text after the last slash."
+LOOKS_LIKE_IT = (
+    "You called the wrong service, which has a similar name. Compare the whole text after the last slash."
+)
 FOUND = "Find the service, call it, and return the volume."
 RUNNING = "Return the sorted names of the running publishers of a topic."
 
@@ -48,11 +50,16 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             actual=context.run("ask_wherever", last, length, width, height, hints=_LOST).returned(),
             near=1e-6,
             hints=[
-                (None, "The service exists, but None was returned. Look through the names of all services."),
+                (
+                    None,
+                    "The service exists, but your function returned None. Look through the names of all "
+                    "services.",
+                ),
                 *((other, LOOKS_LIKE_IT) for other in others),
                 (
                     length * width * height,
-                    "You multiplied the sides. This server returns different numbers, so call it.",
+                    "You multiplied the sides. The service returns a different number, so call the "
+                    "service and return its volume.",
                 ),
                 (volume + 1, "That is the area. Return the volume."),
                 (matches("volume"), "That is the whole response. Return only its field `volume`."),
@@ -75,7 +82,8 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
                 ),
                 (
                     ANYTHING,
-                    "The order of the sides is wrong. Compare it with rossrv show course_pkg/geometry.",
+                    "The order of the sides is wrong. Compare your order with the output of `rossrv show "
+                    "course_pkg/geometry`.",
                 ),
             ],
         )
@@ -122,18 +130,22 @@ def _in_a_random_order(context: CheckContext) -> None:
             expected=volume,
             actual=context.run("ask_wherever", last, 1.0, 2.0, 3.0, hints=_LOST + _NOBODY).returned(),
             near=1e-6,
-            hints="The result must depend on the services that exist now, not on earlier calls.",
+            hints=(
+                "The result must depend on the services that exist now, not on earlier calls. Get the "
+                "list of services in each call."
+            ),
         )
 
 
 _LOST = [
     (
         matches("unavailable"),
-        "You called a name that no service has. Use the full name that you found.",
+        "No service has the name that you called. Use the full name from the list of services.",
     ),
     (
         matches("IndexError|StopIteration|TypeError.*NoneType"),
-        "The search found no service. Return None in this case, before you use the result.",
+        "The search found no service. Test for this case before you use the result of the "
+        "search, and return None.",
     ),
 ]
 
@@ -187,12 +199,12 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
             (
                 lambda actual: names[5] in actual or names[7] in actual,
-                "One of these nodes publishes another topic. Compare the whole name of the topic.",
+                "One of these nodes publishes on a different topic. Compare the whole name of the topic.",
             ),
             (
                 [],
-                "The topic has publishers. The list of publishers contains pairs: a topic, and "
-                "the names of its publishers.",
+                "Your list is empty, but the topic has publishers. The list of publishers contains "
+                "pairs: a topic, and the names of its publishers.",
             ),
             (lambda actual: isinstance(actual, int), "That is the number of publishers. Return their names."),
             (lambda actual: "object" in actual, "That is not a list. sorted(...) returns a list."),
@@ -202,7 +214,7 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
             (
                 ANYTHING,
-                "Return a list of node names, as in the list of publishers.",
+                "Return a list of node names. Write each name as a string, as in the list of publishers.",
             ),
         ],
     )
@@ -223,11 +235,12 @@ def _living(context: CheckContext, topic: str) -> object:
         hints=[
             (
                 matches("TimesUp"),
-                "rosnode_ping does not return, because it pings again and again. Use max_count=1.",
+                "rosnode_ping does not return, because it pings the node again and again. Pass max_count=1.",
             ),
             (
                 matches("KeyError"),
-                "A topic without a publisher is not in the list of publishers. Handle this case, too.",
+                "A topic without a publisher is not in the list of publishers. Return an empty list "
+                "in this case.",
             ),
         ],
     ).returned()

@@ -93,7 +93,11 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
                 "Remove the first character: in a terminal, the command begins with rosrun.",
             ),
             (matches("object"), "Return the command as a string. The check runs the command."),
-            (ANYTHING, "The command begins with rosrun, the package and the program."),
+            (
+                ANYTHING,
+                "The command has to begin with `rosrun`, the name of the package and the name of the "
+                "program.",
+            ),
         ],
     )
     return running.enter_context(context.folder().start(*words, worded=str(command)))
@@ -126,7 +130,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
             hints=[
                 (
                     matches("SERVER_NODE"),
-                    "That is the default name of the program. Change it with __name:=….",
+                    "The node still has its default name. Change this name with __name:=….",
                 ),
                 (
                     "/measurer",
@@ -147,7 +151,10 @@ def _astray(room: str, found: str) -> str:
             "`measure` without a slash."
         )
     if found == "/getGeometry":
-        return "The service still has its old name and namespace. Write old:=new with := and without spaces."
+        return (
+            "The service still has its old name and namespace. Write each remapping as old:=new, "
+            "with := and without spaces."
+        )
     if found == f"/{room}/getGeometry":
         return (
             "The service is in the namespace of the room, but it has its old name. In old:=new, "
@@ -155,10 +162,7 @@ def _astray(room: str, found: str) -> str:
         )
     if found == f"/{room}/measurer/measure":
         return "A name with ~ is private, so the service is in the namespace of the node. Remove the ~."
-    return (
-        "The service has to be `measure`. Its namespace has to be the name of the room that the "
-        "function gets."
-    )
+    return "The name of the service has to be `measure`, in the namespace of the room that the function gets."
 
 
 def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
@@ -172,7 +176,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             hints=[
                 (
                     matches("simulator$"),
-                    "That is the default name of the program. Choose the name of the node with __name:=….",
+                    "The node still has its default name. Choose the name of the node with __name:=….",
                 ),
                 (
                     f"/{arm}_viewer",
@@ -202,7 +206,11 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
                     "Your new name is relative, so it is in the namespace /screen. A global name "
                     "starts with a slash.",
                 ),
-                (ANYTHING, "The arm publishes joint_states in the namespace with the name of the arm."),
+                (
+                    ANYTHING,
+                    "The viewer does not subscribe to the topic of its arm. The arm publishes "
+                    "`joint_states` in the namespace that has the name of the arm.",
+                ),
             ],
         )
     published = [topic.name for topic in seen.topics if name in topic.publishers]
@@ -214,11 +222,12 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             hints=[
                 (
                     ("/screen/mirrored_joints",),
-                    "The viewers of all arms would publish on this topic. Remap mirrored_joints, too.",
+                    "The viewers of all arms would publish on this topic. Also remap `mirrored_joints`.",
                 ),
                 (
                     (f"/{arm}/mirrored_joints",),
-                    "This topic is outside of /screen. A relative name stays in the namespace of the node.",
+                    "This topic is outside of /screen. Use a relative name, which stays in the namespace "
+                    "of the node.",
                 ),
                 (
                     ANYTHING,

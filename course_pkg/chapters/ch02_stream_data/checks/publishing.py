@@ -10,7 +10,8 @@ from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
 from course_pkg.waiting import wait_until
 
 WAITS_FOR_EVER = (
-    "A topic may have no subscriber. Wait for a subscriber for at most 2 s, and then publish in any case."
+    "A topic can have no subscriber. Wait for a subscriber for at most 2 s, and then "
+    "publish even if there is none."
 )
 # Times in s for a count without a subscriber; the student's function waits 2 s, and then publishes 11 numbers
 # in 1.1 s. A subscriber connects 2.3 s after the publisher.
@@ -19,8 +20,8 @@ NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at th
 SOON = 4.0  # maximum time in s until a message arrives on a busy machine
 AT_ONCE = 0.3  # maximum duration in s of the fastest of several calls
 TOO_SOON = (
-    "A subscriber that connects within 2 s would not receive the 0. If there is no subscriber, wait for "
-    "the full 2 s."
+    "A subscriber that connects in the first 2 s would not receive the value 0. If there "
+    "is no subscriber, wait for the full 2 s."
 )
 TOO_EARLY = (
     "The first number was published before the subscriber was connected. After you create the "
@@ -137,9 +138,8 @@ def _slow(hertz: int) -> Hints:
     return [
         (
             matches("TimesUp"),
-            f"The function takes too long. For {hertz} numbers per second, the pause is "
-            f"1/{hertz} s: use rospy.Rate. The wait has to end as soon as a subscriber is "
-            "connected.",
+            "The function takes too long. End the wait as soon as a subscriber is connected, and "
+            f"then use rospy.Rate to pause 1/{hertz} s after each number.",
         ),
         (
             matches("must be unsigned integer"),
@@ -158,8 +158,8 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
             (list(range(1, count)), TOO_EARLY),
             (
                 list(range(count - 1)),
-                "The last number, count - 1, is missing. Publish it, and give rospy time to "
-                "send it before the function returns.",
+                "The last number, count - 1, is missing. Publish this number, and wait a moment "
+                "before the function returns, so that rospy can send it.",
             ),
             (list(range(count + 1)), "That is one number too many. range(count) ends with count - 1."),
             (list(range(1, count + 1)), "The count starts with 1. It has to start with 0."),
@@ -191,7 +191,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
         actual=f"{seen:.3g} per second",
         hints="The rate is too high. Pause after each number."
         if seen > hertz
-        else "The rate is too low. Sleep once per number, with rospy.Rate(rate).",
+        else "The rate is too low. Use rospy.Rate(rate), and sleep only once for each number.",
     )
     gaps = sorted(later.at - one.at for one, later in pairwise(arrivals))
     context.require(
@@ -259,7 +259,13 @@ def a_notice(context: CheckContext) -> None:
 
 def _set(context: CheckContext, topic: str, value: float) -> float:
     """Call set(value) of the student's notice for `topic`; return the duration of this call in s."""
-    hints = [(matches("TimesUp"), "set() does not return. A latched message needs no loop and no wait.")]
+    hints = [
+        (
+            matches("TimesUp"),
+            "set() does not return. Publish only once, without a loop and without a wait: rospy "
+            "sends a latched message to later subscribers.",
+        )
+    ]
     done = context.run("set_value", topic, value, worded="Notice(topic).set(value)", hints=hints)
     done.returned()
     return done.took
@@ -286,18 +292,18 @@ def _receives(context: CheckContext, subscription: Subscription, values: list[fl
         hints=[
             (
                 lambda actual: not actual and values == [0.0],
-                "The first value was not published, because it is 0. Store None before the "
-                "first value, and treat 0 as any other number.",
+                "The first value was not published, because it is 0. Before the first call, store "
+                "None instead of a number, and treat 0 like every other number.",
             ),
             (
                 [],
-                "Nothing arrived. With latch=True, a new subscriber receives the last message. "
-                "Store the last value in self, not in the class, because another Notice may "
-                "have the same value.",
+                "Nothing arrived. Create the publisher with latch=True, and store the last value in "
+                "self: if it is stored in the class, all Notice objects share it.",
             ),
             (
                 lambda actual: len(actual) > len(values) + 2,
-                "A value is published again and again. Publish only in set(), and only a changed value.",
+                "A value is published again and again. Publish only in set(), and only if the value "
+                "has changed.",
             ),
             (
                 lambda actual: actual == values * 2,

@@ -60,7 +60,8 @@ OTHER_ORDER = "The two subscribers are in the wrong order. Return the subscriber
 NO_TWO = "Return a list of two rospy.Subscriber objects, so that the caller can unregister them."
 ONCE = "Some messages arrived more than once. Publish in the callback, once for each message."
 NEVER_RETURNS = (
-    "The function does not return. It has to return immediately: rospy calls the callback in another thread."
+    "The function does not return. Return as soon as the subscriber exists: rospy calls "
+    "the callback in another thread."
 )
 
 
@@ -229,17 +230,17 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         hints=[
             (
                 matches("nothing arrived"),
-                "Nothing arrived. Subscribe to the source, publish in the callback, and look for an error "
-                "below the cell.",
+                "Nothing arrived. Subscribe to the source and publish in the callback; if the "
+                "callback raised an error, you see it below the cell.",
             ),
             (
                 matches("'secs': 0, 'nsecs': 0"),
-                "The time is 0, as in a new header. Copy the header of the message.",
+                "The time stamp is 0, as in a new header. Copy the header of the received message.",
             ),
             (
                 ANYTHING,
-                "The time is not the time in the received message. Use the header of the received "
-                "message unchanged.",
+                "The time stamp is different from the time stamp of the received message. Use the "
+                "header of the received message unchanged.",
             ),
         ],
     )
@@ -345,10 +346,14 @@ def two_queues(context: CheckContext) -> None:
     with _begun(context, "start_robot", *arguments, worded=worded, topics=topics):
         values = [{"data": angle} for angle in angles]
         arm = context.publish(topics[0], "std_msgs/Float64", values, every=0.02, once=True)
-        arm.listened(hints="Create a rospy.Subscriber for the topic `angles`, of type Float64.")
+        arm.listened(
+            hints="Create a rospy.Subscriber of type Float64 for the topic whose name is in `angles`."
+        )
         orders = [{"data": number} for number in numbers]
         customers = context.publish(topics[1], "std_msgs/UInt32", orders, every=0.001, once=True)
-        customers.listened(hints="Create a rospy.Subscriber for the topic `orders`, of type UInt32.")
+        customers.listened(
+            hints="Create a rospy.Subscriber of type UInt32 for the topic whose name is in `orders`."
+        )
         arm.finish(10.0)
         customers.finish(10.0)
         # wait until the calls with the last values have ended
@@ -402,7 +407,7 @@ def _drawn(
         actual=angles,
         hints=(
             "An angle was drawn twice, or an older angle was drawn after a newer one. Wait for a "
-            "new angle before the next call."
+            "new angle before the next call of draw()."
         ),
     )
     oldest = max(at - sent[angle] for at, angle in drawn)
@@ -411,15 +416,17 @@ def _drawn(
         holds=oldest < OLDEST,
         expected=f"at most {OLDEST} s between the message and the call of draw()",
         actual=f"up to {oldest:.1f} s",
-        hints="Too many angles wait in the queue. Only the newest one is useful here.",
+        hints=(
+            "Too many angles wait in the queue. Limit this queue, because only the newest angle is useful."
+        ),
     )
     context.expect(
         "the last angle is drawn",
         expected=list(sent)[-1],
         actual=angles[-1],
         hints=(
-            "The last angle was not drawn. Always draw the newest angle: if you draw, for example, "
-            "every tenth angle, the last one can be missed."
+            "The last angle was not drawn. Always draw the newest angle: a program that draws, "
+            "for example, only every tenth angle can miss the last one."
         ),
     )
 
@@ -446,8 +453,8 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
             ),
             (
                 lambda actual: set(actual) < set(numbers),
-                "Some orders were lost. Twenty orders may wait at the same time, so do not "
-                "limit their queue.",
+                "Some orders were lost. Up to twenty orders wait at the same time, so do not limit "
+                "their queue.",
             ),
             (
                 ANYTHING,

@@ -168,7 +168,7 @@ _RETURNS = [
     ),
     (
         matches("TypeError.*NoneType"),
-        "Before the first message, there is no time to compare with. Handle this case first.",
+        "Before the first message, no time is stored. Handle this case before you compare times.",
     ),
 ]
 _BEFORE: Hints = [
@@ -185,8 +185,8 @@ _UNASKED: Hints = [
 _APART: Hints = [
     (
         ANYTHING,
-        "Only the other Watch received messages. Store the data of each Watch in self, not in "
-        "a global variable.",
+        "Only the other Watch object received messages. Store the data of each Watch object "
+        "in self, not in a global variable.",
     ),
 ]
 _WHILE: Hints = [

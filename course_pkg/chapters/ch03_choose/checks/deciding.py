@@ -78,7 +78,7 @@ def decide_and_defend(context: CheckContext) -> None:
         hints=[
             (
                 lambda actual: isinstance(actual, list),
-                "A dict is written in braces: {job: (design, reason), ...}.",
+                "This is a list. Write a dict, which has braces: {job: (design, reason), ...}.",
             ),
             (ANYTHING, "The keys are the names of the jobs in the table. Compare them letter by letter."),
         ],

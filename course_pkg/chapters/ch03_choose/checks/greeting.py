@@ -46,8 +46,8 @@ TOO_LATE = (
     "Create the publisher in start_greeting(), outside of the callback."
 )
 LOST = (
-    "Messages that came during a greeting were dropped. A small queue_size of the subscriber "
-    "causes this. If you leave out queue_size, no message is dropped."
+    "Messages that came during a greeting were dropped. Leave out the queue_size of the "
+    "subscriber, because a subscriber with a small queue_size drops messages."
 )
 
 
@@ -200,8 +200,8 @@ def _greeted(
         expected=f"numbers such as {numbers[:3]}",
         actual=seen,
         hints=(
-            "A number was published that is not the number of a customer. Publish the field `data` "
-            "of the message unchanged."
+            "Your function published a number that is not the number of a customer. Publish the "
+            "field `data` of the message unchanged."
         ),
     )
     context.require(
@@ -217,8 +217,8 @@ def _greeted(
             ),
             (
                 [number for place, number in enumerate(numbers) if number == max(numbers[: place + 1])],
-                "A customer with a number smaller than an earlier number was not greeted. The "
-                "numbers come in any order, so store all numbers that were greeted.",
+                "A customer whose number is smaller than an earlier number was not greeted. The "
+                "numbers come in any order: store all greeted numbers, not only the largest.",
             ),
             (ANYTHING, LOST),
         ],
@@ -236,8 +236,8 @@ def _greeted(
         expected=f"each of {numbers} once",
         actual=seen if len(seen) > len(set(seen)) else f"say_good_day() for {', '.join(map(str, said))}",
         hints=(
-            "A number came a second time, and the customer was greeted again. Store the greeted "
-            "numbers in a set."
+            "A customer was greeted again, because the number came a second time. Store the "
+            "greeted numbers in a set."
         ),
     )
     assertion = "customers are greeted in the order of the messages"

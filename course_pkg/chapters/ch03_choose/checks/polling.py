@@ -15,14 +15,16 @@ from course_pkg.ros.protocol.json_channel import Json
 DETECT = "course_pkg/DetectCustomer"
 SLACK = 0.7  # additional s for a busy machine
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
-NO_PAUSE = "The pause between two calls is 1 / rate seconds."
+NO_PAUSE = "Pause 1 / rate seconds between two calls."
 NO_END = (
-    "poll() continues after the time is over. Before the first call, compute the end: "
-    "time.monotonic() + seconds. Compare the current time with this end before each call."
+    "poll() continues after the time is over. Before the first call, compute the end "
+    "(time.monotonic() + seconds), and compare the current time with this end before each "
+    "call."
 )
 
 COUNTED = (
-    "Each call takes some time, too. Do not count calls: compare the time with the end before each call."
+    "Each call also takes time, so do not count calls. Before each call, compare the "
+    "current time with the end."
 )
 
 
@@ -221,7 +223,8 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
         expected=0.0,
         actual=server.requests[0]["patience"],
         hints=(
-            "With this value of `patience`, the detector waits, which is the third design. Use patience=0."
+            "With this value of `patience`, the detector waits for a customer, which is the third "
+            "design. Use patience=0."
         ),
     )
     context.expect(

@@ -11,7 +11,7 @@ from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.types import compile_service
 
-TYPES = "The types are part of the MD5 sum, too, with their brackets."
+TYPES = "The types of the fields, with their brackets, are also part of the MD5 sum."
 NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
 
 
@@ -105,7 +105,7 @@ def _pairs(context: CheckContext) -> list[Pair]:
         differs(
             "another value of a constant",
             text.replace(f"={value}", f"={value + 1}"),
-            "The name and the value of a constant are part of the MD5 sum, too.",
+            "The name and the value of a constant are also part of the MD5 sum.",
         ),
         differs(
             "an array for one value",

@@ -86,13 +86,15 @@ def _about_names(half: str, wanted: list[str], found: list[str], text: str) -> s
         where = f"{_line(text, missing[0])}{missing[0]}"
         return f"{where} is on the wrong side of the line ---: it belongs to the {half}."
     if missing:
-        return f"There is no field {missing[0]}."
+        return f"There is no field {missing[0]}. Add this field to the {half}."
     if extra[0].upper() in ("OFF", "ON", "BLINK"):
         return (
             f"{_line(text, extra[0])}a constant needs a value. Write uint8 {extra[0].upper()}=… "
             "with its value."
         )
-    return f"{_line(text, extra[0])}{extra[0]} is not part of the {half}."
+    return (
+        f"{_line(text, extra[0])}{extra[0]} is not part of the {half} in the description. Remove this field."
+    )
 
 
 def _types(context: CheckContext, half: str, asked: MessageType, given: MessageType, text: str) -> None:
@@ -117,15 +119,15 @@ def _about_type(name: str, wanted: str, found: str, text: str) -> str:
     if wanted.endswith("[]") and "[" in found and not found.endswith("[]"):
         return f"{where}has a fixed length here. For any length, the brackets are empty: {wanted}."
     if "[" in wanted and not wanted.endswith("[]") and found.endswith("[]"):
-        return f"{where}may have any length here. For exactly three values, write {wanted}."
+        return f"{where}can have any length here. For exactly three values, write {wanted}."
     if "[" in found and "[" not in wanted:
         return f"{where}is an array here, but the exercise needs one value: {wanted}."
     if base == "float64":
         return (
-            f"{where}has twice as many bits as the exercise asks for. For ROS, that is another "
-            f"type. Write {wanted}."
+            f"{where}has the type {found} here, which has twice as many bits. Use the type of the "
+            f"exercise, because ROS treats the two types as different: {wanted}."
         )
-    return f"{where}has another type in the description: {wanted}."
+    return f"{where}has the wrong type here. Write the type of the description: {wanted}."
 
 
 def _constants(context: CheckContext, asked: ServiceType, given: ServiceType, text: str) -> None:

@@ -66,8 +66,7 @@ def _why_no_type(text: str) -> str:
             return _about(text, name, "Without this command, the build passes but generates no type.")
     return (
         "add_service_files and generate_messages are in the file, but they generated nothing. "
-        "Does CMake execute them? Text between #[[ and ]] is a comment, and the lines between "
-        "if() and endif() may be skipped."
+        "Look for a comment between #[[ and ]], and for an if() whose condition is false."
     )
 
 

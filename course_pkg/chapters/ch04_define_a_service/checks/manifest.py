@@ -60,12 +60,15 @@ def _hint(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if elsewhere:
         return (
-            f"In line {elsewhere[0].line}, the tag of {package} is {elsewhere[0].name}. Add "
-            f"{_an(tag)} for it."
+            f"Line {elsewhere[0].line} has {elsewhere[0].name} for {package}. Add {_an(tag)} for "
+            "the same package."
         )
     if package == "rospy":
         return "The program lamp_server.py imports rospy. Add <exec_depend>rospy</exec_depend>."
-    return "message_generation generates classes from a .srv file, and these classes need message_runtime."
+    return (
+        "message_generation generates classes from a .srv file. These classes need "
+        "message_runtime, so list this package, too."
+    )
 
 
 def _an(tag: str) -> str:

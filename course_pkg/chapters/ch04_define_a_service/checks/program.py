@@ -32,11 +32,12 @@ ENDINGS = (  # a pattern for the program's output, and a hint
     ),
     (
         r"required file not found|bad interpreter",
-        "The first line of the script names a program that does not exist on this machine.",
+        "The first line of the script names a program that does not exist on this machine. "
+        "Write a shebang that names python3.",
     ),
     (
         r"cannot import name '\w+' from 'lamp_services' ",
-        "The types are not in lamp_services itself, but in lamp_services.srv.",
+        "Import the type from lamp_services.srv, not from lamp_services itself.",
     ),
 )
 
@@ -47,7 +48,7 @@ FAULTS = [
     ),
     (
         matches("process request: (?!service handler)"),
-        "The handler must not refuse an unknown mode: the response has success=False.",
+        "The handler refused an unknown mode. Return a response with success=False instead.",
     ),
 ]
 
@@ -71,13 +72,16 @@ def the_program(context: CheckContext) -> None:
         context,
         FILE,
         missing=(
-            "Without a shebang, Linux executes the script as a shell script, and the shell has its "
-            "own command import."
+            "Without a shebang, Linux runs the script as a shell script. The shell has another "
+            "command with the name `import`."
         ),
-        elsewhere="The shebang works only if it begins in the first column of the very first line.",
-        another="This shebang names another program: write python3.",
-        windows="The file has the line ends of Windows. Save it with the line ends of Linux.",
-        mark="The file begins with an invisible mark of Windows. Save the file as UTF-8 without BOM.",
+        elsewhere="Linux finds the shebang only in the first column of line 1. Move it there.",
+        another="This shebang names the wrong program: write python3.",
+        windows="The file has Windows line endings (CRLF). Save it with Linux line endings (LF).",
+        mark=(
+            "The file begins with an invisible character, the byte order mark (BOM), which "
+            "Windows editors add. Save the file as UTF-8 without BOM."
+        ),
         assertion="its first line is a shebang that asks for Python 3",
         program="python",
     )
@@ -102,8 +106,8 @@ def _run_bit(context: CheckContext, folder: Folder) -> None:
         expected="an executable file",
         actual="a file that can only be read",
         hints=(
-            "Without the permission to execute it, rosrun prints: Couldn't find executable named "
-            f"{NAME}. Type: chmod +x {FILE}"
+            "The script is not executable, so rosrun prints: Couldn't find executable named "
+            f"{NAME}. Type `chmod +x {FILE}` in a terminal."
         ),
     )
 
@@ -135,7 +139,7 @@ def _seen(status: int | None, printed: str) -> str:
 def _why_not(status: int | None, printed: str, others: list[str]) -> str:
     mine = [other for other in others if not other.endswith(("/get_loggers", "/set_logger_level"))]
     if mine:
-        return f"It serves {', '.join(mine)}, but the exercise needs the name /lamp."
+        return f"The program serves {', '.join(mine)}, but the exercise needs the name /lamp."
     if status is None:
         return (
             'The program runs, but it serves nothing. Does it reach the line rospy.Service("/lamp", Lamp, …)?'
@@ -146,7 +150,10 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
     if "Traceback" in printed or "Error" in printed:
         fault = explain(printed)
         return f"{fault.problem} {fault.remedy}" if fault else _own_line(printed)
-    return "The program ended, so its service ended, too. Does it reach rospy.spin(), which waits?"
+    return (
+        "The program ended, so its service ended, too. Check that the program reaches "
+        "rospy.spin(), which waits until the node is stopped."
+    )
 
 
 def _own_line(printed: str) -> str:
@@ -172,13 +179,12 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
         hints=[
             (
                 True,
-                "The response for an unknown mode has success=False. Compare the mode with the "
-                "three constants.",
+                "The mode is unknown, so success has to be False. Compare the mode with the three constants.",
             ),
             (
                 False,
-                "This is one of the three modes, so success is True. (OFF is 0, which is false in "
-                "a Python condition.)",
+                "This is one of the three modes, so success has to be True. Note that OFF is 0, which "
+                "a Python condition treats as false.",
             ),
         ],
     )
@@ -190,10 +196,14 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
         hints=[
             (
                 lambda actual: mode == 2 and not any(actual),
-                "The mode is BLINK, but rgb is 0. The lamp shows its colour for BLINK, too.",
+                "The mode is BLINK, but rgb is 0. The lamp also shows its colour for BLINK: set rgb "
+                "to the colour of the request.",
             ),
             ([0.0, 0.0, 0.0], "A field without a value is 0. Set rgb to r, g and b of request.colour."),
-            ([red, green, blue], "The lamp is dark for OFF and for an unknown mode, so rgb has three zeros."),
+            (
+                [red, green, blue],
+                "For OFF and for an unknown mode, the lamp shows no light. Set rgb to three zeros.",
+            ),
             (ANYTHING, "Return red, green and blue in this order, with the values of the request."),
         ],
     )

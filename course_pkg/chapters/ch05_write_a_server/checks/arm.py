@@ -44,7 +44,7 @@ def close_for_maintenance(context: CheckContext) -> None:
     require_shebang(
         context,
         FILE,
-        missing="Linux finds in line 1 which program runs the file. Begin with #!/usr/bin/env python3.",
+        missing=("Linux reads in line 1 which program runs the file. Begin with #!/usr/bin/env python3."),
     )
     folder = context.folder(files=[FILE])
     _can_be_imported(context, folder.command("python", "-c", IMPORT, within=4.0, worded="import arm"))
@@ -111,7 +111,10 @@ def _works(context: CheckContext) -> None:
         holds=bool(context.look().service(MOVE)),
         expected=MOVE,
         actual=f"no {MOVE}",
-        hints="/move_arm does not exist after the maintenance. Create it again for data=False.",
+        hints=(
+            "/move_arm does not exist after the maintenance. Create this service again when "
+            "/maintenance is called with data=False."
+        ),
     )
     _switches(context, maintenance(data=False), closed=False, changed=False)
     _counts(context, [context.service(MOVE, "std_srvs/Trigger")().message], 3)
@@ -153,7 +156,7 @@ def _switches(context: CheckContext, response: Message, *, closed: bool, changed
         'the message of /maintenance is "closed" or "open"',
         expected="closed" if closed else "open",
         actual=response.message,
-        hints="The message has to be the state after the call: closed for True, open for False.",
+        hints='The message has to be the state after the call: "closed" for True, "open" for False.',
     )
     context.expect(
         "success shows whether the call changed the state",
@@ -185,7 +188,10 @@ def _is_closed(context: CheckContext, address: ServiceSeen | None) -> None:
         holds=not any("type" in header_fields(probe.answer) for probe in probes),
         expected="no answer",
         actual="an answer",
-        hints="You only removed the entry in the master. Call shutdown() of the rospy.Service object.",
+        hints=(
+            "You only removed the entry in the master, so the server still answers. Call "
+            "shutdown() of the rospy.Service object."
+        ),
     )
 
 

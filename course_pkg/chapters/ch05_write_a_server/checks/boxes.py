@@ -134,8 +134,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
         hints=[
             (
                 lambda actual: isinstance(actual, dict),
-                "The server measured this box, but it has to refuse it. Compare each side with "
-                "zero first; -0.5 is negative, too.",
+                "The server measured a box with a negative side, but it has to refuse this box. "
+                "Compare each side with zero first; for example, -0.5 is negative, too.",
             )
         ],
         **_box(context, negative),
@@ -148,8 +148,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
         hints=[
             (
                 matches("error processing request"),
-                "The handler raised another exception, so the client thinks that the server "
-                "has a bug. Raise rospy.ServiceException.",
+                "The handler raised an exception of the wrong type, so the client concludes that the "
+                "server has a bug. Raise rospy.ServiceException.",
             ),
             (
                 matches("returned None"),
@@ -158,8 +158,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
             ),
             (
                 matches("handler returned"),
-                "The handler returned a value that is not a response. Do not return the "
-                "exception; raise it: raise rospy.ServiceException(...).",
+                "The handler returned a value that is not a response. Do not return the exception or "
+                "its message; raise the exception: raise rospy.ServiceException(...).",
             ),
         ],
     )
@@ -189,12 +189,18 @@ def _unclear(named: list[str], side: str, reason: str) -> str:
             "braces by values."
         )
     if len(named) > 1 and side in named:
-        return "The message names more than one side. Name only the first negative side."
+        return (
+            "The message contains the names of more than one side. Write only the name of the "
+            "first negative side."
+        )
     if not named:
-        return "The message names no side. Write the name of the negative side and its value."
+        return (
+            "The message does not contain the name of a side. Write the name of the negative side "
+            "and its value."
+        )
     if named != [side]:
         return (
-            "The message contains the name of another side. Name the first negative side, in the "
-            "order of the fields."
+            "The message contains the name of the wrong side. Write the name of the first "
+            "negative side, in the order of the fields."
         )
     return "The message does not contain the value of the side. Write the value after the name."

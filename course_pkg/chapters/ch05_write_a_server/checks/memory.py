@@ -16,8 +16,8 @@ def a_new_switch(kind, data):
 """
 NEW_AND_OFF = "handle_switch(data=False) of a new Switch()"
 MESSAGE: list[tuple[Condition, str]] = [
-    ("", "The message is empty: a string field without a value is empty. Set it to on or off."),
-    (matches("True|False"), "The message is True or False. Convert it to on or off."),
+    ("", 'The message is empty: a string field without a value is empty. Set it to "on" or "off".'),
+    (matches("True|False"), 'The message is True or False. Convert it to "on" or "off".'),
     (
         matches("on|off"),
         'The message contains more than "on" or "off" in small letters. Return only this word.',
@@ -43,7 +43,7 @@ NO_REFUSAL = "A request for the present position is not an error. Return success
 STARTS_ON = "A new switch was not off. Set its position to False in __init__."
 SHARES = (
     "The switch at /switch was on, and a new Switch() was on, too, because they share one "
-    "value. Store the value in self, not in the class or in a global variable."
+    "variable. Store the position in self, not in the class or in a global variable."
 )
 ELSEWHERE = {
     True: (
@@ -76,8 +76,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
             (matches("field message"), "The message is a string. Convert the count: str(self.count)."),
             (
                 matches(r"args are\(,\)"),
-                "The handler of /count returned an empty response. Did you exchange the "
-                "handlers of the two services?",
+                "The handler of /count returned an empty response. Check whether you exchanged the "
+                "handlers of the two services.",
             ),
         ],
     )
@@ -123,7 +123,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
                     ),
                     (
                         _lost_a_digit(number),
-                        "After 9, the message has only one digit. Return the whole number.",
+                        "After 9, the message has only one digit. Return all digits of the number.",
                     ),
                     (
                         _follows(before),
@@ -208,7 +208,8 @@ def a_switch_that_tells(context: CheckContext) -> None:
             hints=[
                 (
                     "on",
-                    "The field `data` is False, but the message is on. True means on, and False means off.",
+                    'The field `data` is False, but the message is "on". True means "on", and False means '
+                    '"off".',
                 ),
                 *MESSAGE,
             ],
@@ -231,8 +232,8 @@ def a_switch_that_tells(context: CheckContext) -> None:
                 hints=[
                     (
                         True,
-                        "The switch did not move, but success is True. Here, success means that it "
-                        "moved: store the position, and compare it with `data`.",
+                        "The switch did not move, but success is True. Store the position, and compare it "
+                        "with `data`: success is True only if the switch moved.",
                     ),
                     (
                         False,

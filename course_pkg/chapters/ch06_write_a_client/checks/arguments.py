@@ -6,7 +6,7 @@ IS_LIST = """
 def is_list(function, *args):
     return isinstance(function(*args), list)
 """  # a check receives a tuple as a list, so only the kernel sees the difference
-FOR_ROS = "An argument with := is for ROS. rospy.myargv(argv) returns the other arguments."
+FOR_ROS = "An argument with := is for ROS. Use rospy.myargv(argv), which returns the other arguments."
 NUMBERS = "Return the three numbers, and ignore arguments for ROS."
 
 
@@ -58,7 +58,7 @@ def read_the_arguments(context: CheckContext) -> None:
         near=1e-9,
         hints=(
             "-1.5 is a number, too, so return it unchanged. Use float(text): it raises ValueError "
-            "only for a word."
+            "only if the text is not a number."
         ),
     )
     remapped = [

@@ -77,7 +77,7 @@ def the_geometry_client(context: CheckContext) -> None:
                     ),
                     (
                         [length, width],
-                        "These are fields of the request. Read area and volume from the response.",
+                        "These are fields of the request. Read `area` and `volume` from the response.",
                     ),
                     (
                         ANYTHING,
@@ -92,7 +92,7 @@ def the_geometry_client(context: CheckContext) -> None:
 _UNAVAILABLE = [
     (
         matches("unavailable"),
-        "The given service exists, but your function called another name. Create the proxy "
-        "with the name in `service`.",
+        "The given service exists, but your function called a different name. Create the "
+        "proxy with the name in `service`.",
     )
 ]

@@ -47,7 +47,10 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
             f"an interrupt ends {function}()",
             expected="the function ends, as it does after you press the Stop button",
             actual="the function caught the KeyboardInterrupt, and continued",
-            hint=f"A bare except: catches the KeyboardInterrupt, too. Catch only what you expect: {catch}.",
+            hint=(
+                "A bare `except:` catches the KeyboardInterrupt, too. Catch only the exceptions that "
+                f"you expect: {catch}."
+            ),
         )
 
 

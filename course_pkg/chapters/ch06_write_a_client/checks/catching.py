@@ -7,7 +7,10 @@ from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Refuse, mat
 from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Result
 
-HIDDEN = "The function hides the mistake. Catch only rospy.ServiceException, and not a more general class."
+HIDDEN = (
+    "The function hides the mistake. Catch only rospy.ServiceException, not a more "
+    "general class of exceptions."
+)
 NO_NAMES = """
 class Slip:
     def __init__(self, error):
@@ -31,10 +34,13 @@ CAUGHT = "Return None if the call failed."
 @part(
     "06.3",
     points=2,
-    goal="Return the volume, or None if the call failed; do not catch errors of the arguments.",
+    goal=(
+        "Return the volume, or None if the call failed; do not catch exceptions that are "
+        "caused by wrong arguments."
+    ),
     needs=["volume_or_none"],
     deadline=30.0,
-    goals={VOLUME: 1, CAUGHT: 2, "Do not catch errors of the arguments.": 1},
+    goals={VOLUME: 1, CAUGHT: 2, "Do not catch exceptions that are caused by wrong arguments.": 1},
 )
 def catch_what_can_happen(context: CheckContext) -> None:
     """Try two working servers, four servers with different failures, and wrong arguments."""
@@ -73,8 +79,8 @@ def catch_what_can_happen(context: CheckContext) -> None:
         _comes_out(context, context.run("volume_or_none", good, slip, *sides[1:]), repr(slip))
     text = str(sides[0])
     converted = (
-        "The function accepted a string as a number. Do not convert the arguments, so that the "
-        "call raises an exception."
+        "The function accepted a string as a number, but the call has to raise an exception "
+        "for a string. Do not convert the arguments."
     )
     _comes_out(context, context.run("volume_or_none", good, text, *sides[1:]), repr(text), converted)
     context.prepare(NO_NAMES)
@@ -118,7 +124,10 @@ def _is_called_once(context: CheckContext, server: ScriptedServer) -> None:
         actual=len(server.requests),
         hints=[
             (0, DEPENDS),
-            (ANYTHING, "The server may have done the work although the call failed. Do not repeat the call."),
+            (
+                ANYTHING,
+                "Do not repeat a failed call. It is possible that the server has already done the work.",
+            ),
         ],
     )
 

@@ -22,8 +22,8 @@ IMPORTED = 77  # exit status of an import that ends without sys.exit or os._exit
 IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"
 USAGE = "usage"
 ENDED_WITH_TEXT = (
-    "The exit status is 1, because sys.exit with a text always ends with 1. Print the text, "
-    "and then end with 3."
+    "The exit status is 1, because sys.exit with a text always ends the program with 1. "
+    "Print the text, and then end the program with exit status 3."
 )
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -61,7 +61,11 @@ USED = "Print a usage line, and end with 2, if the arguments are wrong."
     needs=[f"file:{FILE}"],
     deadline=30.0,
     start=START,
-    goals={COMPARED: 2, USED: 1, "End with 3 if the call fails, and wait for a late service.": 1},
+    goals={
+        COMPARED: 2,
+        USED: 1,
+        ("Wait for a service that starts late. If the call fails, end the program with exit status 3."): 1,
+    },
 )
 def does_it_fit(context: CheckContext) -> None:
     """Run the program for all cases at the same time, each in its own namespace."""
@@ -69,7 +73,7 @@ def does_it_fit(context: CheckContext) -> None:
         context,
         FILE,
         missing=(
-            "Linux finds in line 1 which program runs the file. Begin the file with #!/usr/bin/env python3."
+            "Linux reads in line 1 which program runs the file. Begin the file with #!/usr/bin/env python3."
         ),
     )
     folder = context.folder(files=[FILE])
@@ -110,7 +114,7 @@ def _cases(context: CheckContext) -> list[Case]:
     def answer(_: object) -> dict[str, float]:
         return {"area": volume * 3, "volume": volume}
 
-    done = "The volume in the response is at most LIMIT: print fits, and end with the exit status 0."
+    done = 'The volume in the response is at most LIMIT: print "fits", and end with the exit status 0.'
     usage = "The arguments are not four numbers: print a usage line, and end with the exit status 2."
     return [
         Case("a volume below LIMIT", fits, answer, 0, "fits", hint=done),
@@ -121,8 +125,8 @@ def _cases(context: CheckContext) -> list[Case]:
             0,
             "fits",
             hint=(
-                'The volume is equal to LIMIT, and "at most LIMIT" includes LIMIT itself: print '
-                "fits, and end with 0."
+                'The volume is equal to LIMIT, and "at most LIMIT" includes LIMIT itself. Print '
+                '"fits", and end with the exit status 0.'
             ),
             remapped=True,
         ),
@@ -132,8 +136,10 @@ def _cases(context: CheckContext) -> list[Case]:
             answer,
             1,
             "too large",
-            hint="The volume in the response is larger than LIMIT: print too large, and end with the exit "
-            "status 1.",
+            hint=(
+                'The volume in the response is larger than LIMIT: print "too large", and end with the '
+                "exit status 1."
+            ),
             ends=COMPARED,
         ),
         Case("three numbers", sides, answer, 2, USAGE, calls=0, hint=usage),
@@ -207,8 +213,8 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
         expected="no output",
         actual=telling_line(done.out),
         hints=(
-            "The file cannot be imported: it has a mistake, or an import executes some lines "
-            "immediately. Correct the mistake, or move these lines below the line with __name__."
+            "The file cannot be imported without an error. Correct the mistake in the file, or "
+            "move the lines that an import must not run below the line with __name__."
         ),
     )
 
@@ -231,7 +237,10 @@ def _examine(
         holds=done.status == case.status and "Traceback" not in done.out,
         expected=f"exit status {case.status}, and no traceback",
         actual=outcome,
-        hints="The program does not end. Give wait_for_service a timeout of 2 s, and do not spin."
+        hints=(
+            "The program does not end. Call wait_for_service with a timeout of 2 s, and do not "
+            "call rospy.spin()."
+        )
         if done.status is None
         else ENDED_WITH_TEXT
         if case.status == 3 and done.status == 1 and "Traceback" not in done.out
@@ -276,8 +285,8 @@ def _about_calls(calls: int, case: Case, done: Finished, elsewhere: bool) -> str
         )
     if elsewhere and case.remapped:
         return (
-            "The program called /getGeometry although the command line remaps getGeometry. "
-            "rospy applies a remapping only after rospy.init_node."
+            "The program called /getGeometry although the command line remaps getGeometry. Call "
+            "rospy.init_node first, because rospy applies a remapping only after it."
         )
     if elsewhere:
         return (

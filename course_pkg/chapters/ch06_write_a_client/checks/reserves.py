@@ -68,8 +68,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         expected=0,
         actual=len(reserve.requests),
         hints=(
-            "The first service responded, but the second was called, too. Return as soon as you "
-            "have a volume."
+            "The first service responded, but the second service was called, too. Return as soon "
+            "as you have a volume."
         ),
     )
     context.expect(
@@ -139,8 +139,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         hints=[
             (
                 tardy,
-                "The first service responded after 1.3 s, and your function used it as the response of "
-                "the second service. Wait for 1 s, and use a new list for each call.",
+                "The response of the first service came after 1.3 s, and your function used it as the "
+                "response of the second service. Wait for 1 s, and use a new list for each call.",
             )
         ],
     )
@@ -181,7 +181,8 @@ _ERRORS: Hints = [
     ),
     (
         matches("^TimesUp"),
-        "The function waits for a server that never responds. Call in a thread, and join it with timeout=1.",
+        "The function waits for a server that never responds. Call the service in a thread, "
+        "and join this thread with timeout=1.",
     ),
 ]
 

@@ -39,8 +39,8 @@ def is_anybody_there(context: CheckContext) -> None:
             (None, NO_RETURN),
             (
                 False,
-                "The service was there, but the result was False. wait_for_service returns "
-                "None when it succeeds, and raises an exception when the time is up.",
+                "The service was there, but the result was False. wait_for_service does not return "
+                "True: it returns None, or it raises an exception when the time is up.",
             ),
             (
                 lambda actual: isinstance(actual, str),
@@ -54,8 +54,8 @@ def is_anybody_there(context: CheckContext) -> None:
         expected="an immediate result",
         actual=f"a result after {there.took:.1f} s",
         hints=(
-            "The function waits although the service is there. wait_for_service returns as soon as "
-            "the service is there."
+            "The function waits although the service is there. Use wait_for_service, which "
+            "returns as soon as the service is there."
         ),
     )
     context.expect(
@@ -112,7 +112,10 @@ def is_anybody_there(context: CheckContext) -> None:
 
 def _in_a_random_order(context: CheckContext) -> None:
     """Try new names, so that an answer that counts its calls fails."""
-    fixed = "The result was wrong for another service. It must depend on the service, not on earlier calls."
+    fixed = (
+        "The result was wrong for a second service. Your result must depend on the given "
+        "service, not on earlier calls."
+    )
     there = [True] * context.random.integer(3, 5) + [False] * context.random.integer(2, 3)
     for expected in context.random.shuffled(there):
         name = f"/{context.random.word()}"
@@ -131,7 +134,10 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
 
     A result after 1.4 s is too late.
     """
-    too_long = "The function waited longer than `seconds`. Call wait_for_service once, with this timeout."
+    too_long = (
+        "The function waited longer than `seconds`. Call wait_for_service once, with "
+        "`seconds` as the timeout."
+    )
     missing = context.run(
         "is_there",
         name,

@@ -145,11 +145,11 @@ def _explains_its_usage(context: CheckContext, package: BuiltPackage) -> None:
 
 def _why_no_usage(printed: str, arguments: list[str]) -> str:
     if USAGE.search(printed):
-        return "Write sys.exit(2) after the usage message: it sets the exit status."
+        return "Write sys.exit(2) after the usage message, so that the exit status is 2."
     if "wide" in arguments and len(arguments) == 3:
         return "float() raises ValueError for a text that is not a number. Catch this exception."
     if len(arguments) > 3:
-        return "Four numbers are wrong, too. Test whether there are exactly three arguments."
+        return "Four arguments are an error, too. Test whether there are exactly three arguments."
     return 'Print a line that begins with "usage:" and shows the three arguments.'
 
 
@@ -176,7 +176,7 @@ def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage) -> 
         holds=done.status == 1 and "Traceback" not in done.err and done.took < WITHIN - 2,
         expected="an error message, and exit status 1",
         actual=_outcome(done),
-        hints="The client waits without a limit. Give wait_for_service a timeout."
+        hints="The client waits without a limit. Call wait_for_service with a timeout."
         if done.status is None
         else "wait_for_service raises rospy.ROSException after its timeout. Catch this exception, too."
         if "Traceback" in done.err
@@ -187,7 +187,10 @@ def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage) -> 
         holds="unavailable" not in done.out + done.err,
         expected="an end after 5 s",
         actual=_outcome(done),
-        hints="The client did not wait. The service may start after the client, so wait for it, up to 5 s.",
+        hints=(
+            "The client did not wait. The service can start later than the client, so wait up to "
+            "5 s for the service."
+        ),
     )
 
 

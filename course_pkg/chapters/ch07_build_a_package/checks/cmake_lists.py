@@ -34,9 +34,9 @@ WAITS = "Let the target my_geometry_programs wait for the type."
     "07.3",
     points=3,
     goal=(
-        "Complete CMakeLists.txt: it generates the type my_geometry/geometry, has a target "
-        "my_geometry_programs that waits for this type, and names message_runtime for packages "
-        "that use it."
+        "Complete CMakeLists.txt: 1. Generate the type my_geometry/geometry. 2. Add a target "
+        "my_geometry_programs that is built after this type. 3. Name message_runtime for the "
+        "packages that use this package."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
@@ -77,10 +77,10 @@ def _has_type(context: CheckContext, package: BuiltPackage, text: str, wanted: s
 def _why_no_type(text: str) -> str:
     for name in ("add_service_files", "generate_messages"):
         if not _has(text, name):
-            return f"There is no command {name}, so the build passes but generates no type."
+            return f"There is no command {name}, so the build passes but generates no type. Add this command."
     return (
-        "add_service_files and generate_messages are in the file. Is one of them inside an if() "
-        "whose condition is false?"
+        "add_service_files and generate_messages are in the file, but no type was generated. "
+        "Look for an if() whose condition is false."
     )
 
 
@@ -100,11 +100,20 @@ def _target_waits(context: CheckContext, package: BuiltPackage, text: str, wante
 
 def _why_not_waiting(text: str, *, unknown: bool) -> str:
     if unknown and _has(text, "add_custom_target"):
-        return "The name of the target is wrong. (${PROJECT_NAME} is the name of the package.)"
+        return (
+            "The name of the target is wrong. Use my_geometry_programs; ${PROJECT_NAME} is the "
+            "name of the package."
+        )
     if unknown:
-        return "Create the target with add_custom_target: pass this name, and then ALL."
+        return (
+            "Create the target with add_custom_target: pass the name of the target as the first "
+            "argument, and ALL as the second."
+        )
     if _has(text, "add_dependencies"):
-        return "add_dependencies names only targets of other packages. Add the targets of ${PROJECT_NAME}."
+        return (
+            "Your add_dependencies contains only targets of other packages. Add the targets of "
+            "${PROJECT_NAME}."
+        )
     return (
         "The target has no dependencies yet. Use add_dependencies: it determines what is built "
         "before the target."
@@ -120,7 +129,7 @@ def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: st
         actual="no message_runtime",
         hints="In catkin_package, write CATKIN_DEPENDS and the packages that are needed to run."
         if _has(text, "catkin_package")
-        else "Without catkin_package, other packages cannot find this package.",
+        else "Without catkin_package, other packages cannot find this package. Add this command.",
     )
 
 

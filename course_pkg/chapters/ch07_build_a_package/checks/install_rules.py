@@ -102,7 +102,7 @@ def _why_not_there(text: str, script: str, places: list[str], *, there: bool) ->
         )
     if "catkin_install_python" not in rules and "install" not in rules:
         return (
-            "There is no install rule yet. The generated file has an example in a comment: "
-            "catkin_install_python."
+            "There is no install rule yet. The generated file has an example in a comment: look "
+            "for catkin_install_python."
         )
     return f"The rule does not contain {script}. List both scripts after PROGRAMS."

@@ -93,5 +93,5 @@ def _about_dependency(text: str, package: str, tag: str) -> str:
     if elsewhere:
         return f"Line {elsewhere[0].line} has {elsewhere[0].name} for {package}. Add a line with {tag}."
     if package == "message_runtime":
-        return "A package is missing. The warning of catkin_create_pkg contains its name."
-    return f"The package uses {package}, but package.xml has no tag for it."
+        return "A package is missing. Look for its name in the warning of catkin_create_pkg."
+    return f"The package uses {package}, but package.xml has no tag for it. Add this tag."

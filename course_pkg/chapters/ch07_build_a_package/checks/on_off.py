@@ -171,10 +171,16 @@ def _why_not_sent(count: int, done: Finished) -> str:
         fault = explain(printed)
         return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT, printed)
     if done.status is None:
-        return "The client does not end. Does it wait for another name, or in an endless loop?"
+        return (
+            "The client does not end. Check the name of the service for which it waits, and the "
+            "end of its loop."
+        )
     if count == 1:
-        return "The client called only once. The first argument is the number of calls: int(sys.argv[1])."
-    return "The number of calls has to be the first argument, no more and no fewer."
+        return (
+            "The client called the service only once. The first argument is the number of calls: "
+            "int(sys.argv[1])."
+        )
+    return "Call the service exactly as many times as the first argument says."
 
 
 def _ending(done: Finished) -> str:

@@ -48,7 +48,8 @@ ENDINGS = (  # a pattern for the program's output, and a hint
     ),
     (
         r"required file not found|bad interpreter",
-        "The first line of the script names a program that does not exist on this machine.",
+        "The first line of the script names a program that does not exist on this machine. "
+        "Write a shebang that names python3.",
     ),
 )
 
@@ -74,7 +75,7 @@ def is_a_script(context: CheckContext, path: str) -> None:
         path,
         missing="Without a shebang, Linux runs the script as a shell script. Write a shebang as line 1.",
         elsewhere="Linux reads a shebang only in the first column of line 1. Move it there.",
-        another="This shebang names another program, but the script needs python3.",
+        another="This shebang names the wrong program. The script needs python3.",
         windows="The lines end with \\r\\n, as on Windows. Save the file with the line endings of Linux.",
     )
 
@@ -172,7 +173,7 @@ def why_not(
 ) -> str:
     """Return the hint for a program that has ended, or that does not serve the right service."""
     if others:
-        return f"It serves {', '.join(others)}, but the exercise needs {program.service}."
+        return f"The program serves {', '.join(others)}, but the exercise needs {program.service}."
     if status is None:
         return (
             f"The program runs, but it serves nothing. Call rospy.Service with {program.service} "

@@ -28,7 +28,7 @@ COMMANDS = (  # for each command: a pattern, its name, and a hint
     (
         r"(?:source|\.) +(?:\S*/)?(?:devel|install)/setup\.(?:ba|z)?sh",
         "source devel/setup.bash",
-        "The command source devel/setup.bash is missing. A new terminal needs it.",
+        "The command `source devel/setup.bash` is missing. You need it in each new terminal.",
     ),
     (
         r"rosrun +my_geometry +server\.py|(?:python3 +|\./)(?:\S*/)?server\.py",

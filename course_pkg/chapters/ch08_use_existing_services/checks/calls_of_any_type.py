@@ -33,8 +33,8 @@ ERRORS = [
     (matches("KeyError: 0"), "fill_message_args needs a list of values. Write [fields]."),
     (
         matches("md5sums do not match"),
-        "The service has another type. Get the class of its type in each call, with "
-        "get_service_class_by_name.",
+        "Your proxy has the wrong type for this service. Get the class of its type in each "
+        "call, with get_service_class_by_name.",
     ),
 ]
 FLAT = (
@@ -77,8 +77,8 @@ def call_of_any_type(context: CheckContext) -> None:
             ),
             (
                 ANYTHING,
-                "The function ignored a field name that the type does not have. Do not catch "
-                "the error about this name.",
+                "The function ignored a field name that the type does not have. Do not catch the "
+                "exception that is raised for this name.",
             ),
         ],
     )
@@ -98,8 +98,8 @@ CALLED_WRONGLY: Hints = [
     (0, "The function did not call the service. Call the proxy with the request."),
     (
         ANYTHING,
-        "The function called the service more than once, so the server did its work more than "
-        "once. Call it once.",
+        "The function called the service more than once, so the server repeated its work. "
+        "Call the service once.",
     ),
 ]
 

@@ -17,18 +17,18 @@ from course_pkg.ros.protocol.json_channel import Json
 PRINTS = (["echo"], ["printf"])
 WORDS = 4  # number of words in a line: rosservice, call, the name, and one word with all fields
 SPLIT = (
-    "bash has split the fields at spaces, or removed quotes. shlex.quote turns any text into one "
-    "word for bash."
+    "bash has split the fields at spaces, or removed quotes. Use shlex.quote, which turns "
+    "any text into one word for bash."
 )
 TYPES = (
-    "YAML read a different value, for example False for the word off without quotes. json.dumps writes a "
-    "dict in a form that YAML reads correctly."
+    'YAML read a different value; for example, it reads off as False, but "off" in quotes '
+    "as a string. json.dumps writes a dict in a form that YAML reads correctly."
 )
 LOST = "A field in an inner dictionary has no value. Write the whole dict into the line."
 REPLACED = "bash has replaced $HOME with a path. Use shlex.quote: inside its quotes, bash replaces nothing."
 NO_YAML = (
-    "bash passed the fields as one word, but YAML cannot read a dict from it. Use json.dumps, "
-    "and then shlex.quote."
+    "bash passed the fields as one word, but YAML cannot read a dict from this word. Use "
+    "json.dumps, and then shlex.quote."
 )
 TWICE = "The line calls the service more than once. Write one call."
 COMPLAINTS = [
@@ -37,7 +37,11 @@ COMPLAINTS = [
         "Arguments with := are for ROS, so rosservice does not receive them. Write the fields as a dict.",
     ),
     (matches(r"call \S+ \w+="), "YAML reads a=5 as a string. Write a dict: {a: 5}."),
-    (matches("^!"), "The character ! works only in a cell of a notebook. Remove it for a terminal."),
+    (
+        matches("^!"),
+        "The character ! works only in a cell of a notebook. Remove this character, because "
+        "your line is for a terminal.",
+    ),
     (
         matches("syntax error"),
         "This is a call in Python. In a terminal, write words with spaces between them, without parentheses.",
@@ -123,7 +127,10 @@ def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, l
             "it returns a string with rosservice call in it",
             expected="one command, rosservice call",
             actual=line,
-            hint="Another program in the line makes the call. Write one command.",
+            hint=(
+                "A program other than rosservice makes the call. Write a line that is only one "
+                "rosservice command."
+            ),
         )
     context.expect(
         f"{example.what}: the fields arrive as they were given",

@@ -44,21 +44,21 @@ ERRORS: Hints = [
 OTHER_RESULTS: Hints = [
     (
         "another type",
-        "The names of the types are equal, so the result is wrong. Compare with the whole name "
-        "of `kind`, package/Type.",
+        "The names of the types are equal, so the function must not report another type. "
+        "Compare with the whole name of `kind`, package/Type.",
     ),
     (
         "another definition",
-        "The MD5 sums are equal, so the result is wrong. Compare with the MD5 sum of `kind`, "
-        "the class of the whole service type.",
+        "The MD5 sums are equal, so the function must not report another definition. Compare "
+        "with the MD5 sum of `kind`, the class of the whole service type.",
     ),
 ]
 WHY = {
     "not registered": "The master has no address for this service, so get_service_uri returns None.",
     "server is gone": "The master has an address for this service, but no server answers at this address.",
     "another type": (
-        "The names of the types are different, at least in the package. Compare the names before "
-        "you compare the MD5 sums."
+        "The names of the types are different; sometimes only the package is different. "
+        "Compare the names before you compare the MD5 sums."
     ),
     "another definition": (
         "The names of the types are equal, but the MD5 sums are different. Compare the MD5 sums, too."

@@ -119,7 +119,10 @@ def _was_called_once(context: CheckContext, lamp: ScriptedServer) -> None:
             "it calls /on_off once, with 1 for True and 0 for False",
             expected="one call for each call of /lamp",
             actual=f"{len(lamp.requests)} calls",
-            hint="The handler called /on_off again after an answer that it did not want. Call it once.",
+            hint=(
+                "The handler called /on_off again after an error or a response with the wrong state. "
+                "Call /on_off only once."
+            ),
         )
 
 

@@ -14,8 +14,8 @@ DEAD = (
     "rosservice.ROSServiceIOException inside the loop, and continue with the next service."
 )
 NONE = (
-    "No service was found. Get the names inside the function, and compare `kind` with the "
-    "whole string package/Type that get_service_type returns."
+    "No service was found. Get the names of the services inside the function, and compare "
+    "`kind` with the whole string package/Type that get_service_type returns."
 )
 SOME = "Only some services were found. Examine all names, and return after the loop."
 GONE = (

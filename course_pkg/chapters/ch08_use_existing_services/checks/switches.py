@@ -36,7 +36,8 @@ CASES = (
             ),
             (
                 "failed",
-                "The switch is in the wanted position. Compare the message of `report` with open and closed.",
+                "The switch is in the wanted position. Compare the message of `report` with the "
+                'strings "open" and "closed".',
             ),
         ],
     ),
@@ -96,8 +97,8 @@ CASES = (
         wrong_results=[
             (
                 "was there",
-                "The switch responded with success=True and is in the wanted position. Use "
-                "success for the result, not the position before the call.",
+                "The switch responded with success=True and is in the wanted position. Decide by "
+                "success, not by the position before the call.",
             ),
         ],
     ),
