@@ -216,7 +216,7 @@ replace("<build_depend>std_msgs … std_msgs</exec_depend>", "<exec_depend>messa
 replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: a blank line on top | hint: in the first column of the first line
 replace("<?xml", "\n<?xml")
-# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: for std_msgs. Add an exec_depend
+# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: for the same package
 replace("exec_depend>std_msgs</exec_depend", "build_export_depend>std_msgs</build_export_depend")
 
 # %% 04.4 right: as in the chapter
