@@ -31,11 +31,14 @@ HANDLER_RAISED: Hints = [
     ),
     (
         matches(r"error processing request: (local variable .* referenced|cannot access local variable)"),
-        "A function that assigns to a name has a local variable of this name. Store the value in self, or "
-        "declare the name as global.",
+        "The handler assigns a value to this name, so Python treats the name as a local variable. "
+        "Store the value in self, or declare the name as `global`.",
     ),
     (
         matches(r"error processing request: name '\w+' is not defined"),
-        "The handler uses a name that does not exist. Compare its spelling with the line that defines it.",
+        (
+            "The handler uses a name that does not exist. Compare its spelling with the line that "
+            "defines the name."
+        ),
     ),
 ]

@@ -133,7 +133,7 @@ class CheckContext:
         assertion = f"{label} is served as {cls._type}"
         actual = self._type_of(name, assertion)
         if actual != cls._type:
-            hint = f"Serve it with the type in the exercise: {cls._type}."
+            hint = f"Create the service with the type in the exercise: {cls._type}."
             self._results.fails(assertion, expected=cls._type, actual=actual, hint=hint)
         self._results.passes(assertion)
         require_current(self._channel.ask("served", timeout=SLACK, name=name))
@@ -147,15 +147,17 @@ class CheckContext:
         if probe is None:
             alike = difflib.get_close_matches(name, self._node.services(), n=1)
             hint = (
-                "Run the cell that serves it. Do this after each restart of the kernel, too. The cell has to "
-                "create a "
-                "rospy.Service, and to end without an exception."
+                "Run the cell that creates this service, and run it again after each restart of the "
+                "kernel. The cell has to create a rospy.Service and must not raise an exception."
             )
             hint = f"There is {alike[0]}: compare the names letter by letter." if alike else hint
             actual = "no server"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         if not probe.answered:
-            hint = "The master lists a server that has ended or stopped. Run the cell that serves it again."
+            hint = (
+                "The master lists a server that has ended or stopped. Run the cell that creates the "
+                "service again."
+            )
             actual = f"a server that is {probe.reach.value}"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         return header_fields(probe.answer).get("type", "no type")

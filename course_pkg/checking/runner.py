@@ -126,7 +126,10 @@ def _unchanged(part: Part, channel: Channel) -> str:
     now = channel.ask("source", timeout=LOOK, name=f"file:{path}").get("text") if path else None
     if now is None or str(now).strip() != text.strip():
         return ""
-    return f"{path} is unchanged. Repair it in the cell above, run that cell, and then run this cell again."
+    return (
+        f"{path} is unchanged. Repair this file in the cell above, run that cell, and then run this "
+        "cell again."
+    )
 
 
 def _too_slow(part: Part, context: CheckContext) -> Assertion:

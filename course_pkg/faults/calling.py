@@ -150,7 +150,7 @@ CALLING: tuple[Fault, ...] = (
         remedy="Compare the name in the client with `rosservice list`.",
         reason=(
             "`unavailable` means that no node provides a service of this name. The server runs, but the "
-            "name of its service has one more letter."
+            "name of its service has one letter more than the name in the client."
         ),
     ),
     _well(
@@ -178,8 +178,8 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The client waits without a limit for a server that was never started.",
         remedy="Start the server, and give wait_for_service() a timeout.",
         reason=(
-            "`rosservice list` shows no such service, and `rosnode list` no such node. Without a "
-            "timeout, wait_for_service() waits for ever and prints nothing."
+            "`rosservice list` does not show the service, and `rosnode list` does not show the "
+            "server's node. Without a timeout, wait_for_service() waits forever and prints nothing."
         ),
         hangs=True,
     ),
@@ -230,14 +230,14 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The call omits a field, which therefore has the value False or 0. No error reports this.",
         remedy="Give each field a value, by name.",
         reason=(
-            "An omitted field has the value False, 0 or an empty string. The server cannot distinguish it "
-            "from an intended False."
+            "An omitted field has the value False, 0 or an empty string. The server cannot know "
+            "whether the client intended this value."
         ),
     ),
     _python(
         name="wrong_value",
         visitor=calling('print(move_door("yes"))'),
-        diagnosis="A value in the call has another type than its field.",
+        diagnosis="The type of a value in the call differs from the type of its field.",
         remedy="Convert the value to the type of its field before the call.",
         reason=(
             "The client created the request, but could not pack it for sending. The exception is a "
@@ -275,7 +275,10 @@ CALLING: tuple[Fault, ...] = (
         look="gone connection",
         play=running("import os\n" + keeper("os._exit(1)  # the motor causes a power failure")),
         diagnosis="The server received the request, and ended before it sent the response.",
-        remedy="Start the server again. Repeat the call only if the work may be done twice.",
+        remedy=(
+            "Start the server again. Repeat the call only if it does no harm when the server does the "
+            "work twice."
+        ),
         reason=(
             "`unable to receive data from sender`: the connection was closed while the client waited for the "
             "response. The client cannot know how much of the work the server has done."
@@ -287,7 +290,7 @@ CALLING: tuple[Fault, ...] = (
         look="wait call",
         play=_freeze,
         diagnosis="The server's process is stopped: it still exists, but does nothing.",
-        remedy="Continue the process with `kill -CONT`, or with `fg` if Ctrl-Z has stopped it.",
+        remedy="Resume the process with `kill -CONT`, or with `fg` if Ctrl-Z has stopped it.",
         reason=(
             "The operating system still accepts connections for the process, so wait_for_service() "
             "succeeds. But no thread of the process runs, and `rosnode ping` gets no answer either."
@@ -298,12 +301,12 @@ CALLING: tuple[Fault, ...] = (
         name="hogged",
         look="wait call",
         play=_hog,
-        diagnosis="Another client has connected and sends nothing, which blocks all other clients.",
+        diagnosis="Another client has connected, but sends nothing. This blocks all other clients.",
         remedy="End that client. To prevent it, let the server read each header on a separate thread.",
         reason=(
-            "rospy reads the header of each connection on the one thread that accepts connections. "
-            "`rosnode ping` uses another thread and gets an answer, but a probe of the service gets none. "
-            "prepare_node() of the course avoids this."
+            "rospy has one thread that accepts connections, and this thread also reads the header "
+            "of each connection. `rosnode ping` uses another thread and gets an answer, but a probe "
+            "of the service gets none. prepare_node() of the course avoids this."
         ),
         hangs=True,
     ),
@@ -320,9 +323,9 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The client keeps a connection to a server that has ended, and never opens a new one.",
         remedy="Close the persistent proxy and create a new one, or call without persistent=True.",
         reason=(
-            "A persistent proxy looks the service up only once, so it never calls the new server. After the "
-            "restart, each call fails with a different message: about the transport, a broken pipe, and then "
-            "'tell'."
+            "A persistent proxy looks the service up only once, so it never calls the new server. "
+            "After the restart, each call fails with a different message: the first is about the "
+            "transport, the next is about a broken pipe, and the next contains 'tell'."
         ),
     ),
     _broken(
@@ -332,8 +335,8 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The server is registered under a host name that cannot be resolved here.",
         remedy="Start the server with ROS_HOSTNAME=localhost, or with a name that all machines know.",
         reason=(
-            "The server runs and is registered, but its address cannot be used: `rosservice uri` shows "
-            "the name. The node takes the name from ROS_HOSTNAME and does not test it."
+            "The server runs and is registered, but its address cannot be used: `rosservice uri` "
+            "shows this address. The node takes the name from ROS_HOSTNAME and does not test it."
         ),
     ),
     _well(
@@ -349,8 +352,8 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="Several threads share one persistent proxy and read each other's responses.",
         remedy="Give each thread its own proxy, or hold a lock around each call.",
         reason=(
-            "The responses arrive on one connection, one after the other, and the first thread that "
-            "reads gets the first response. rospy's proxy does not separate its callers."
+            "The responses arrive one after the other on one connection. The first thread that "
+            "reads gets the first response, even if this response belongs to another thread."
         ),
     ),
 )

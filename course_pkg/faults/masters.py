@@ -76,8 +76,8 @@ MASTERS: tuple[Fault, ...] = (
         diagnosis="No master runs, so the program cannot read a parameter.",
         remedy="Start a master. Catch ConnectionRefusedError if the master may be missing.",
         reason=(
-            "get_param() raises the socket's ConnectionRefusedError. The default value does not help, "
-            "because it is only for a parameter that is not set."
+            "get_param() raises the socket's ConnectionRefusedError. The default value does not "
+            "help, because rospy uses it only if a master answers and the parameter is not set."
         ),
     ),
     _asked(
@@ -98,7 +98,9 @@ MASTERS: tuple[Fault, ...] = (
         look="wait call",
         play=_hang_master,
         diagnosis="The master accepts connections and does not answer.",
-        remedy="Continue the master's process, or end it and start everything again.",
+        remedy=(
+            "Resume the master's process with `kill -CONT`, or end it and restart the master and all nodes."
+        ),
         reason=(
             "All tools hang, too, because each of them calls the master first. The operating system "
             "still accepts connections for a stopped process."
@@ -139,8 +141,8 @@ MASTERS: tuple[Fault, ...] = (
         diagnosis="ROS_MASTER_URI is not a valid address, but init_node() keeps trying to reach a master.",
         remedy="Write the whole address: http://localhost:11311.",
         reason=(
-            "An address begins with http://. Without it, init_node() behaves as if the master had not "
-            "started yet. The tools show that master and server work."
+            "An address begins with http://. Without http://, init_node() behaves as if the master "
+            "had not started yet. The tools show that master and server work."
         ),
         hangs=True,
     ),

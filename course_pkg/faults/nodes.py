@@ -197,7 +197,7 @@ NODES: tuple[Fault, ...] = (
         chapter="01",
         story="The door's service has worked all day. Now a client calls it again.",
         play=_twin,
-        diagnosis="Another node has started with the server's node name, which ended the server.",
+        diagnosis="Another node has started with the node name of the server, so the server was shut down.",
         remedy="Give each node its own name, and start the server again.",
         reason=(
             "The server's output contains `new node registered with same name`: the master shuts down "
@@ -212,7 +212,7 @@ NODES: tuple[Fault, ...] = (
         play=kill_server,
         visitor="$ rosnode ping -c 1 /lab/keeper",
         diagnosis="The node was killed, and its name is still registered with the master.",
-        remedy="Remove it with `rosnode cleanup`, and start the node again.",
+        remedy="Remove the stale registration with `rosnode cleanup`, and start the node again.",
         reason=(
             "`rosnode list` shows the registrations, not the running nodes. `rosnode ping` calls the "
             "node itself, which does not answer."
@@ -259,8 +259,8 @@ NODES: tuple[Fault, ...] = (
         diagnosis="A callback prints, and its output appears below the cell that runs at that time.",
         remedy="Let callbacks store the messages, and print them in a separate cell.",
         reason=(
-            "Callbacks run on threads of rospy. A notebook shows their output below the cell that runs "
-            "at that time, or below the last one."
+            "Callbacks run on threads of rospy. A notebook shows their output below the cell that "
+            "runs at that time, or below the last cell that ran."
         ),
     ),
 )

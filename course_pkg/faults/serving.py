@@ -88,10 +88,10 @@ SERVING: tuple[Fault, ...] = (
         name="returns_none",
         play=serving('message = "open" if request.data else "shut"\nSetBoolResponse(True, message)'),
         diagnosis="The handler creates its response and does not return it.",
-        remedy="Write return in front of the response.",
+        remedy="Write `return` before the response.",
         reason=(
-            "A function without return returns None, and the error message says this. A handler must return "
-            "even an empty response."
+            "A function without `return` returns None, and the error message shows this value. A "
+            "handler must return a response, even if the response has no fields."
         ),
     ),
     _replied(
@@ -120,7 +120,9 @@ SERVING: tuple[Fault, ...] = (
         play=serving("return 90"),
         diagnosis="The handler returns a single value, but the response has several fields.",
         remedy="Return one value for each field: a response, a tuple, a list or a dict.",
-        reason="A single value is allowed only for a response with one field. Here it has two fields.",
+        reason=(
+            "A single value is allowed only for a response with one field. Here the response has two fields."
+        ),
         unlike=("wrong_length",),
     ),
     _replied(
@@ -140,8 +142,8 @@ SERVING: tuple[Fault, ...] = (
         ),
         play=running(LOGGERS),
         diagnosis=(
-            "The only field of the response is a list, and the handler returns this list without "
-            "another list around it."
+            "The response has only one field, which is a list. The handler returns this list, but "
+            "not inside another list."
         ),
         remedy="Put the list into a list, [[…]], or name the field in a dict.",
         reason=(
@@ -155,12 +157,15 @@ SERVING: tuple[Fault, ...] = (
         play=serving('return {"sucess": True, "message": "open"}'),
         diagnosis="The handler returns a dict with a key that is not a field of the response.",
         remedy="Compare the keys with `rossrv show`, and correct the spelling.",
-        reason="The error message names the key `sucess`, and the response class, which has no such field.",
+        reason=(
+            "The error message contains the key `sucess` and the name of the response class. This class "
+            "has no field with that name."
+        ),
     ),
     _replied(
         name="wrong_type",
         play=serving('return SetBoolResponse("yes", "open")'),
-        diagnosis="A field of the response gets a value of another type.",
+        diagnosis="A field of the response gets a value of the wrong type.",
         remedy="Convert the value to the type of its field before you return it.",
         reason=(
             "`field success is not a bool`: the handler creates the response without an error. rospy finds "
@@ -185,11 +190,11 @@ SERVING: tuple[Fault, ...] = (
             "import threading\n\nhinge = threading.Event()\n",
         ),
         diagnosis="The handler waits for something that does not happen.",
-        remedy="Give each wait in a handler a limit, and give the call a deadline.",
+        remedy="Give each wait in a handler a time limit, and give the call a deadline.",
         reason=(
             "The node answers `rosnode ping` and a probe of its service, because both use other "
-            "threads. The last line of its output names what the handler waits for. rospy sets no limit"
-            " for a call."
+            "threads. The last line of the server's output shows what the handler waits for. rospy "
+            "has no time limit for calls."
         ),
         unlike=("lock",),
     ),

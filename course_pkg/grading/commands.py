@@ -81,7 +81,7 @@ def _grade_arguments(parser: ArgumentParser) -> None:
         "--jobs",
         type=int,
         default=0,
-        help="the number of notebooks at the same time (default: two for each core)",
+        help="how many notebooks are graded at the same time (default: two for each core)",
     )
     parser.add_argument(
         "--scheduler", default="", metavar="tcp://…", help="a dask scheduler, to use several machines"

@@ -15,7 +15,7 @@ from course_pkg.sandbox.job import WorkFile
 
 IN_PACKAGES = "Examined in the packages, not in the cells of the notebook"
 NOTHING = "The student handed in nothing"  # the beginning of the problem of an empty folder
-NO_TIME = "The time of handing in is not known, so this submission counts as handed in in time."
+NO_TIME = "The time of handing in is not known, so this submission is treated as on time."
 
 
 @dataclass(frozen=True)

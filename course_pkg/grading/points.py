@@ -157,7 +157,7 @@ def _by_goal(part: Part, given: dict[str, Any], path: Path | None) -> Worth:
     if not total(goals):
         raise _wrong(
             path,
-            f"the goals of {part.check!r} have 0 points together. Give one of them points, or write "
+            f"the goals of {part.check!r} have 0 points in total. Give one of them points, or write "
             f'"{part.check}": 0 to leave the part out of the sum.',
         )
     return Worth(total(goals), goals)

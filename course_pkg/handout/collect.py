@@ -81,7 +81,7 @@ def collect(options: Options) -> int:
     # raises an error if the folder is something else, before anything in it is changed
     TimesTable(options.out)
     if os.geteuid() != 0:
-        sys.stderr.write("You are not root, so only what your own account can read is collected.\n")
+        sys.stderr.write("You are not root, so only files that your own account can read are collected.\n")
     found, out = Collected(), options.out
     try:
         out.mkdir(parents=True, exist_ok=True, mode=0o700)
@@ -92,8 +92,8 @@ def collect(options: Options) -> int:
                 _collect_one(home, folder, wanted, out, table, found)
     except OSError as error:
         raise HandoutError(
-            f"The work cannot be stored in {out} ({error.strerror}). Correct that, and type the command "
-            "again."
+            f"The work cannot be stored in {out} ({error.strerror}). Correct this problem, and type "
+            "the command again."
         ) from error
     for line in _report(found, options, len(homes)):
         sys.stdout.write(f"{line}\n")
@@ -118,7 +118,10 @@ def _collect_one(
     found.notebooks += sum(not file.package for file in files)
     found.packages += len({file.package for file in files if file.package})
     found.set_back += [
-        f"{student}/{file.place}: time {iso_time(file.modified)}, written or moved {iso_time(file.changed)}"
+        (
+            f"{student}/{file.place}: the time is {iso_time(file.modified)}, but the file was written "
+            f"or moved at {iso_time(file.changed)}"
+        )
         for file in files
         if file.changed - file.modified > SET_BACK
     ]
@@ -150,10 +153,13 @@ def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
             f"{options.out / TIMES}."
         )
     if found.nothing:
-        yield f"Nothing from {len(found.nothing)}: {', '.join(found.nothing)}"
+        yield f"No work was found for {len(found.nothing)}: {', '.join(found.nothing)}"
     for title, lines in (
         ("Not collected:", found.problems),
-        ("Files that were written or moved after their time, which their owner can set:", found.set_back),
+        (
+            "These files were written or moved after their time. The owner of a file can change its time:",
+            found.set_back,
+        ),
     ):
         yield from [title, *(f"  {line}" for line in lines)] if lines else []
     if found.students:

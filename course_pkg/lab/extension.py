@@ -17,8 +17,8 @@ from traitlets import Bool, Unicode
 # shows all other files, such as a student's own files and `workspace`.
 HIDDEN = (
     *("CHANGELOG.md", "CMakeLists.txt", "CONTRIBUTING.md", "LICENSE", "README.md", "action", "course"),
-    *("course_pkg", "environment.yml", "launch", "package.xml", "postBuild", "pyproject.toml", "setup.py"),
-    *("solutions", "srv", "start", "tests"),
+    *("course_pkg", "deploy", "environment.yml", "launch", "package.xml", "postBuild", "pyproject.toml"),
+    *("setup.py", "solutions", "srv", "start", "tests"),
 )
 # The server's setting for the class that connects a page with a kernel.
 CONNECTION_CLASS = "kernel_websocket_connection_class"

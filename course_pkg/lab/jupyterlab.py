@@ -276,7 +276,7 @@ def _announce(address: _Address, notebook: str, checkout: Path, browser: bool) -
     opened = browser and webbrowser.open(url)
     sys.stdout.write(
         f"JupyterLab serves {checkout} at\n\n    {url}\n\n"
-        f"{'It opens in your browser.' if opened else 'Open this address in your browser.'} "
+        f"{'The page opens in your browser.' if opened else 'Open this address in your browser.'} "
         "Ctrl-C here ends JupyterLab, its kernels, and the ROS master.\n"
     )
     sys.stdout.flush()

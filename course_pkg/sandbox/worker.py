@@ -30,7 +30,7 @@ VERDICT_TIMEOUT = 3.0  # time limit for a check runner to finish after the stude
 CHUNK = 65536  # bytes of one read; also the maximum for all messages of the student's process
 
 ENDINGS = {
-    supervisor.STUDENT_ENDED: "the process in which the answer ran ended before its check was done",
+    supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
@@ -185,7 +185,7 @@ class Session:
 
     def _reason(self) -> str:
         if self._over is None:
-            return f"it was not done after {self._limit:g} s"
+            return f"it was not finished after {self._limit:g} s"
         code = os.waitstatus_to_exitcode(self._over)
         return ENDINGS.get(code, "the processes of this part were lost")
 

@@ -251,7 +251,10 @@ class _Diagnosis:
         if self.strict and "\\" in value:
             column = line.text.index("\\") + 1
             raise self._broken(
-                line, column, "Python would read the backslash as an escape", "write it without"
+                line,
+                column,
+                "Python would read the backslash as an escape",
+                "write the string without a backslash",
             )
 
     def _number(self, line: Line, type_name: str, value: str) -> None:

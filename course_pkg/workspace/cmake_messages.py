@@ -122,13 +122,13 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r"generate_messages\(\) must only be called once",
         "",
-        "generate_messages is there twice.",
-        "List all files first. Then call generate_messages once.",
+        "CMakeLists.txt calls generate_messages twice.",
+        "List all files above generate_messages, and call generate_messages only once.",
     ),
     (
         r"file '\S*?/(?P<name>[^/']+)' does not exist.*(?:service|message|action) file not found",
         "",
-        "There is no file {name} in the folder of this command.",
+        "There is no file {name} in the folder that this command searches.",
         "Compare the spelling, including upper and lower case. Do not write the folder srv in front of "
         "the name.",
     ),
@@ -136,8 +136,8 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"(?P<name>add_\w+)\(\) directory not found: \S*/(?P<package>[^/\s]+)/(?P<folder>\w+)",
         "",
         "{name} looks for its files in the folder {folder}, but {package} has no such folder.",
-        "A .srv file belongs in srv and is listed in add_service_files, a .msg file in msg and "
-        "add_message_files.",
+        "Put .srv files into srv, and list them in add_service_files. Put .msg files into msg, and "
+        "list them in add_message_files.",
     ),
     (
         r"(?P<name>add_\w+)\(\) called with unused arguments: (?P<rest>.+)",
@@ -206,8 +206,8 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r"add_dependencies called with incorrect number of arguments",
         "",
-        "add_dependencies has only one argument, because the variables after it are empty.",
-        "Move the line below generate_messages, and write both ${{ }} of "
+        "add_dependencies has only one argument, because the variables after the first argument are empty.",
+        "Move the line below generate_messages, and write both pairs of ${{ }} in "
         "${{${{PROJECT_NAME}}_EXPORTED_TARGETS}}.",
     ),
     (
@@ -260,6 +260,6 @@ SILENT: tuple[Row, ...] = (
         r"generate_messages\(\) without having added any message or service",
         "",
         "No file was listed before generate_messages, so it generates nothing.",
-        "Write add_service_files(FILES …) above it.",
+        "Write add_service_files(FILES …) above generate_messages.",
     ),
 )

@@ -15,8 +15,8 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     (
         r"(?P<name>\S+): No such file or directory",
         "The compiler does not find the header {name}.",
-        "Compare its spelling, name its package among the COMPONENTS of find_package, and write "
-        "include_directories(${{catkin_INCLUDE_DIRS}}) above add_executable.",
+        "Compare the spelling of the header, and add its package to the COMPONENTS of find_package. "
+        "Write include_directories(${{catkin_INCLUDE_DIRS}}) above add_executable.",
     ),
     (
         r"no matching function for call to .*advertiseService",
@@ -32,12 +32,12 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     (
         r"has no member named .(?P<name>\w+).",
         "There is no field or method {name} here.",
-        "rossrv show lists the fields of a type, in the request and in the response.",
+        "The command rossrv show prints the fields of a type, for the request and for the response.",
     ),
     (
         r"no return statement in function returning|control reaches end of non-void",
         "This function must return a value, but it can end without a return statement.",
-        "Write return true or return false at the end of every path through the function.",
+        "Write return true or return false at the end of every branch of the function.",
     ),
     (
         r"expected .*[';]",
@@ -76,6 +76,6 @@ def _unlinked(name: str) -> Fault:
         return Fault("The program has no function main.", "Write int main(int argc, char** argv) { … }.")
     return Fault(
         f"The program uses {name}, but it is not linked with a library that contains {name}.",
-        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable. If it is your own "
-        "function, look for its definition.",
+        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable. If this "
+        "function is your own, look for its definition.",
     )

@@ -20,7 +20,7 @@ def missing_for_cpp() -> str:
     if not _compiler_here():
         return _advice(f"No C++ compiler is installed ({compiler()}).", "g++", "compilers")
     if not any((prefix / HEADER).exists() for prefix in prefixes()):
-        return _advice("The headers of roscpp are not installed.", "libroscpp-dev", "ros-noetic-roscpp")
+        return _advice("The header files of roscpp are not installed.", "libroscpp-dev", "ros-noetic-roscpp")
     return ""
 
 

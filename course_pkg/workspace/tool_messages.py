@@ -18,15 +18,15 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r"The manifest contains invalid XML:\s*mismatched tag: line (?P<line>\d+)",
         "package.xml",
-        "In this line or above it, a tag is not closed, or it is closed with another name.",
+        "In this line or above it, a tag is not closed, or its closing tag has a different name.",
         "Close every <tag> with </tag>.",
     ),
     (
         r"The manifest contains invalid XML:\s*(?P<what>[^\n]*?): line (?P<line>\d+)",
         "package.xml",
         "The file is not valid XML: {what}.",
-        "Begin with <?xml in the first column of the first line, close every tag, use straight quotes, and "
-        "write &amp; for &.",
+        "Write <?xml in the first column of the first line, and close every tag. Use straight "
+        "quotes, and write &amp; for &.",
     ),
     (
         r"The manifest .*?\(with format version (?P<format>\d)\) "
@@ -100,7 +100,7 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[^\n]*)",
         "",
-        "A .srv file has the line {text}, which is not a type and a name with one space between them.",
+        "A .srv file has the line {text}. A field needs a type, one space, and a name.",
         "Write it as in this example: float32 length.",
     ),
     (
@@ -113,13 +113,13 @@ FROM_BUILD: tuple[Row, ...] = (
         r"base path \"(?P<path>[^\"]+)\" contains a package",
         "",
         "catkin_make was started inside a package.",
-        "Go up to the root of the workspace, the folder that contains src, and start it there.",
+        "Go up to the root of the workspace, the folder that contains src, and start catkin_make there.",
     ),
     (
         r"specified source space \"(?P<path>[^\"]+)\" does not exist",
         "",
         "catkin_make was started in a folder that does not contain src.",
-        "Go to the root of the workspace, the folder that contains src, and start it there.",
+        "Go to the root of the workspace, the folder that contains src, and start catkin_make there.",
     ),
 )
 
@@ -129,7 +129,10 @@ FROM_TOOLS: tuple[Row, ...] = (
         r"unknown package \[(?P<other>\w+)\] on search path",
         "",
         "No package {name}{other} is on ROS_PACKAGE_PATH.",
-        "Source devel/setup.bash of its workspace in this shell, and compare the spelling.",
+        (
+            "Source devel/setup.bash of the package's workspace in this shell, and compare the spelling "
+            "of the name."
+        ),
     ),
     (
         r"No module named '(?P<name>\w+)\.(?:srv|msg)'",
@@ -146,9 +149,9 @@ FROM_TOOLS: tuple[Row, ...] = (
     (
         r"No module named '(?P<name>\w+)'",
         "",
-        "Python does not find {name} on its path.",
-        "Source devel/setup.bash of its workspace. If you have done that, look for generate_messages in "
-        "its CMakeLists.txt.",
+        "Python cannot find the package {name}.",
+        "Source devel/setup.bash of the package's workspace. If you have done that, look for "
+        "generate_messages in its CMakeLists.txt.",
     ),
     (
         r"cannot import name '(?P<name>\w+)' from '(?P<module>[\w.]+)'",
@@ -172,8 +175,8 @@ FROM_TOOLS: tuple[Row, ...] = (
     (
         r"env: .python3?\\r.: No such file",
         "",
-        "The lines of the script end as on Windows, so the name python3 in line 1 has an extra character.",
-        "Save it with the line endings of Linux: sed -i 's/\\r$//' FILE.",
+        "The script has Windows line endings, so the name python3 in line 1 ends with an extra character.",
+        "Convert the script to Linux line endings: sed -i 's/\\r$//' FILE.",
     ),
     (
         r"\[(?P<name>[^\]]+)\] is neither a launch file in package",

@@ -60,7 +60,7 @@ def test_import_that_never_ends_is_a_mistake() -> None:
 
 def test_an_import_that_ends_is_accepted() -> None:
     """The script contains only definitions, so the import ends, and the check's own code then exits."""
-    assert [each.holds for each in imported(status=IMPORTED).assertions] == [True]
+    assert [each.holds for each in imported(status=IMPORTED).results.assertions] == [True]
 
 
 def test_a_script_that_exits_during_its_import_is_a_mistake() -> None:

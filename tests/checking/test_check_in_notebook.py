@@ -87,8 +87,8 @@ def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
     notebook.run(HANDLER.replace("area *", "2 * area *"), "handler")
     text = " ".join(report(notebook).split())
     assert text == (
-        "05.1 not examined /getGeometry is answered by a version of handle_geometry that is older than the "
-        "last run of its cell. Run the cell that creates the service, and then run this cell again."
+        "05.1 not examined A version of handle_geometry that is older than the last run of its cell answers "
+        "the calls of /getGeometry. Run the cell that creates the service, and then run this cell again."
     )
     notebook.run(SERVICE, "service")
     assert report(notebook).startswith("05.1 not yet")
@@ -106,7 +106,7 @@ def test_function_that_its_cell_no_longer_defines(notebook: NotebookKernel) -> N
     """The student has renamed the function; the old name still refers to the earlier version."""
     notebook.run(HANDLER, "handler")
     notebook.run(HANDLER.replace("handle_geometry", "handle_box"), "handler")
-    assert "which does not define it" in " ".join(report(notebook).split())
+    assert "This last run did not define handle_geometry." in " ".join(report(notebook).split())
 
 
 ENDLESS = """

@@ -83,7 +83,11 @@ BUILDING = (
     Row(
         "Building",
         "generate_messages left commented",
-        (Builds("not generated", "No module named 'my_services'", "Python does not find my_services"),),
+        (
+            Builds(
+                "not generated", "No module named 'my_services'", "Python cannot find the package my_services"
+            ),
+        ),
     ),
     Row(
         "Building",
@@ -99,7 +103,9 @@ BUILDING = (
         "Building",
         "not sourced",
         (
-            Builds("not sourced: Python", "No module named 'my_services'", "Python does not find my_"),
+            Builds(
+                "not sourced: Python", "No module named 'my_services'", "Python cannot find the package my_"
+            ),
             Builds("not sourced: rospack", "[rospack] Error: package 'my_services' not found", "No package"),
         ),
     ),

@@ -58,7 +58,7 @@ def class_of(count: int, chapters: tuple[str, ...] = ("05",), seed: int = 5) -> 
         for chapter in chapters:
             checks = [check for check in GOALS if check.startswith(chapter)]
             reports = tuple(report(check, _verdict(draw, strength)) for check in checks)
-            notes = ("05.2: 2 cells answer it; the last one was used.",) if number % 9 == 0 else ()
+            notes = ("05.2: 2 cells answer this exercise; the last one was used.",) if number % 9 == 0 else ()
             late, factor = (1.5, 0.8) if number % 11 == 0 else (0.0, 1.0)
             outcomes = [
                 CellOutcome(

@@ -176,7 +176,7 @@ def test_a_roster_and_a_worksheet(submissions: Path, undisturbed: Path, tmp_path
     sheet.write_text(ENGLISH)
     done = grade(submissions, out, "--roster", roster, "--moodle-worksheet", sheet)
     assert done.returncode == NEED_A_LOOK, done.stderr
-    assert "Roster: 1 of 2 students handed in." in done.stdout
+    assert "Roster: 1 of 2 students handed in their work." in done.stdout
     assert "1 handed in nothing: Late Riser." in done.stdout
     assert "3 are not on the roster: s02; s03; s04." in done.stdout
     assert "1 of 4 participants have a grade in moodle_worksheet.csv" in done.stdout

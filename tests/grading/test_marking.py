@@ -92,7 +92,7 @@ def test_each_part_has_its_own_points(worker: SandboxWorker, tmp_path: Path) -> 
     ]
     wrong, ended, blank, *_ = grade.reports
     assert "area" in str(wrong)
-    assert "ended before its check was done" in ended.note
+    assert "ended before the check was finished" in ended.note
     assert "not changed" in blank.note
 
 

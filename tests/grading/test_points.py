@@ -67,7 +67,9 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
     before = _graded(MEASURED, REFUSED)
     changed = strict.weighed(before)
     assert read_points(None).weighed(changed) == before
-    assert worth_changes([before], [changed])[1:] == ["  05.3: divided differently among its goals"]
+    assert worth_changes([before], [changed])[1:] == [
+        "  05.3: its points are divided differently among its goals"
+    ]
     doubled = read_points(_read(tmp_path, '{"05.3": 4}')).weighed(before)
     assert worth_changes([before], [doubled])[1:] == ["  05.3: 2 before, 4 now"]
 
@@ -84,7 +86,7 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
         ('{"05.3": NaN}', "'05.3' has nan points"),
         ('{"05.3": 1e999}', "'05.3' has inf points"),
         ('{"05.3": 0.333}', "at most two decimals, such as 0.33"),
-        (json.dumps({"05.3": {MEASURED: 0, REFUSED: 0, NAMED: 0}}), "have 0 points together"),
+        (json.dumps({"05.3": {MEASURED: 0, REFUSED: 0, NAMED: 0}}), "have 0 points in total"),
         ('{"05.3": "half"}', "a text ..half... Write a number"),
         ('{"05.3": [1]}', "is a list. Write a number"),
         ('{"05.3": true}', "is a truth value"),

@@ -290,16 +290,14 @@ def test_students_who_need_attention() -> None:
     assert attention(book, "s01") == []
     assert attention(book, "s02")[0].startswith("05.4 not examined: The kernel ended")
     assert attention(book, "s03")[0].startswith("05_write_a_server.ipynb was not graded")
-    assert "No points in chapter 05." in attention(book, "s05")
+    assert "The student has 0 points in chapter 05." in attention(book, "s05")
 
 
 def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
     """Each report contains the warning once, even if the reports are written again."""
     write_reports([replace(grade, sandboxed=False) for grade in class_of(2)], tmp_path)
     for path in _files(tmp_path):
-        assert "without a sandbox" in path.read_text().replace(
-            "Run without a sandbox", "run without a sandbox"
-        ), path
+        assert "without a sandbox" in path.read_text(), path
     assert WITHOUT_SANDBOX in read_grades(tmp_path)[0].notes
     write_reports(read_grades(tmp_path), tmp_path)
     assert read_grades(tmp_path)[0].notes.count(WITHOUT_SANDBOX) == 1

@@ -175,7 +175,7 @@ def test_moodle_with_a_roster(tmp_path: Path, notebook: bytes) -> None:
     assert imported["104"] == (10.0, "kept"), "its grade is locked in Moodle"
     assert found.strangers == ("Bo Li_104",)
     assert list(found.summary()) == [
-        "Roster: 2 of 3 students handed in.",
+        "Roster: 2 of 3 students handed in their work.",
         "1 handed in nothing: Lee, Ann.",
         "1 is not on the roster: Bo Li_104.",
         "Moodle's worksheet: 2 of 4 participants have a grade in moodle_worksheet.csv; the points are scaled "
@@ -377,6 +377,6 @@ def test_who_is_missing_is_in_the_table_and_on_the_page(tmp_path: Path, notebook
     )
     assert missing["notes"] == "On the roster, but handed in nothing."
     page = (out / "class.html").read_text()
-    assert "1 of 3 students of the roster handed in." in page
+    assert "1 of 3 students of the roster handed in their work." in page
     assert re.search(r"Lee, Ann</th>.*ann@uni\.example.*handed in nothing", page)
     assert re.search(r"feedback/s99\.html.*Not on the roster\.", page)

@@ -219,11 +219,11 @@ PUBLISHER: PublisherReport = {
         ({"reached": 1}, "Message 3 went to 1 subscriber."),
         (
             {"reached": 0},
-            "Message 3 went to nobody: no subscriber was connected when it was published.",
+            "Message 3 reached no subscriber: no subscriber was connected when it was published.",
         ),
         (
             {"reached": 0, "latch": True, "deliveries": []},
-            "Message 3 went to nobody yet. It is latched, so the next subscriber gets it.",
+            "Message 3 has reached no subscriber yet. It is latched, so the next subscriber gets it.",
         ),
         (
             {"reached": 0, "latch": True, "deliveries": PUBLISHER["deliveries"][:1]},
@@ -233,7 +233,7 @@ PUBLISHER: PublisherReport = {
         ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz (measured: 9.987 Hz)."),
         (
             {"rate": 10.0, "statistics": {}, "skipped": 2},
-            "Publishing at 10 Hz. 2 messages had to be left out.",
+            "Publishing at 10 Hz. 2 messages could not be sent in time.",
         ),
     ],
 )

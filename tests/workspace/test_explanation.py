@@ -57,7 +57,7 @@ SLIPS = {
     "generated twice": (
         spoilt(C, (GENERATE, GENERATE * 2)),
         f"{LIST_FILE}, line 8",
-        "generate_messages is there twice",
+        "CMakeLists.txt calls generate_messages twice",
     ),
     "no file listed": (spoilt(C, (ADD, "")), f"{LIST_FILE}, line 6", "Write add_service_files"),
     "wrong file name": (
@@ -155,7 +155,11 @@ SLIPS = {
     ),
     "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "has the line - - - instead of the"),
     "two dashes": (spoilt(S, ("---", "--")), "", "Write --- and nothing else"),
-    "a tab": (spoilt(S, ("float32 length", "float32\tlength")), "", "one space between"),
+    "a tab": (
+        spoilt(S, ("float32 length", "float32\tlength")),
+        "",
+        "A field needs a type, one space, and a name",
+    ),
     "a semicolon": (spoilt(S, ("length", "length;")), "", "length; is not a legal"),
     "a name twice": (spoilt(S, ("width", "length")), "", "Duplicate field names"),
     "a byte order mark in the .srv": ({**GOOD, S: "\ufeff" + BOX}, "", "is not a legal message field type"),
@@ -259,7 +263,7 @@ SAID = {
     ),
     "no run bit": ("rosrun my_services plain.py", True, "chmod +x"),
     "no shebang": ("rosrun my_services shell.py", True, "#!/usr/bin/env python3"),
-    "Windows line ends": ("rosrun my_services windows.py", True, "line endings of Linux"),
+    "Windows line ends": ("rosrun my_services windows.py", True, "Linux line endings"),
     "roslaunch instead of rosrun": ("roslaunch course_pkg server", True, "with rosrun"),
     "roslaunch of a script": ("roslaunch my_services plain.py", True, "with rosrun"),
     "rosservice show": ("rosservice show /box", True, "rossrv show"),

@@ -75,7 +75,7 @@ replace("pace.sleep()", "pace.sleep()\n        pace.sleep()")
 replace("10", "1000")
 replace("\n    pace = rospy.Rate(rate)", "")
 replace("pace.sleep()", "if number % 5 == 4:\n            time.sleep(5 / rate)")
-# %% 02.1 wrong: another type | hint: Publish it with the type in the exercise
+# %% 02.1 wrong: another type | hint: Publish the topic with the type in the exercise
 replace("UInt32", "Float64")
 # %% 02.1 wrong: a fixed topic | hint: for the topic that the function gets.
 replace("topic, UInt32", '"/count", UInt32')
@@ -263,7 +263,7 @@ replace("self.publisher = rospy.Publisher(topic, Float64, queue_size=10, latch=T
 replace("if value ! … publish(value)", """publisher = rospy.Publisher(self.topic, Float64, queue_size=1, latch=True)
         publisher.publish(value)
         publisher.unregister()""")
-# %% 02.3 wrong: another type | hint: Publish it with the type in the exercise
+# %% 02.3 wrong: another type | hint: Publish the topic with the type in the exercise
 replace("Float64", "String")
 replace("publish(value)", "publish(str(value))")
 # %% 02.3 wrong: publishes each change twice | hint: A value was published twice

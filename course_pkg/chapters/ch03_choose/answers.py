@@ -158,7 +158,7 @@ replace("greetings, UInt32", "customers, UInt32")
 replace('"/customers"', "greetings")
 # %% 03.2 wrong: publishes the number of greetings | hint: Your function published a number that is
 replace("publish(message.data)", "publish(len(greeted))")
-# %% 03.2 wrong: another type | hint: Publish it with the type
+# %% 03.2 wrong: another type | hint: Publish the topic with the type
 replace("def start_greeting", "from std_msgs.msg import Int32\n\n\ndef start_greeting")
 replace("greetings, UInt32", "greetings, Int32")
 # %% 03.2 wrong: an error in the callback | hint: No greeting was published. Look for

@@ -68,7 +68,7 @@ replace("float32[3] rgb\nfloat32 total", "float32[3] rgb")
 based_on("constants between the fields, blanks and comments everywhere")
 replace("uint8 mode … each blink", "uint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2\nuint8 mode;\nstd_msgs/ColorRGBA colour;\nfloat32[] seconds;")
 replace("# all went well\nbool success\nfloat32[3] rgb\n\nfloat32 total", "bool success;\nfloat32[3] rgb;\nfloat32 total;")
-# %% 04.1 wrong: a byte order mark in front | hint: Line 1 begins with an invisible mark of Windows
+# %% 04.1 wrong: a byte order mark in front | hint: Line 1 begins with an invisible character
 replace("%%writefile … uint8 BLINK=2", "from pathlib import Path")
 replace("uint8 mode … float32 total", """Path("src/lamp_services/srv").mkdir(parents=True, exist_ok=True)
 Path("src/lamp_services/srv/Lamp.srv").write_text("\\ufeffuint8 OFF=0\\nuint8 ON=1\\n---\\nbool success\\n")""")
@@ -371,7 +371,7 @@ replace("from lamp_services … handle_lamp)", 'from lamp_services.srv import La
 based_on("the type in lower case")
 replace("import lamp", "import Lamp")
 replace('rospy.init_node("lamp_server")\nrospy.Service("/lamp", lamp', 'rospy.Service("/lamp", Lamp')
-# %% 04.5 wrong: another type | hint: Serve it with the type in the exercise
+# %% 04.5 wrong: another type | hint: Create the service with the type in the exercise
 based_on("the type in lower case")
 replace("from lamp_services.srv import lamp", "from std_srvs.srv import Trigger")
 replace("lamp, lambda request: (True, [0, 0, 0], 0)", 'Trigger, lambda request: (True, "")')

@@ -47,7 +47,7 @@ replace("request.width", "request.breadth")
 replace("handle_geometry(request):", "handle_geometry():")
 # %% 05.1 wrong: passes the result of a call | hint: Pass the name of the handler without
 replace("geometry, handle_geometry)", "geometry, handle_geometry(geometry._request_class()))")
-# %% 05.1 wrong: never creates the service | hint: Run the cell that serves it
+# %% 05.1 wrong: never creates the service | hint: Run the cell that creates this service
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', "None")
 # %% 05.1 wrong: adds instead of multiplying | hint: This is width + length
 replace("width * request", "width + request")
@@ -126,7 +126,7 @@ replace("def __init__(self):\n        self.count = 0", """def __init__(self):
 replace("\ncount_service … handle_reset)", "")
 # %% 05.2 wrong: forgets self | hint: The handler is a method without self
 replace("def handle_count(self, request):", "def handle_count(request):")
-# %% 05.2 wrong: an unbound local variable | hint: A function that assigns to a name has a local variable … Your cell, line
+# %% 05.2 wrong: an unbound local variable | hint: Python treats the name as a local variable … Your cell, line
 replace("self.count += 1", "count += 1")
 # %% 05.2 wrong: a name that does not exist | hint: The handler uses a name that does not exist
 replace("str(self.count)", "str(counted)")

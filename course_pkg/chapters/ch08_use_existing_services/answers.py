@@ -163,7 +163,7 @@ replace("state = on_off", "on_off(0)\n        state = on_off")
 replace("on_off(1 if request.data else 0).state", '"ON" if request.data else "OFF"')
 # %% 08.2 wrong: a misspelt field | hint: The request has no field of this name
 replace("1 if request.data", "1 if request.date")
-# %% 08.2 wrong: an unbound name | hint: A function that assigns to a name has a local variable
+# %% 08.2 wrong: an unbound name | hint: Python treats the name as a local variable
 replace("\n    on_off = rospy … else 0).state", "\n    try:\n        on_off = on_off(1 if request.data else 0).state")
 replace('state == ("ON" if request.data else "OFF"), message=', 'on_off.state == ("ON" if request.data else "OFF"), message=on_off.')
 # %% 08.2 wrong: a name that does not exist | hint: The handler uses a name that does not exist

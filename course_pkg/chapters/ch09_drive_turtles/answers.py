@@ -36,9 +36,9 @@ replace('"spawned", response.name', '"spawned", "MyTurtle"')
 replace('response.name)\n', 'response.name)\n    rospy.spin()\n')
 # %% 09.1 wrong: exit status 1 after success | hint: The turtle was spawned, so the exit status has to be 0
 replace('response.name)\n    return 0', 'response.name)\n    return 1')
-# %% 09.1 wrong: two calls | hint: one call is enough
+# %% 09.1 wrong: two calls | hint: The program called /spawn more than once, and each call creates a turtle
 replace('(3, 3, 0, "MyTurtle")\n', '(3, 3, 0, "MyTurtle")\n        rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "")\n')
-# %% 09.1 wrong: repeats a refused call | hint: Call once, and end after a failure
+# %% 09.1 wrong: repeats a refused call | hint: The program repeated a call that was refused
 replace("rospy.ServiceException) as error:\n", """rospy.ServiceException) as error:
         try:
             rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "MyTurtle")
@@ -54,7 +54,7 @@ replace('response.name', '"MyTurtle"')
 replace('"MyTurtle")', '"")')
 # %% 09.1 wrong: another name | hint: Compare the name with MyTurtle
 replace('"MyTurtle")', '"myturtle")')
-# %% 09.1 wrong: the angle first | hint: Compare your numbers with the fields
+# %% 09.1 wrong: the angle first | hint: Compare your numbers with the order of the fields
 replace('(3, 3, 0, "MyTurtle")', '(0, 3, 3, "MyTurtle")')
 # %% 09.1 wrong: outside of the main block | hint: Move init_node and all lines after it
 replace('if __name__ == "__main__":\n    rospy.init_node("spawn_turtle")\n    sys.exit(main())', 'rospy.init_node("spawn_turtle")\nsys.exit(main())')
@@ -101,7 +101,7 @@ def main():
 replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
 # %% 09.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
 replace('\nforward = True', '\nforward = False')
-# %% 09.2 wrong: twice as fast | hint: Straight ahead is linear.x = 1.0
+# %% 09.2 wrong: twice as fast | hint: To drive straight ahead, set linear.x = 1.0
 replace('linear.x = 1.0', 'linear.x = 2.0')
 # %% 09.2 wrong: no global | hint: After the call, the turtle still goes straight ahead
 replace('    global forward\n    forward = not forward', '    forward = False')
@@ -128,7 +128,7 @@ replace('    rospy.Service("toggle_forward", Empty, handle_toggle)\n', '')
 replace('        rate.sleep()\n', '        rate.sleep()\n    rospy.Service("toggle_forward", Empty, handle_toggle)\n')
 # %% 09.2 wrong: another service name | hint: The node offers
 replace('"toggle_forward"', '"toggle"')
-# %% 09.2 wrong: another topic | hint: and compare this name with yours
+# %% 09.2 wrong: another topic | hint: The node does not publish on /turtle1/cmd_vel
 replace('"turtle1/cmd_vel"', '"turtle1/cmd_velocity"')
 # %% 09.2 wrong: also to the side | hint: All other fields have to be 0
 replace('        if forward:\n', '        message.linear.y = 0.5\n        if forward:\n')
@@ -164,14 +164,14 @@ replace('    if not 0 < request.rate <= 100:\n        raise rospy.ServiceExcepti
 replace('if not 0 < request.rate <= 100', 'if request.rate <= 0 or request.rate > 100')
 # %% 09.3 wrong: below 100 only | hint: The node refused a rate that is allowed
 replace('<= 100', '< 100')
-# %% 09.3 wrong: stores the rate before it checks it | hint: The handler refused the rate, but it had already stored it
+# %% 09.3 wrong: stores the rate before it checks it | hint: The handler stored the rate before it refused the call
 replace('    if not 0 < request.rate <= 100:\n', '    before, frequency = frequency, request.rate\n    if not 0 < request.rate <= 100:\n')
 replace('    before = frequency\n    frequency = request.rate\n', '')
 replace('    used, rate = frequency, rospy.Rate(frequency)\n    while', '    used, rate = frequency, rospy.Rate(frequency)\n    while')
 replace('if used != frequency:', 'if used != frequency and 0 < frequency <= 100:')
-# %% 09.3 wrong: a toggle sets the first rate again | hint: but it has to change only the direction
+# %% 09.3 wrong: a toggle sets the first rate again | hint: A call of /toggle_forward also changed the rate
 replace("global forward\n", "global forward, frequency\n    frequency = 2.0\n")
-# %% 09.3 wrong: a ValueError | hint: The handler failed with an error
+# %% 09.3 wrong: a ValueError | hint: The handler raised an error of the wrong type
 replace('rospy.ServiceException(', 'ValueError(')
 # %% 09.3 wrong: no toggle | hint: Create the service before the loop begins
 replace('    rospy.Service("toggle_forward", Empty, handle_toggle)\n', '')
@@ -251,7 +251,7 @@ replace('self.moving = True', 'self.moving = False')
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        if not self.moving:\n            self.frequency = 0.001\n')
 # %% 09.4 wrong: publishes nothing while it is stopped | hint: No velocity arrived for 4 s
 replace('        publisher.publish(driver.velocity())\n', '        if driver.moving:\n            publisher.publish(driver.velocity())\n')
-# %% 09.4 wrong: begins at 2.0 | hint: Before the first call, the speed has to be 1.0, and the
+# %% 09.4 wrong: begins at 2.0 | hint: Before the first call, the turtle has to move straight ahead at 1.0 m/s
 replace('self.speed = 1.0', 'self.speed = 2.0')
 # %% 09.4 wrong: a fixed rate | hint: Copy the code of /change_rate from your program pubvel_toggle_plus
 replace('1 / driver.frequency', '0.5')
@@ -259,7 +259,7 @@ replace('1 / driver.frequency', '0.5')
 replace("if not 0 < request.rate <= 100:", "if request.rate <= 0 or request.rate > 100:")
 # %% 09.4 wrong: a fixed speed | hint: The turtle still moves at 1.0 m/s
 replace('linear.x = self.speed', 'linear.x = 1.0')
-# %% 09.4 wrong: no negative speed | hint: A negative speed means backwards
+# %% 09.4 wrong: no negative speed | hint: A negative speed moves the turtle backwards
 replace('linear.x = self.speed', 'linear.x = abs(self.speed)')
 # %% 09.4 wrong: whole numbers | hint: point is lost. Use a float
 replace('linear.x = self.speed', 'linear.x = int(self.speed)')
@@ -273,10 +273,10 @@ replace('if not math.isfinite(request.speed)', 'if not 0 <= request.speed < 1000
 replace("if not math.isfinite(request.speed)", "if not request.speed or not math.isfinite(request.speed)")
 # %% 09.4 wrong: accepts inf | hint: The node accepted inf
 replace('not math.isfinite(request.speed)', 'request.speed != request.speed or request.speed == -math.inf')
-# %% 09.4 wrong: never stops | hint: While it is stopped, publish messages
+# %% 09.4 wrong: never stops | hint: After a call with data=False, publish messages
 replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
 replace('if request.data == self.moving:', 'if request.data != getattr(self, "stopped", False):')
-# %% 09.4 wrong: a new direction | hint: After data=True, the turtle has to move with its old direction and
+# %% 09.4 wrong: a new direction | hint: After data=True, the turtle has to move in its old direction and at the last speed
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
 # %% 09.4 wrong: a speed that is set while it is stopped is lost | hint: came while the turtle was stopped
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')
@@ -349,9 +349,9 @@ replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(
 # %% 09.5 wrong: two fields only | hint: Some fields differ
 replace('    publisher = rospy', '    def copy(message):\n        new = Twist()\n        new.linear.x, new.angular.z = message.linear.x, message.angular.z\n        publisher.publish(new)\n\n    publisher = rospy')
 replace('Twist, publisher.publish)', 'Twist, copy)')
-# %% 09.5 wrong: continues after a failure | hint: End the program at the first failure
+# %% 09.5 wrong: continues after a failure | hint: The program continued to call services after a failure
 replace('        call("toggle_forward", Empty)\n', '        try:\n            call("toggle_forward", Empty)\n        except (rospy.ROSException, rospy.ServiceException) as error:\n            print(error)\n')
-# %% 09.5 wrong: no limit | hint: The program waits without a limit, or continues without the service
+# %% 09.5 wrong: no limit | hint: The program waits without a limit, or continues although a service is missing
 replace('(name, timeout=5)', '(name)')
 # %% 09.5 wrong: no exit status | hint: If a wait times out or a call is refused, print a
 replace('        return 1\n', '        return 0\n')
@@ -389,15 +389,15 @@ replace('default="false"', 'default="no"')
 replace('$(arg addturtle)', '$(arg add)')
 # %% 09.6 wrong: another name for the driver | hint: A node is missing or has another name
 replace('name="improved_pubvel_toggle"', 'name="driver"')
-# %% 09.6 wrong: a condition that is never true | hint: The node is missing with addturtle:=true
+# %% 09.6 wrong: a condition that is never true | hint: With addturtle:=true, a node is missing
 replace('if="$(arg addturtle)"', 'if="false"')
 # %% 09.6 wrong: true by default | hint: Without an argument, the node must not start
 replace('default="false"', 'default="true"')
 # %% 09.6 wrong: no condition | hint: The node is also started with addturtle:=false
 replace('if="$(arg addturtle)" ', '')
-# %% 09.6 wrong: a program name without .py | hint: The attributes pkg and type are the two words that follow rosrun
+# %% 09.6 wrong: a program name without .py | hint: Write the two words that follow `rosrun` in a terminal into the
 replace('type="improved_pubvel_toggle.py"', 'type="improved_pubvel_toggle"')
-# %% 09.6 wrong: turtlesim as the program | hint: The attributes pkg and type are the two words that follow rosrun
+# %% 09.6 wrong: turtlesim as the program | hint: Write the two words that follow `rosrun` in a terminal into the
 replace('type="turtlesim_node"', 'type="turtlesim"')
-# %% 09.6 wrong: in a namespace | hint: Remove ns, remap and args
+# %% 09.6 wrong: in a namespace | hint: The three programs start, but they use different names for the topics and services
 replace('name="turtlesim" />', 'name="turtlesim">\n    <remap from="/turtle1/cmd_vel" to="/other/cmd_vel" />\n  </node>')

@@ -48,7 +48,7 @@ def call_at_once(name, count):
 replace("messages = … return messages", "proxy = rospy.ServiceProxy(name, Trigger)\n    return [proxy().message for _ in range(count)]")
 # %% 10.1 wrong: joins each thread directly after its start | hint: The second call began after the first call had returned
 replace("thread.start()\n    for thread in threads:", "thread.start()")
-# %% 10.1 wrong: calls the function instead of passing it | hint: pass the function to the thread without calling it
+# %% 10.1 wrong: calls the function instead of passing it | hint: The second call began after the first call had returned
 replace("target=call)", "target=call())")
 # %% 10.1 wrong: does not join | hint: Join every thread before you return
 replace("\n    for thread in threads:\n        thread.join()", "")
@@ -68,7 +68,7 @@ replace("range(count)", "range(count - 1)")
 replace("    for thread in threads:\n        thread.join()", "    for thread in threads:\n        thread.join()\n    call()")
 # %% 10.1 wrong: starts no thread | hint: Call start() of each thread first
 replace("\n    for thread in threads:\n        thread.start()", "")
-# %% 10.1 wrong: another name | hint: Call the service in `name`
+# %% 10.1 wrong: another name | hint: The service was not called
 replace("ServiceProxy(name", 'ServiceProxy("/count_up"')
 replace("messages.append(proxy().message)", "try:\n            messages.append(proxy().message)\n        except rospy.ServiceException:\n            messages.append(name)")
 # %% 10.1 wrong: args is not a tuple | hint: The service was not called
@@ -84,7 +84,7 @@ replace("\n    return messages", "")
 # %% 10.1 wrong: a pool with one thread too few | hint: Some calls began only after other calls had returned
 based_on("a pool of threads and one proxy")
 replace("(count) as", "(count - 1 or 1) as")
-# %% 10.1 wrong: waits until the list of threads is empty | hint: Join each thread once, after its
+# %% 10.1 wrong: waits until the list of threads is empty | hint: All calls have returned, but your function has not returned
 replace("for thread in threads:\n        thread.join()", "while threads:\n        time.sleep(0.01)")
 
 # %% 10.2 right: wait_for, and look again
@@ -129,7 +129,7 @@ def handle_detect(watch, request):
 # %% 10.2 wrong: waits without a limit | hint: The handler waits longer than request.patience
 replace("(request.after), timeout=request.patience", "(request.after)")
 replace("\n    if customer is None:\n        return False, 0, rospy.Time()", "")
-# %% 10.2 wrong: a new time limit after each change | hint: After a change of the customers, the time limit started again
+# %% 10.2 wrong: a new time limit after each change | hint: When the customers changed, the time limit started again from the beginning
 replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None:
             if not watch.changed.wait(request.patience):
                 break""")
@@ -180,7 +180,7 @@ replace("\n        watch.changed … customer.arrived", """
 # %% 10.2 wrong: returns None if there is no customer | hint: The handler ended without a return line
 based_on("fails if there is no customer")
 replace("return customer is not None", "if customer:\n        return True")
-# %% 10.2 wrong: waits without holding the condition | hint: wait and wait_for need the lock
+# %% 10.2 wrong: waits without holding the condition | hint: The methods `wait` and `wait_for` need the lock
 replace("with watch … customer = watch.next(request.after)", "customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)")
 # %% 10.2 wrong: no number | hint: The field `number` has its default value, 0
 replace("watch.changed.wait_for … customer.arrived", """customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
@@ -197,13 +197,13 @@ replace("\n        customer = watch.next(request.after)", "")
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("customer.arrived", "rospy.Time.now()")
-# %% 10.2 wrong: a time although there is no customer | hint: so arrived has to be zero
+# %% 10.2 wrong: a time although there is no customer | hint: No customer came, so the field `arrived` has to be the time 0, which is rospy.Time().
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("rospy.Time()", "rospy.Time.now()")
 # %% 10.2 wrong: waits twice as long as the field patience | hint: The handler waits longer than request.patience
 replace("timeout=request.patience", "timeout=2 * request.patience")
-# %% 10.2 wrong: a number although there is no customer | hint: so detected has to be False
+# %% 10.2 wrong: a number although there is no customer | hint: No customer is there, so the field `detected` has to be False
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("0", "request.after")
@@ -290,9 +290,9 @@ replace("\n            self.changed.notify_all()", "")
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "if self.items == 0 and not self.changed.wait(self.limit)")
 # %% 10.3 wrong: no limit | hint: The handler of /take waits longer than the limit
 replace(", timeout=self.limit", "")
-# %% 10.3 wrong: does not wait | hint: did not wait for the whole limit
+# %% 10.3 wrong: does not wait | hint: The handler of /take returned before its time limit was over
 replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "self.items == 0")
-# %% 10.3 wrong: gives up at the first wake-up | hint: A thread may wake up although no item is there
+# %% 10.3 wrong: gives up at the first wake-up | hint: The handler of /take returned before its time limit was over
 replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):", """self.items == 0:
                 self.changed.wait(self.limit)
             if self.items == 0:""")
@@ -306,7 +306,7 @@ replace("left = end … wait(left)", 'if not self.changed.wait(self.limit):\n   
 # %% 10.3 wrong: sleeps while it holds the lock | hint: A call of /put got no response while a call of /take
 based_on("a loop with a deadline, and notify")
 replace("self.changed.wait(left)", "time.sleep(0.05)")
-# %% 10.3 wrong: waits without the lock | hint: wait and notify need the lock of the condition
+# %% 10.3 wrong: waits without the lock | hint: The methods `wait` and `notify` need the lock of the condition
 based_on("a loop with a deadline, and notify")
 replace("with self.changed:\n            while", "if True:\n            while")
 # %% 10.3 wrong: a number as the message | hint: The field `message` has to be a string
@@ -380,7 +380,7 @@ replace("with self. … count - 1)", """self.lock.acquire()
 # %% 10.4 wrong: locks again while it holds the lock | hint: A client waits forever, because no thread releases the lock
 replace("Lock()\n", "Lock()\n\n    def left(self):\n        with self.lock:\n            return self.shelf.read()\n")
 replace("= self.shelf.read()", "= self.left()")
-# %% 10.4 wrong: refuses a caller while the lock is taken | hint: A client got no thing although some were left
+# %% 10.4 wrong: refuses a caller while the lock is taken | hint: Some things were left, but a client got none of them
 replace("with self.lock:", """if not self.lock.acquire(blocking=False):
             return TriggerResponse(success=False, message="busy")
         try:""")
@@ -397,7 +397,7 @@ replace("shelf = shelf", "count = shelf.read()")
 replace("count = self.shelf.read()\n            if count == 0:", "if self.count == 0:")
 replace("shelf.write(count - 1)", "count -= 1")
 replace("return TriggerResponse(success=True, message=str(count - 1))", "    return TriggerResponse(success=True, message=str(self.count))")
-# %% 10.4 wrong: sold out as an error | hint: ordinary response. Return success=False
+# %% 10.4 wrong: sold out as an error | hint: "Sold out" is a normal response, not an error
 replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
 # %% 10.4 wrong: a number for a message | hint: The field `message` has to be a string
 replace("str(count - 1)", "count - 1")
@@ -415,7 +415,7 @@ replace("self.shelf.write(count - 1)", "self.shelf.count -= 1")
 replace("success=True, message=str", "message=str")
 # %% 10.4 wrong: leaves the message out | hint: The message is empty. Set it to the number
 replace(", message=str(count - 1)", "")
-# %% 10.4 wrong: another message for sold out | hint: The message has to be the number that is left, such as
+# %% 10.4 wrong: another message for sold out | hint: The message has to be the number of things that are left
 replace('"sold out"', '"nothing left"')
 # %% 10.4 wrong: replaces the methods of the shelf | hint: The number on the shelf is wrong
 replace("        self.lock = threading.Lock()", """        self.lock = threading.Lock()
@@ -480,7 +480,7 @@ class Shop:
             return False, str(error)
         return True, str(answer.receipt)
 
-# %% 10.5 wrong: holds the lock across the call | hint: your handler holds the lock during the
+# %% 10.5 wrong: holds the lock across the call | hint: The till called /left while it was charging, but got no response
 replace('self.shelf.write(count - … : {error}")', """try:
                 receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt
             except rospy.ServiceException as error:
@@ -508,7 +508,7 @@ replace("\n            with self.lock:\n                self.shelf.write(self.sh
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt")
 # %% 10.5 wrong: puts back what it counted before | hint: Two threads changed the shelf
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "time.sleep(0.2)\n            self.shelf.write(count)")
-# %% 10.5 wrong: waits for the till | hint: the handler waits for it without a limit
+# %% 10.5 wrong: waits for the till | hint: The till has no server, but the handler waits for this service without a limit
 replace("try:", "rospy.wait_for_service(self.till)\n        try:")
 # %% 10.5 wrong: sells without a till | hint: The till has no server, so nothing was paid
 replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=True, message="pay later")\n')
@@ -539,7 +539,7 @@ replace("try: … (receipt))", """request_id = str(uuid.uuid4())
         return TriggerResponse(success=False, message=why)""")
 # %% 10.5 wrong: the stock as the request_id | hint: Two purchases have the same request_id
 replace("str(uuid.uuid4())", 'f"purchase {count}"')
-# %% 10.5 wrong: sold out as an error | hint: "Sold out" is an ordinary response here
+# %% 10.5 wrong: sold out as an error | hint: "Sold out" is a normal response of /buy, not an error
 replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
 # %% 10.5 wrong: does not release the lock | hint: A client waits forever, because a lock was acquired but not released
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "self.lock.acquire()\n            self.shelf.write(self.shelf.read() + 1)")
@@ -549,13 +549,13 @@ replace("self.cents).receipt", "100 * self.cents).receipt")
 replace("rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt", "uuid.uuid4()")
 # %% 10.5 wrong: a sentence in place of the number | hint: The message of /left has to be only the number of things
 replace("message=str(self.shelf.read())", 'message=f"{self.shelf.read()} are left"')
-# %% 10.5 wrong: leaves success out | hint: The till has charged, but success is False
+# %% 10.5 wrong: leaves success out | hint: The till has taken the money, but success is False
 replace("success=True, message=str(receipt)", "message=str(receipt)")
 # %% 10.5 wrong: the stock in place of the receipt | hint: The message of /buy has to be the number of the receipt,
 replace("str(receipt)", "str(count - 1)")
-# %% 10.5 wrong: a success although the till failed | hint: The till did not charge, but success is True
+# %% 10.5 wrong: a success although the till failed | hint: The till did not take the money, but success is True
 replace('success=False, message=f"not paid', 'success=True, message=f"not paid')
-# %% 10.5 wrong: replaces the methods of the shelf | hint: The shelf that was given to Shop has another number
+# %% 10.5 wrong: replaces the methods of the shelf | hint: The number on the shelf is different from the number that /left returns
 replace("        self.shelf = shelf", """        self.shelf = shelf
         shelf.things = shelf.read()
         type(shelf).read = lambda self: self.things
@@ -619,7 +619,7 @@ def move(source, target):
             target.count += 1
             return True
 
-# %% 10.6 wrong: one lock after the other | hint: A count was changed without both locks
+# %% 10.6 wrong: one lock after the other | hint: A count was changed while the function did not hold both locks
 replace("first, second = sorted((source, target), key=lambda shelf: shelf.number)\n    with first.lock, second.lock:", "with source.lock:")
 replace("\n        target.count += 1\n        return True", "\n    with target.lock:\n        target.count += 1\n    return True")
 # %% 10.6 wrong: one additional lock for all | hint: hold both locks while you read and write
@@ -666,7 +666,7 @@ replace("target.count", "second.count")
 # %% 10.6 wrong: moves from the second lock to the first | hint: The source was not empty, but the function returned False
 replace("source.count", "second.count", times=2)
 replace("target.count", "first.count")
-# %% 10.6 wrong: replaces the locks of the shelves | hint: A count was changed without both locks
+# %% 10.6 wrong: replaces the locks of the shelves | hint: A count was changed while the function did not hold both locks
 replace("    first, second", """    own = property(lambda self: vars(self).setdefault("own_lock", threading.Lock()))
     type(source).lock = type(target).lock = own
     first, second""")

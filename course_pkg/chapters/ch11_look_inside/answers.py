@@ -135,7 +135,7 @@ replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(dat
 # %% 11.2 wrong: buffered file | hint: An earlier call read too many bytes and lost them, and now
 based_on("a short piece is taken for the end")
 replace("sock.recv", 'sock.makefile("rb").read')
-# %% 11.2 wrong: sleeps | hint: A short piece is not the end
+# %% 11.2 wrong: sleeps | hint: The connection is still open, and the other bytes follow
 based_on("a short piece is taken for the end")
 replace("def receive(sock, count):", "import time\n\n\ndef receive(sock, count):\n    time.sleep(0.2)")
 # %% 11.2 wrong: treats a pause as the end | hint: The argument `count` was 0, so no bytes are missing
@@ -255,7 +255,7 @@ replace('"<2f"', '">2f"')
 based_on("no length in front of the request")
 replace('"<3f"', '"<I3d", 24')
 replace('"<2f", receive(sock, 8)', '"<2d", receive(sock, 16)')
-# %% 11.3 wrong: forgets the ok byte | hint: After the whole header of the server, read one byte for success,
+# %% 11.3 wrong: forgets the ok byte | hint: First read the whole header of the server
 replace("((host, int(port)), timeout=5) as sock:", "((host, int(port)), timeout=2) as sock:")
 replace('theirs = read_header … == b"\\x01"', 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
 replace('answer = receive … ", answer)', 'return struct.unpack("<2f", receive(sock, size))')
@@ -266,7 +266,7 @@ replace("receive(sock, 5)", """reply = sock.recv(4096)
         if reply[0] == 0:
             raise rospy.ServiceException(reply[5:].decode())""")
 replace("receive(sock, 8)", "reply[5:]")
-# %% 11.3 wrong: * as the MD5 | hint: The star matches every definition, even a definition with other fields
+# %% 11.3 wrong: * as the MD5 | hint: The value "*" matches every definition, even a definition with other fields
 based_on("no length in front of the request")
 replace("geometry._md5sum", '"*"')
 replace('"<3f"', '"<I3f", 12')
@@ -400,7 +400,7 @@ replace("return AddUpResponse(*self.sessions[session])", """self.calls += 1
 replace("AddUpResponse(*self.sessions[session])", "AddUpResponse(total=self.sessions[session][0])")
 # %% 11.4 wrong: accepts a call without a session | hint: A call without a session got a total
 replace('\n        if not session:\n            raise rospy.ServiceException("no field session in the connection header")', "")
-# %% 11.4 wrong: fails at a missing field | hint: The missing field caused another exception
+# %% 11.4 wrong: fails at a missing field | hint: The missing field caused an exception of the wrong type
 replace('.get("session")', '["session"]')
 # %% 11.4 wrong: fails at a new session | hint: At the first call of a session, the dict has no entry
 replace("self.sessions.get(session, (0, 0))", "self.sessions[session]")
@@ -408,7 +408,7 @@ replace("self.sessions.get(session, (0, 0))", "self.sessions[session]")
 replace('request._connection_header.get("session")', "request.session")
 # %% 11.4 wrong: refuses without a reason | hint: The error message does not contain the word "session"
 replace('"no field session in the connection header"', '"no"')
-# %% 11.4 wrong: another exception | hint: The handler raised an exception of another type
+# %% 11.4 wrong: another exception | hint: The handler raised an exception of the wrong type
 replace("""raise rospy.ServiceException("no field session in the connection header")
         """, 'raise ValueError("the field session is missing")\n        ')
 # %% 11.4 wrong: None for a refusal | hint: The handler returned None, so rospy wrote
@@ -506,7 +506,7 @@ replace("geometry", "geometry, persistent=True")
 # %% 11.5 wrong: calls the dead proxy again | hint: The connection broke, and your method raised the error
 replace("        self.proxy.close()\n        self.connect()\n", "")
 
-# %% 11.5 wrong: treats a refusal as a broken connection | hint: Call again only if the connection broke
+# %% 11.5 wrong: treats a refusal as a broken connection | hint: The connection works, but the server refused the call
 class Keeper:
     def __init__(self, service):
         self.service = service
@@ -535,7 +535,7 @@ replace("""except (rospy.ServiceException, rospy.exceptions.TransportException, 
             self.connect()
             if "responded" in str(error):""")
 replace("\n        self.proxy.close … width, height)", "\n            return self.proxy(length, width, height)")
-# %% 11.5 wrong: repeats without a limit | hint: Your method called again and again
+# %% 11.5 wrong: repeats without a limit | hint: Your method called the service again and again
 based_on("treats a refusal as a broken connection")
 replace("for _ in range(3):", "while True:")
 replace("\n                last = error", "")
@@ -545,7 +545,7 @@ replace("self.connect()\n        raise last", "self.connect()")
 based_on("a new connection for each call")
 replace("geometry", "geometry, persistent=True")
 replace("return self", "self")
-# %% 11.5 wrong: recursion without end | hint: Your method called again and again
+# %% 11.5 wrong: recursion without end | hint: Your method called the service again and again
 replace("raise\n        self.proxy.close()", "raise")
 replace("()\n        return self.proxy", "()\n        return self.measure")
 # %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors, and this error is
@@ -610,7 +610,7 @@ replace("\n\n", "\n        self.uri = rosgraph.Master(node.name).lookupService(s
 replace("uri = rosgraph.Master(node.name).lookupService(self.service)\n        return ask(uri", "return ask(self.uri")
 # %% 11.6 wrong: treats a refusal as a missing server | hint: The server refused the call, so the address was right
 replace("OSError", "Exception")
-# %% 11.6 wrong: calls twice after a refusal | hint: Your method called twice
+# %% 11.6 wrong: calls twice after a refusal | hint: Your method called `ask()` twice
 class Remembering:
     def __init__(self, service):
         self.service = service
@@ -626,7 +626,7 @@ class Remembering:
 
 # %% 11.6 wrong: catches only a refused connection | hint: Catch every OSError
 replace("OSError", "ConnectionRefusedError")
-# %% 11.6 wrong: looks up again and again | hint: Your method called again and again
+# %% 11.6 wrong: looks up again and again | hint: Your method called the service again and again
 replace("try:\n            return ask(self.uri, self.service, length, width, height)\n        except OSError:\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """while True:
             try:
                 return ask(self.uri, self.service, length, width, height)
@@ -644,7 +644,7 @@ replace("self.uri = ", "Remembering.uri = ")
 replace("\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """
             uri = rosgraph.Master(node.name).lookupService(self.service)
             return ask(uri, self.service, length, width, height)""")
-# %% 11.6 wrong: forgets to return | hint: return the tuple that ask returns
+# %% 11.6 wrong: forgets to return | hint: The method returned None: return the tuple that `ask()` returns.
 based_on("never looks again")
 replace("return ", "")
 # %% 11.6 wrong: asks the master first | hint: Your method looked up the address again, although the stored address was
@@ -654,5 +654,5 @@ replace("\n    def measure … self.service)", """    def measure(self, length, 
             self.uri = rosgraph.Master(node.name).lookupService(self.service)
         except rosgraph.MasterError:
             pass""")
-# %% 11.6 wrong: one of the two numbers | hint: These are not the numbers that ask returned
+# %% 11.6 wrong: one of the two numbers | hint: These are not the numbers that `ask()` returned
 replace("height)\n        except", "height)[1]\n        except")

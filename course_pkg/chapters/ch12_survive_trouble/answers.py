@@ -186,7 +186,7 @@ replace("if not request … request_id])", """with self.lock:
             self.purse.take(request.cents)
             self.done.add(request.request_id)
             return ChargeResponse(receipt=len(self.done))""")
-# %% 12.2 wrong: a new receipt for a repeat | hint: The repetition got another receipt
+# %% 12.2 wrong: a new receipt for a repeat | hint: The repetition got a different receipt
 based_on("does not remember the ids")
 replace("self.purse = purse", "self.purse = purse\n        self.done = set()")
 replace('\n        if not request.request_id:\n            raise rospy.ServiceException("no id")', "")
@@ -199,7 +199,7 @@ replace("return ChargeResponse()", 'raise rospy.ServiceException("this was charg
 # %% 12.2 wrong: remembers the id before the purse is charged | hint: A request failed and was repeated
 replace("self.receipts:", "self.receipts:\n                self.receipts[request.request_id] = len(self.receipts) + 1")
 replace("(request.cents)\n                self.receipts[request.request_id] = len(self.receipts) + 1", "(request.cents)")
-# %% 12.2 wrong: responds to a repetition before the money is taken | hint: Store the request_id after take has
+# %% 12.2 wrong: responds to a repetition before the money is taken | hint: A request failed and was repeated, but nothing was charged
 replace("        with self.lock:\n            if … take(request.cents)\n                self", """        with self.lock:
             if request.request_id in self.receipts:
                 return ChargeResponse(receipt=self.receipts[request.request_id])
@@ -212,7 +212,7 @@ replace("        with self.lock:\n            if … take(request.cents)\n      
         with self.lock:
             if request.request_id not in self.receipts:
                 self""")
-# %% 12.2 wrong: forgets old receipts | hint: The repetition got another receipt
+# %% 12.2 wrong: forgets old receipts | hint: The repetition got a different receipt
 replace("len(self.receipts) + 1", "self.count = getattr(self, 'count', 0) + 1\n                for old in list(self.receipts)[:-20]:\n                    del self.receipts[old]")
 # %% 12.2 wrong: takes requests without an id | hint: A request with an empty id got a receipt
 replace('\n        if not request … its repeat")', "")
@@ -245,7 +245,7 @@ replace("\n                self.purse.take(request.cents)", "")
 replace("len(self.receipts) + 1", "1")
 # %% 12.2 wrong: replaces the method of the purse | hint: No money was taken. Call
 replace("self.purse = purse", "self.purse = purse\n        type(purse).take = lambda self, cents: None")
-# %% 12.2 wrong: another exception for an empty id | hint: The handler raised another exception for an empty id
+# %% 12.2 wrong: another exception for an empty id | hint: For an empty id, the handler raised an exception of the wrong type
 replace("rospy.ServiceException", "ValueError")
 
 # %% 12.3 right: a loop with a clock
@@ -289,7 +289,7 @@ def pay(till, cents, deadline):
             return response.receipt
         time.sleep(max(0, min(pause, over - time.time())))
 
-# %% 12.3 wrong: treats a bad return value as a refusal | hint: the handler may have done its work before
+# %% 12.3 wrong: treats a bad return value as a refusal | hint: The error contains "handler returned", so it is possible that the handler
 replace(' and "handler returned" not in str(error)', "")
 # %% 12.3 wrong: doubles before the first sleep | hint: The first pause is too long
 replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "        pause *= 2\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))")
@@ -316,7 +316,7 @@ replace("Charge), request_id, cents", 'Charge), "", cents')
 replace("raise", "pass")
 # %% 12.3 wrong: None for a refusal | hint: The till refused, but pay() did not raise an error
 replace("raise", "return None")
-# %% 12.3 wrong: the whole deadline for the first try | hint: The first try used all the time
+# %% 12.3 wrong: the whole deadline for the first try | hint: The first try used the whole time until the deadline
 replace("min(0.5, rest)", "rest")
 # %% 12.3 wrong: a proxy without a limit | hint: because a proxy has no time limit
 replace("return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)", "return rospy.ServiceProxy(till, Charge)(request_id, cents)")
@@ -356,7 +356,7 @@ replace("""end, pause = time.monotonic() + deadline, 0.1
     while (rest := end - time.monotonic()) > 0:""", "waited, pause = 0, 0.1\n    while waited < deadline:")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))", "(pause)\n        waited += pause")
-# %% 12.3 wrong: raises when the deadline has passed | hint: At the deadline, pay() does not know whether the till has charged
+# %% 12.3 wrong: raises when the deadline has passed | hint: At the deadline, pay() does not know whether the till has already taken the money
 replace("return None", 'raise TimeoutError("nobody knows")')
 # %% 12.3 wrong: forgets to return | hint: The till sent a receipt, but pay() returned None
 replace("            return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents).receipt", "            call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            break")
@@ -366,7 +366,7 @@ replace("request_id, cents).receipt", "request_id, cents)")
 replace("ServiceProxy(till", 'ServiceProxy("/till"')
 # %% 12.3 wrong: calls twice | hint: The till had sent a receipt
 replace("return call_within", "call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            return call_within")
-# %% 12.3 wrong: another exception for a refusal | hint: pay() raised another error
+# %% 12.3 wrong: another exception for a refusal | hint: pay() raised a different error
 replace("                raise", '                raise RuntimeError("refused")')
 
 # %% 12.4 right: one lock for look and stop
@@ -560,9 +560,9 @@ policies["not started"] = "wait for the service"
 replace('"refused": "report"', '"refused": "try again"')
 # %% 12.6 wrong: waits for another definition | hint: only if no server is registered … The two programs were built with different definitions
 replace('"md5": "report"', '"md5": "wait for the service"')
-# %% 12.6 wrong: tries a step again | hint: The policy "try again" fits only if a second execution does no … The robot may have moved already, and a second request would move
+# %% 12.6 wrong: tries a step again | hint: The policy "try again" fits only if a second execution does no … Perhaps the robot has already moved, and a second request would move the robot again
 replace('"look first"', '"try again"')
-# %% 12.6 wrong: gives up a payment | hint: The policy "report" leaves the work undone, although another try could do … The till may have charged already, but it recognises a repeated request
+# %% 12.6 wrong: gives up a payment | hint: The policy "report" leaves the work undone, although another try could do … Perhaps the till has already taken the money, but it recognises a repeated request.
 replace('"same id"', '"report"')
 # %% 12.6 wrong: looks before it sets the speed | hint: only if a repetition would do harm … The request sets a state
 replace('"try again"', '"look first"')

@@ -35,7 +35,7 @@ replace("""add_executable(box_server src/box_server.cpp)
 target_link_libraries(box_server ${catkin_LIBRARIES})""", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/box_server "#!/usr/bin/env python3\\nprint()\\n")
 file(COPY ${CMAKE_CURRENT_BINARY_DIR}/box_server DESTINATION ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes
      FILE_PERMISSIONS OWNER_READ OWNER_EXECUTE)""")
-# %% 13.1 wrong: another source file | hint: Name this file in add_executable.
+# %% 13.1 wrong: another source file | hint: The program was not built from src/box_server.cpp
 replace("add_executable(box_server src/box_server.cpp)", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/other.cpp "#include <ros/ros.h>
 int main(int c, char** v) { ros::init(c, v, \\"x\\"); }")
 add_executable(box_server ${CMAKE_CURRENT_BINARY_DIR}/other.cpp)""")
@@ -48,12 +48,12 @@ replace("\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
 replace("\ninclude_directories(${catkin_INCLUDE_DIRS})", "")
 # %% 13.1 wrong: another name for the program | hint: It has to be box_server
 replace("box_server ", "server ", times=2)
-# %% 13.1 wrong: catkin_package last | hint: move it above add_executable
+# %% 13.1 wrong: catkin_package last | hint: The command catkin_package sets the folder for programs, so it has to come first
 replace("\ncatkin_package()\n", "")
 replace("(box_server ${catkin_LIBRARIES})", "(box_server ${catkin_LIBRARIES})\ncatkin_package()")
 # %% 13.1 wrong: no catkin_package | hint: The command catkin_package is missing, which sets the folder for programs
 replace("\ncatkin_package()\n", "")
-# %% 13.1 wrong: removes the lines with errors | hint: The command add_executable is missing, so CMake does not build a program
+# %% 13.1 wrong: removes the lines with errors | hint: The command add_executable is missing, so CMake builds no program
 replace("\nadd_executable(box_server src/box_server.cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
 # %% 13.1 wrong: roscpp not found | hint: catkin_LIBRARIES contains only the libraries of the packages in find_package
 replace("roscpp course_pkg", "course_pkg")
@@ -93,7 +93,7 @@ replace("& ", " ", times=2)
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
 replace("volume = response.area", "volume = area")
-# %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every path
+# %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every branch
 replace("\n  return true;", "")
 # %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a good request
 replace("true", "0")
@@ -185,7 +185,7 @@ replace("3;", "2;")
 replace("\n      return 0;\n    }\n    ros::WallDuration(0.2).sleep();\n  }\n  return 1;", "\n    }\n  }\n  return 0;")
 # %% 13.3 wrong: a success in any case | hint: No call got a response
 replace("\n  return 1;", "\n  return 0;")
-# %% 13.3 wrong: computes it itself | hint: The server sent another volume
+# %% 13.3 wrong: computes it itself | hint: The server sent a different volume: print box.response.volume, and do not compute
 replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
 # %% 13.3 wrong: no pause | hint: A call immediately after a refusal is probably refused, too
 replace("\n    ros::WallDuration(0.2).sleep();", "")
@@ -229,11 +229,11 @@ replace("6", "1")
 replace("\n  spinner.start();", "")
 # %% 13.4 wrong: main does not wait | hint: The function main ends although a spinner was started
 replace("spinner.start();\n  ros::waitForShutdown();", "spinner.start();")
-# %% 13.4 wrong: does not think | hint: Do not change the times in think() and count(), which replace real
+# %% 13.4 wrong: does not think | hint: think() and count() replace real work, so do not change the times in these functions
 replace("\n  ros::WallDuration(0.4).sleep();", "")
 # %% 13.4 wrong: three threads | hint: Each of the six calls needs a thread
 replace("6", "3")
-# %% 13.4 wrong: thinks for less, on one thread | hint: Do not change the times in think() and count(), which replace real
+# %% 13.4 wrong: thinks for less, on one thread | hint: think() and count() replace real work, so do not change the times in these functions
 replace("int served = 0;\nstd::mutex counting;", "int served = 0;")
 replace("0.4", "0.04")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")

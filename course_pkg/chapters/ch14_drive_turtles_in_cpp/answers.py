@@ -296,7 +296,7 @@ replace('<arg name= … spawn_turtle_plus" />', """<arg name="addturtle" default
   <group if="$(arg addturtle)">
     <node name="spawn_turtle_plus" pkg="my_turtles_cpp" type="spawn_turtle_plus"/>
   </group>""")
-# %% 14.6 wrong: the name of a Python script | hint: The attributes pkg and type are the two words that follow rosrun
+# %% 14.6 wrong: the name of a Python script | hint: Write the two words that follow `rosrun` in a terminal into the
 replace('type="improved_pubvel_toggle"', 'type="improved_pubvel_toggle.py"')
 # %% 14.6 wrong: true by default | hint: Without an argument, the node must not start
 replace('default="false"', 'default="true"')
@@ -314,7 +314,7 @@ replace("""ros::MultiThreadedSpinner spinner(4);
 replace('  ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();\n', '  ros::spin(); // changed\n')
 # %% 14.7 wrong: one thread | hint: The handler of /report waits for /battery, but no thread is left
 replace('spinner(4)', 'spinner(1)')
-# %% 14.7 wrong: three threads | hint: One call works, but three calls at the same time hang
+# %% 14.7 wrong: three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
 # %% 14.7 wrong: no call | hint: Do not change the two handlers
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
@@ -341,7 +341,7 @@ replace('spinner(1, &queue)', 'spinner(4)')
 replace('  spinner.start();\n', '')
 # %% 14.8 wrong: both in the new queue | hint: The handler of /report waits for /battery, but no thread is left
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
-# %% 14.8 wrong: both in a queue with four threads | hint: One call works, but eight calls at the same time hang
+# %% 14.8 wrong: both in a queue with four threads | hint: One call works, but eight calls at the same time do not end
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 replace('spinner(1, &queue)', 'spinner(4, &queue)')
 # %% 14.8 wrong: no call | hint: Do not change the two handlers
@@ -391,7 +391,7 @@ int main(int argc, char** argv) {
 replace('++calls[session->second]', '++calls["all"]')
 # %% 14.9 wrong: the name of the node | hint: This is the number of all calls
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
-# %% 14.9 wrong: the session and the name of the node | hint: Another node may continue a session
+# %% 14.9 wrong: the session and the name of the node | hint: Another node can continue a session
 replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
 # %% 14.9 wrong: counts afterwards | hint: This is the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
@@ -403,5 +403,5 @@ replace('event.getResponse().message = std::to_string(++calls[session->second])'
 # %% 14.9 wrong: no look at the header | hint: The header had no field "session", but the call got a count
 replace('  if (session == header.end()) {\n    return false;\n  }\n', '  std::string key = session == header.end() ? "" : session->second;\n')
 replace('++calls[session->second]', '++calls[key]')
-# %% 14.9 wrong: another field | hint: did not get its number
+# %% 14.9 wrong: another field | hint: The header of the call had the field "session", but the response
 replace('find("session")', 'find("Session")')

@@ -58,7 +58,7 @@ replace(">= frame.width", "> frame.width")
 replace("10 * dark >= frame.width * frame.height", "round(dark / (frame.width * frame.height), 2) >= 0.1")
 # %% 15.1 wrong: 96 is dark | hint: All points that look dark have the value 96, but a point
 replace("point < 96", "point <= 96")
-# %% 15.1 wrong: the padding counts | hint: row r begins at r * frame.step
+# %% 15.1 wrong: the padding counts | hint: A row has frame.step bytes, but only the first frame.width bytes are
 replace("frame.data[start : start + frame.width]", "frame.data[start : start + frame.step]")
 # %% 15.1 wrong: always True | hint: All points are light
 replace("10 * dark >= frame.width * frame.height", "dark >= 0")
@@ -144,7 +144,7 @@ replace("    while not newest and time.monotonic() < end:\n        time.sleep(0.
 replace("            return self.changed.wait_for(lambda: self.customer, timeout=request.patience)", "            end = rospy.get_time() + request.patience\n            while not self.customer and rospy.get_time() < end:\n                self.changed.wait(0.02)\n            return self.customer")
 replace("        with self.changed:\n            end", "        with self.turn, self.changed:\n            end")
 replace("        self.customer = False", "        self.customer = False\n        self.turn = threading.Lock()")
-# %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but a call noticed
+# %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but one of these
 replace("            self.customer = message.data\n            self.changed.notify_all()", "            if message.data and not self.customer:\n                self.changed.notify()\n            self.customer = message.data")
 # %% 15.2 wrong: no limits | hint: The field `patience` has to be from 0 to 60 s
 replace("if not 0 <= request.patience <= 60:", "if False:")
@@ -213,17 +213,17 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.3 wrong: the detector of 15.2 | hint: The camera is silent, so the node cannot know that found is
+# %% 15.3 wrong: the detector of 15.2 | hint: The camera sends no messages, so the node does not know whether a customer is there
 replace("return time.monotonic() - self.arrived > 1.0", "return False")
 # %% 15.3 wrong: an old customer counts | hint: The last message is older than 1 s
 replace("lambda: self.customer and not self.is_silent()", "lambda: self.customer")
-# %% 15.3 wrong: refuses at once | hint: The node refused too early
+# %% 15.3 wrong: refuses at once | hint: The node refused the call too early
 replace("        with self.changed:\n            found", "        if self.is_silent():\n            raise rospy.ServiceException('the camera is silent')\n        with self.changed:\n            found")
 # %% 15.3 wrong: a message counts for 0.2 s | hint: The last message was less than 1 s old
 replace("self.arrived > 1.0", "self.arrived > 0.2")
 # %% 15.3 wrong: a message without camera | hint: The error message has to contain the word "camera"
 replace('"the camera is silent"', '"nothing is known"')
-# %% 15.3 wrong: silence at the beginning counts | hint: The camera was silent, but new messages came in time
+# %% 15.3 wrong: silence at the beginning counts | hint: The camera sent no messages for some time, but new messages came
 replace("        with self.changed:\n            found", "        silent = self.is_silent()\n        with self.changed:\n            found")
 replace("            if not found and self.is_silent():", "            if silent:")
 
@@ -281,7 +281,7 @@ replace("        mirrored.publish(", "        joints.header.frame_id = ''\n     
 replace("                effort=joints.effort,\n", "")
 # %% 15.5 wrong: any number of positions | hint: The numbers of names and positions are different
 replace("len(joints.position) != count or ", "")
-# %% 15.5 wrong: any number of velocities | hint: The number of velocities has to be 0 or the number of
+# %% 15.5 wrong: any number of velocities | hint: The number of velocities has to be 0 or equal to the number of names
 replace(" or len(joints.velocity) not in (0, count)", "")
 # %% 15.5 wrong: nan is mirrored | hint: nan and inf are not valid positions or velocities
 replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "True")
@@ -377,7 +377,7 @@ if __name__ == "__main__":
 
 # %% 15.6 wrong: mirrors only | hint: No call came
 replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
-# %% 15.6 wrong: calls once | hint: The node called, but then it did not call again
+# %% 15.6 wrong: calls once | hint: The node called the service once, but it did not call the service again
 replace("while not rospy … attend_visit()", "while is_there(wait) is None:\n        pass\n    rospy.spin()")
 # %% 15.6 wrong: an error at the start ends it | hint: The node called a service that did not exist yet, and the
 replace('rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "raise")
@@ -386,7 +386,7 @@ replace("    while not rospy.is_shutdown():\n        if is_there", "    rospy.wa
 replace('        rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "        raise")
 # %% 15.6 wrong: a reset that fails ends it | hint: The call of till/reset failed, and then no call of detect_customer followed
 replace('''        rospy.logwarn("till/reset: %s", error)''', '''        raise''')
-# %% 15.6 wrong: another default | hint: has to be 2 s: rospy.get_param
+# %% 15.6 wrong: another default | hint: Without a parameter, the field `patience` has to be 2 s: use
 replace('"~wait", 2.0', '"~wait", 5.0')
 # %% 15.6 wrong: a fixed patience | hint: The field `patience` has to be the private parameter "~wait" of the node
 replace('rospy.get_param("~wait", 2.0)', '2.0')
@@ -466,7 +466,7 @@ replace('        rospy.wait_for_service("detect_customer", timeout=3)\n', "")
 replace('rospy.get_param("~wait", 2.0)', "2.0")
 # %% 15.4 wrong: another default | hint: the second argument of rospy.get_param is the default
 replace('"~wait", 2.0', '"~wait", 5.0')
-# %% 15.4 wrong: calls twice | hint: The program called more than once
+# %% 15.4 wrong: calls twice | hint: The program called the service more than once
 replace('AwaitCustomer)(patience)', 'AwaitCustomer)(patience)\n        response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)')
 # %% 15.4 wrong: does not call | hint: The program did not call the service
 replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'rospy.ServiceProxy("detect_customer", AwaitCustomer)')
@@ -485,7 +485,7 @@ replace('    print("customer"', '    print("The detector says:")\n    print("cus
 replace('else "nobody")', 'else "nobody")\n    sys.exit(0 if response.found else 3)')
 # %% 15.4 wrong: a refusal is not caught | hint: A refused call raises rospy.ServiceException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
-# %% 15.4 wrong: a message without the reason | hint: The output does not contain the reason of the failure
+# %% 15.4 wrong: a message without the reason | hint: The output does not contain the reason for the failure: print the
 replace("sys.exit(str(error))", 'sys.exit("failed")')
 # %% 15.4 wrong: exit status 0 after a refusal | hint: The call failed, so the exit status has to be 1
 replace("sys.exit(str(error))", "print(error)\n        return")
@@ -604,13 +604,13 @@ based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
 # %% 15.8 wrong: waits for a printer | hint: Do not wait for the service without a limit
 replace("        print_line(f", "        rospy.wait_for_service('print_line')\n        print_line(f")
-# %% 15.8 wrong: repeats a refused line | hint: Call it once for each item
+# %% 15.8 wrong: repeats a refused line | hint: The till called print_line again after a refusal
 replace('        print_line(f"{request.item} {request.cents}")\n', """        try:
             print_line(f"{request.item} {request.cents}")
         except rospy.ServiceException:
             print_line(f"{request.item} {request.cents}")
 """)
-# %% 15.8 wrong: no line for the old price | hint: Print a line for each call of till/set
+# %% 15.8 wrong: no line for the old price | hint: The item already had this price
 replace("        print_line(", "        if prices.get(request.item) != request.cents:\n            print_line(")
 # %% 15.8 wrong: prints what it refuses | hint: A line was printed for a refused item
 replace('    if not request.item:', '    print_line(f"{request.item} {request.cents}")\n    if not request.item:')
@@ -623,7 +623,7 @@ replace("""raise rospy.ServiceException(f"{request.item}: {request.cents} cents 
     with turn:""", 'raise rospy.ServiceException(f"{request.item}: {request.cents} cents are negative")\n    for attempt in range(200):')
 replace('(f"{request.item} {request.cents}")', '(f"{request.item} {request.cents}")\n            break')
 replace("rospy.logwarn(error)", 'if "jam" not in str(error):\n                raise\n            rospy.sleep(0.01)\n    with turn:')
-# %% 15.8 wrong: the lock ends before the sum | hint: Hold one lock while you print, store and add up
+# %% 15.8 wrong: the lock ends before the sum | hint: A total is not the sum of the lines that were printed
 replace("""prices[request.item] = request.cents
         return sum(prices.values())""", "prices[request.item] = request.cents\n    rospy.sleep(0.2)\n    return sum(prices.values())")
 # %% 15.8 wrong: the lock stays locked | hint: After a refused call, the next call got no response
@@ -732,7 +732,7 @@ replace('  <arg name="hardware" default="true" />\n', "")
 replace('name="wait" default="2.0"', 'name="wait"')
 # %% 15.10 wrong: yes is no boolean | hint: The value of the attribute "if" has to be true or false
 replace('if="$(arg hardware)"', 'if="$(arg wait)"')
-# %% 15.10 wrong: an unknown substitution | hint: Type roslaunch --nodes my_cashier
+# %% 15.10 wrong: an unknown substitution | hint: Type `roslaunch --nodes my_cashier cashier.launch` in the terminal, and read the output
 replace('value="$(arg wait)"', 'value="$(value wait)"')
 # %% 15.10 wrong: always with hardware | hint: With hardware:=false, the nodes counter_camera, robot and receipt_printer must not start
 replace('<group if="$(arg hardware)">', "<group>")
@@ -851,7 +851,7 @@ change_node("robot_cashier", """import random
 mirror = robot_cashier.RobotCashier.mirror
 robot_cashier.RobotCashier.mirror = lambda self, joints: random.random() < 0.05 and mirror(self, joints)""")
 
-# %% 15.11 wrong: a guess without a camera | hint: so detect_customer has to refuse. Check
+# %% 15.11 wrong: a guess without a camera | hint: No frame came for more than 1 s, so detect_customer has to refuse each call
 change_node("customer_detector", "customer_detector.await_customer = lambda eye, patience: bool(eye._seen)")
 
 # %% 15.11 wrong: silent for ever | hint: New frames came after a pause, but detect_customer still refuses

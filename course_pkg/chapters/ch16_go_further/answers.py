@@ -105,11 +105,11 @@ replace("goal.seconds", "0.2")
 replace("goal.seconds", "0.05")
 # %% 16.1 wrong: the last number of the loop | hint: The result is too small by one, because range() counts from 0
 replace("(fetched=goal.things)", "(fetched=fetched)")
-# %% 16.1 wrong: feedback at the end only | hint: Only one feedback arrived, at the end
+# %% 16.1 wrong: feedback at the end only | hint: Only one feedback message arrived, at the end
 replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "\n        self.server.publish_feedback(FetchFeedback(fetched=goal.things))")
 # %% 16.1 wrong: empty feedback | hint: The field `fetched` is 0 in each feedback
 replace("FetchFeedback(fetched=fetched + 1)", "FetchFeedback()")
-# %% 16.1 wrong: all feedback at the end | hint: All feedback arrived at the end
+# %% 16.1 wrong: all feedback at the end | hint: All feedback messages arrived at the end
 replace("time.sleep(goal.seconds)", "time.sleep(goal.seconds)\n        for fetched in range(goal.things):")
 # %% 16.1 wrong: an empty result when it is cancelled | hint: The field `fetched` is 0 in the result of the cancelled goal
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted()")
@@ -289,7 +289,7 @@ replace("        for delivered in", "        self.charge -= goal.things\n       
 replace("        for delivered in", "        self.charge = 100.0\n        for delivered in")
 # %% 16.4 wrong: continues after set_aborted | hint: The function continued to deliver after set_aborted, because set_aborted does not end
 replace('can carry")\n            return', 'can carry")')
-# %% 16.4 wrong: a service for the battery | hint: Several programs need each new value, without a request for each value
+# %% 16.4 wrong: a service for the battery | hint: Several programs need each new value, and none of these programs sends a request.
 replace("from std_srvs.srv import SetBool, SetBoolResponse", "from std_srvs.srv import SetBool, SetBoolResponse, Trigger")
 replace('rospy.Publisher("battery", Float32, queue_size=1)', 'rospy.Service("battery", Trigger, lambda request: (True, str(self.charge)))')
 replace("robot.battery.publish(robot.charge)\n        ", "")
@@ -322,7 +322,7 @@ replace("\n        self.server.set_succeeded(FetchResult(fetched=goal.things))",
 replace("FetchFeedback(fetched", "FetchFeedback(delivered")
 # %% 16.4 wrong: counts from 0 | hint: Publish the number of delivered parcels after each parcel
 replace("delivered + 1", "delivered")
-# %% 16.4 wrong: an empty result | hint: with the number of parcels to set_succeeded
+# %% 16.4 wrong: an empty result | hint: Call set_succeeded(FetchResult(fetched=…)), where `fetched` is the number of delivered parcels.
 replace("set_succeeded(FetchResult(fetched=goal.things))", "set_succeeded()")
 # %% 16.4 wrong: publishes in the loop of the delivery | hint: The battery values stopped during the delivery
 replace("robot.battery.publish(robot.charge)", "if not robot.server.is_active():\n            robot.battery.publish(robot.charge)")
@@ -333,7 +333,7 @@ replace("            self.charge -= 1\n", "")
 replace("        self.server.set_succeeded", "        self.charge -= 1\n        self.server.set_succeeded")
 # %% 16.4 wrong: cannot be cancelled | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
 replace("\n            if self.server … return", "")
-# %% 16.4 wrong: an empty result of a cancelled delivery | hint: Pass FetchResult(fetched=…) with the number of parcels delivered so far to set_preempted
+# %% 16.4 wrong: an empty result of a cancelled delivery | hint: Call set_preempted(FetchResult(fetched=…)), where `fetched` is the number of parcels delivered so far.
 replace("set_preempted(FetchResult(fetched=delivered))", "set_preempted()")
 # %% 16.4 wrong: does not check the capacity | hint: Compare goal.things with the parameter ~capacity
 replace("\n        if goal.things … return", "")

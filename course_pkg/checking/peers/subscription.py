@@ -125,11 +125,11 @@ class Subscription:
 
     def _what_to_do(self, found: str) -> str:
         if found:
-            return f"Publish it with the type in the exercise: {self.kind}."
+            return f"Publish the topic with the type in the exercise: {self.kind}."
         others = [name for name in self._node.master.system_state().publishers if name != "/rosout"]
         if alike := difflib.get_close_matches(self.name, others, n=1):
             return f"There is {alike[0]}: compare the names letter by letter."
-        return "Run the cell that publishes it. Do this after each restart of the kernel, too."
+        return "Run the cell that publishes this topic, and run it again after each restart of the kernel."
 
 
 def rate(arrivals: Sequence[Arrival]) -> float:

@@ -150,4 +150,6 @@ def _fails_to_build(context: CheckContext, package: Package, printed: str, exami
 
 def _unexplained(printed: str) -> Fault:
     lines = [line.strip() for line in printed.strip().splitlines() if line.strip()]
-    return Fault("catkin_make failed", f"Read the end of its output: {' / '.join(lines[-3:])}.")
+    return Fault(
+        "catkin_make failed", f"Read the end of the output of catkin_make: {' / '.join(lines[-3:])}."
+    )

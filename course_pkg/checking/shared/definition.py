@@ -13,8 +13,11 @@ def read_definition(context: CheckContext, name: str, text: str) -> ServiceType:
     """Assert that ROS can read the definition `text` of the type `name`, such as "my_geometry/geometry"."""
     assertion = "ROS can read the definition"
     if text.startswith(MARK):
-        hint = "Line 1 begins with an invisible mark of Windows. Save the file as UTF-8 without BOM."
-        context.fail(assertion, expected="a definition", actual="an invisible mark", hint=hint)
+        hint = (
+            "Line 1 begins with an invisible character, the byte order mark (BOM). Save the file as "
+            "UTF-8 without BOM."
+        )
+        context.fail(assertion, expected="a definition", actual="an invisible character", hint=hint)
     try:
         given = compile_service(name, text)
     except BrokenDefinition as error:

@@ -41,7 +41,7 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
         context.fail(
             "the program is a compiled C++ program that uses roscpp",
             expected="an ELF file that is linked with libroscpp",
-            actual=(seen.out + seen.err).strip().partition("\n")[0] or "another file",
+            actual=(seen.out + seen.err).strip().partition("\n")[0] or "a file of another type",
             hint="The program has to be built from C++ code that calls functions of roscpp.",
         )
     starts = sorted({name for name in CALLED.findall(seen.out) if STARTS.fullmatch(name)})

@@ -41,7 +41,7 @@ from course_pkg.waiting import Deadline
 
 WEAKER = (
     "The isolation of this run was weaker than that of `course grade`, because this machine forbids "
-    "namespaces: the code ran as another user with limits, and the network was open."
+    "namespaces. The code ran as another user with limits, and could use the network."
 )
 OUT_OF_TIME = "the time limit of the autograder was reached; ask your instructor"
 OURS = "The autograder failed ({}). This is not a mistake in your work. Please tell your instructor."

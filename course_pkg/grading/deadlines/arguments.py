@@ -18,8 +18,9 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="[NN=]TIME",
-        help="when the work was due, such as 2026-11-01T23:59+01:00; 05=TIME holds for chapter 05 only; can "
-        "be repeated; the column extension_days of --roster makes it later for single students",
+        help="when the work was due, such as 2026-11-01T23:59+01:00; 05=TIME is the deadline of chapter "
+        "05 only; can be repeated; the column extension_days of --roster moves the deadline for "
+        "single students",
     )
     group.add_argument(
         "--times",

@@ -112,7 +112,7 @@ def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime |
 
 
 def _about(count: int, chosen: str, others: Sequence[str], why: str) -> str:
-    return f"Handed in {count} times: {chosen} {why}, not {', '.join(others[:3])}."
+    return f"Handed in {count} times: {chosen} {why}. These do not count: {', '.join(others[:3])}."
 
 
 def _without_note(notes: Sequence[str]) -> list[str]:

@@ -60,8 +60,9 @@ def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
         return _table(rows, zone).find
     raise GradingError(
         f"{path.name}, line 1: the table of times needs the columns student,submitted (or "
-        "student,chapter,submitted), or those of Moodle's grading worksheet: Identifier and Last modified "
-        "(submission). Moodle names them in the language that you use it in; switch it to English."
+        "student,chapter,submitted), or those of Moodle's grading worksheet: Identifier and Last "
+        "modified (submission). Moodle writes these names in the language of your account: switch "
+        "Moodle to English."
     )
 
 

@@ -68,4 +68,6 @@ def _seen(answer: Answer, given: Mapping[str, str], observe: Observe) -> list[Ob
         module = tree(answer)
         return list(observe(Program(module, aliases(module, {} if answer.path else given))))
     except UNREADABLE:
-        return [Observation("unreadable", 0, "It could not be read as a program, so it was not searched.")]
+        return [
+            Observation("unreadable", 0, "The code is not valid Python, so it was not examined for flags.")
+        ]

@@ -43,7 +43,10 @@ RENUMBERED = (
         "10_survive_trouble",
         "Survive trouble",
         "12",
-        "Its exercises 10.1 and 10.2 are now exercises 10.4 and 10.5 of chapter 10.",
+        (
+            "Exercise 10.1 is now exercise 10.4 of chapter 10, and exercise 10.2 is now exercise 10.5 "
+            "of chapter 10."
+        ),
     ),
     RenumberedChapter("11_cpp", "Read and build the C++ side", "13"),
     RenumberedChapter("12_robot_cashier", "Build the robot cashier", "15"),
@@ -55,8 +58,8 @@ CHOOSE = RenumberedChapter(
     "03_choose",
     "Choose between a stream and a question",
     "03",
-    "Exercise 03.3 is now exercise 10.2 of chapter 10, exercise 03.5 is now 03.4, and the old 03.4 was "
-    "removed.",
+    "Exercise 03.3 is now exercise 10.2 of chapter 10. Exercise 03.5 is now exercise 03.4. The old exercise "
+    "03.4 was removed.",
 )
 LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")  # only the first edition has this part
 

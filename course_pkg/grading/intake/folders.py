@@ -71,7 +71,10 @@ def report_folders(source: Path, out: Path | None) -> list[str]:
         found = (path for path in sorted(source.iterdir()) if all((path / mark).is_file() for mark in marks))
         others = [path.name for path in found if path.name != own]
     if others:
-        sys.stderr.write(f"Not read, because an earlier run wrote its reports there: {', '.join(others)}\n")
+        sys.stderr.write(
+            "These folders were not read, because an earlier run wrote its reports there: "
+            f"{', '.join(others)}\n"
+        )
     return [*filter(None, [own]), *others]
 
 

@@ -108,7 +108,10 @@ def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
 
 
 def _too_large(name: str, why: str) -> str:
-    return f"The package {clean.line(name, 60)} was not graded: {why}. Remove built and recorded files."
+    return (
+        f"The package {clean.line(name, 60)} was not graded: {why}. Remove the files that the build "
+        "created, and recorded files such as .bag files."
+    )
 
 
 def _name(manifest: bytes) -> str:
@@ -186,10 +189,16 @@ def _about_names(name: str, ranked: Sequence[Found]) -> Iterator[str]:
     best, *others = ranked
     if best.package.name != name and not best.problem:
         other = clean.line(best.package.name, 60)
-        yield f"package.xml names the package {other}; it was examined as {name}, the name of its folder."
+        yield (
+            f"package.xml contains the package name {other}. The package was examined under the name of "
+            f"its folder, {name}."
+        )
     if others:
         shown = ", ".join(each.package.origin for each in others[:SHOWN])
-        yield f"{len(ranked)} packages are named {name}: {best.package.origin} was graded, not {shown}."
+        yield (
+            f"{len(ranked)} packages are named {name}: {best.package.origin} was graded, and these were "
+            f"not graded: {shown}."
+        )
 
 
 def _unknown(packages: Mapping[str, Sequence[Found]], known: set[str]) -> Iterator[Submission]:

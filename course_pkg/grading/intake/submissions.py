@@ -39,7 +39,8 @@ from course_pkg.grading.intake.reading import read_cells, slimmed
 from course_pkg.grading.intake.references import References, plain
 
 LATE = (
-    "Canvas marks this submission as late. It does not say by how much: a table of late days or of times can."
+    "Canvas marks this submission as late, but does not say how late it is. Give a table of late days or of "
+    "times."
 )
 SHOWN = 3  # maximum number of file names in a sentence
 
@@ -258,7 +259,10 @@ def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
         best, others = ranked[0].submission, [each.submission for each in ranked[1:]]
         if others:
             names = _listed([each.origin for each in others])
-            note = f"Handed in {len(ranked)} times: {best.origin} was graded, not {names}."
+            note = (
+                f"Handed in {len(ranked)} times: {best.origin} was graded, and these files were not "
+                f"graded: {names}."
+            )
             usable = tuple(each for each in reversed(others) if not each.problem)
             best = replace(best, notes=(*best.notes, note), attempts=usable)
         yield best

@@ -9,13 +9,16 @@ RAISED = re.compile(r"^(?P<error>[A-Za-z_][\w.]*): (?P<message>.*)$", re.MULTILI
 OWN_LIMIT = re.compile(r"gave no result within (?P<seconds>\d+) s")
 LIMIT = re.compile(r"Timeout of (?P<seconds>\d+) seconds exceeded (?:while )?executing")
 SENTENCES = (  # each entry is a text of nbval 0.11 or pytest, and its meaning for a student
-    ("Missing output fields", "The cell showed no output, or less output than with the right answers."),
-    ("Unexpected output fields", "The cell showed more output than with the right answers."),
+    (
+        "Missing output fields",
+        "The cell showed no output, or less output than it shows with the right answers.",
+    ),
+    ("Unexpected output fields", "The cell showed more output than it shows with the right answers."),
     (
         "dissimilar number of outputs",
-        "The cell showed another number of outputs than with the right answers.",
+        "The number of outputs of the cell differs from the number with the right answers.",
     ),
-    ("Cell outputs differ", "The cell showed another output than with the right answers."),
+    ("Cell outputs differ", "The output of the cell differs from the output with the right answers."),
     ("Kernel dead", "The cell was not run, because an earlier cell had ended the kernel."),
     ("waiting for output", "The kernel ended, or it sent no output, while the cell ran."),
     ("previous cell timed out", "An earlier cell took too long, so this cell was not compared."),

@@ -70,14 +70,16 @@ class Matching:
         if chosen := code or filled:
             return _matched(chosen)
         if elsewhere := list(self._elsewhere(wanted)):
-            note = f"Its own cell contains no answer; the cell that {_known_by(wanted)} was used."
+            note = f"The exercise's own cell contains no answer; the cell that {_known_by(wanted)} was used."
             match = _matched(elsewhere)
             return Match(match.source, match.missing, (note, *match.notes), match.cells)
         if any(run.source.strip() for run in runs):
             return Match(wanted.blank, cells=frozenset().union(*(run.cells for run in runs)))
         if runs:
-            return Match(missing="Its cell is empty.")
-        return Match(missing=f"Its cell is not in the notebook, and no other cell {_known_by(wanted)}.")
+            return Match(missing="The exercise's cell is empty.")
+        return Match(
+            missing=f"The exercise's cell is not in the notebook, and no other cell {_known_by(wanted)}."
+        )
 
     def lent(self, taken: frozenset[int]) -> set[str]:
         """Return the names that unused cells define, and that the reference does not define."""
@@ -180,19 +182,21 @@ def _matched(runs: Sequence[_Run]) -> Match:
     chosen = runs[-1]
     notes = []
     if len({run.source.strip() for run in runs}) > 1:
-        notes.append(f"{len(runs)} cells answer it; the last one was used.")
+        notes.append(f"{len(runs)} cells answer this exercise; the last one was used.")
     if chosen.written > 1:
-        notes.append(f"It was split into {chosen.written} cells, which were joined.")
+        notes.append(f"The answer was split into {chosen.written} cells, which were joined.")
     if chosen.kind != "code":
-        notes.append("Its cell is not a code cell; its text was used as code.")
+        notes.append("The exercise's cell is not a code cell; its text was used as code.")
     if len(chosen.source) > LONGEST:
-        return Match(missing=f"Its cell contains more than {LONGEST} characters.", notes=tuple(notes))
+        return Match(
+            missing=f"The exercise's cell contains more than {LONGEST} characters.", notes=tuple(notes)
+        )
     return Match(chosen.source, "", (*notes, *_about_tags(chosen.tags)), chosen.cells)
 
 
 def _about_tags(tags: frozenset[str]) -> list[str]:
     found = sorted(tags & set(TAGS))
-    return [f"The tag {', '.join(found)} on its cell has no effect in grading."] if found else []
+    return [f"The tag {', '.join(found)} on the exercise's cell has no effect on the grade."] if found else []
 
 
 def _answers(source: str, wanted: Wanted) -> bool:

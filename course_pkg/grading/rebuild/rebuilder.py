@@ -111,6 +111,6 @@ def _about_names(source: str, elsewhere: set[str]) -> Iterator[str]:
     if names := sorted(used(source) & elsewhere):
         shown = ", ".join(name[:40] for name in names[:3])
         yield (
-            f"It uses {shown}, which another cell of yours defines. Only the exercise's cell is graded, "
-            "so this cell has to contain everything that the answer needs."
+            f"This cell uses {shown}, which you define in another cell. Only the exercise's cell is "
+            "graded, so this cell has to contain everything that the answer needs."
         )

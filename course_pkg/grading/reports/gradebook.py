@@ -180,7 +180,7 @@ def _problem(grade: Grade) -> str:
 def _about(grade: Grade) -> str:
     if grade.absent:
         return (
-            f"Chapter {grade.chapter}: the results are from an earlier run, nothing was handed in this time."
+            f"Chapter {grade.chapter}: the results are from an earlier run. This time, nothing was handed in."
         )
     undecided = [
         report for report in grade.reports if report.verdict is Verdict.UNDECIDED and not report.review
@@ -193,7 +193,7 @@ def _about(grade: Grade) -> str:
     if NO_TIME in grade.notes:
         return f"Chapter {grade.chapter}: {NO_TIME}"
     reviewed = any(report.review for report in grade.reports)
-    return "" if grade.earned or reviewed else f"No points in chapter {grade.chapter}."
+    return "" if grade.earned or reviewed else f"The student has 0 points in chapter {grade.chapter}."
 
 
 def _inconclusive(grade: Grade) -> list[str]:

@@ -38,7 +38,11 @@ def identity_cells(person: Person | None) -> list[str]:
 def lead(book: Book) -> str:
     """Return a sentence about the roster for the top of class.html, or "" if there is no roster."""
     known = book.class_list
-    return f"{known.found} of {len(known.roster)} students of the roster handed in." if known.roster else ""
+    return (
+        f"{known.found} of {len(known.roster)} students of the roster handed in their work."
+        if known.roster
+        else ""
+    )
 
 
 def section(book: Book) -> Iterator[str]:

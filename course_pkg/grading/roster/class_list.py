@@ -45,7 +45,7 @@ class ClassList:
     def summary(self) -> Iterator[str]:
         """Yield sentences for the terminal about students who are missing, not listed, or not identified."""
         if self.roster is not None:
-            yield f"Roster: {self.found} of {len(self.roster)} students handed in."
+            yield f"Roster: {self.found} of {len(self.roster)} students handed in their work."
             yield from _counted("handed in nothing", "handed in nothing", list(labels(self.missing)))
             yield from _counted("is not on the roster", "are not on the roster", self.strangers)
         if self.worksheet is not None:

@@ -170,8 +170,8 @@ class Worksheet:
             raise GradingError(f"{where}: the maximum grade is not a number. {AGAIN}") from error
         if maximum <= 0:
             raise GradingError(
-                f"{where}: the assignment takes no points. Set its Grade type to Point in Moodle's settings "
-                "of the assignment, and download the worksheet again."
+                f"{where}: no points can be given for this assignment in Moodle. Set its Grade type "
+                "to Point in Moodle's settings of the assignment, and download the worksheet again."
             )
         return maximum
 
@@ -188,7 +188,9 @@ def read_worksheet(path: Path) -> Worksheet:
     try:
         text = table_bytes(path, WHAT, LARGEST).decode()
     except UnicodeDecodeError as error:
-        raise GradingError(f"The {WHAT} {path.name} is not in UTF-8, as Moodle writes it. {AGAIN}") from error
+        raise GradingError(
+            f"The {WHAT} {path.name} is not in UTF-8, but Moodle writes it in UTF-8. {AGAIN}"
+        ) from error
     separator = delimiter_of(text)
     # The byte order mark stays before the name of the first column.
     found = list(records(text, separator))

@@ -62,9 +62,9 @@ class Cluster:
                 f"{AGAIN}"
             )
         return GradingError(
-            "Several dask workers ended while they graded the same notebook. Their own output shows the "
-            "reason; often it is too little memory. Start fewer workers, and give each of them --nthreads 1. "
-            f"{AGAIN}"
+            "Several dask workers ended while they graded the same notebook. Their own output "
+            "shows the reason; often they do not have enough memory. Start fewer workers, and give "
+            f"each of them --nthreads 1. {AGAIN}"
         )
 
     def _lost(self) -> GradingError:

@@ -26,7 +26,11 @@ def last_line(graded: Sequence[Grade]) -> str:
 def about_empty(graded: Sequence[Grade]) -> list[str]:
     """Return a line about students whose folders are empty, or no line if there are none."""
     names = [name_of(grade.student) for grade in graded if grade.nothing]
-    return [f"Handed in nothing, because the folder is empty: {_listed(names)}."] if names else []
+    return (
+        [f"These students handed in nothing, because their folders are empty: {_listed(names)}."]
+        if names
+        else []
+    )
 
 
 def about_flags(grades: Sequence[Grade]) -> list[str]:
@@ -44,8 +48,9 @@ def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
     if absent:
         names = [f"{name_of(grade.student)} (chapter {grade.chapter})" for grade in absent]
         lines.append(
-            f"Marked in class.html and grades.csv, because this time nothing was handed in for them: "
-            f"{_listed(names)}. The files for Moodle, Canvas and Gradescope leave them out."
+            "This time, nothing was handed in for these results of an earlier run: "
+            f"{_listed(names)}. They are marked in class.html and grades.csv, and the files for "
+            "Moodle, Canvas and Gradescope do not contain them."
         )
     if kept:
         results = "1 other result" if kept == 1 else f"{kept} other results"

@@ -62,8 +62,8 @@ class ReleaseFolder:
             removed = [name for name in self._before if name not in files and self._remove(name)]
         except OSError as error:
             raise HandoutError(
-                f"{error.filename or self.path} cannot be written ({error.strerror}). Correct that, and type "
-                "the command again."
+                f"{error.filename or self.path} cannot be written ({error.strerror}). Correct this "
+                "problem, and type the command again."
             ) from error
         return Release(self._commit([*files, *self._before], message), len({*changed, *removed}))
 

@@ -44,7 +44,8 @@ def git(folder: Path, *arguments: str, given: str = "", identity: bool = False) 
     except subprocess.CalledProcessError as error:
         reason = " ".join((error.stderr or error.stdout).split()) or f"exit status {error.returncode}"
         raise HandoutError(
-            f"git {arguments[0]} failed in {folder}: {reason}. Correct that, and type the command again."
+            f"git {arguments[0]} failed in {folder}: {reason}. Correct this problem, and type the "
+            "command again."
         ) from error
     return done.stdout
 

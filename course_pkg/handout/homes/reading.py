@@ -155,7 +155,9 @@ def _received(pipe: _Pipe) -> Iterator[WorkFile | Problem]:
             raise HandoutError(f"the work has more than {ALTOGETHER >> 20} MiB; the rest was not collected")
         file = WorkFile(content=pipe.block(header.pop("size")), **header)
         if not _stays_inside(file):
-            raise HandoutError("the process that reads the folder sent the name of a file elsewhere")
+            raise HandoutError(
+                "the process that reads the folder sent the name of a file outside of the folder"
+            )
         yield file
     raise HandoutError("the process that reads the folder ended too early")
 

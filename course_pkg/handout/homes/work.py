@@ -247,5 +247,5 @@ def _reason(what: str, error: Exception) -> str:
     if not isinstance(error, OSError):
         return f"{what}: {error}"
     if error.errno in (errno.ELOOP, errno.ENOTDIR):
-        return f"{what}: it is a link or no folder, and links are not followed"
+        return f"{what}: it is a link or not a folder, and links are not followed"
     return f"{what}: it cannot be read ({error.strerror})"

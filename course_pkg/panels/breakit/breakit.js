@@ -47,7 +47,7 @@ class LabView {
       h("section", { class: "ros-closer", "aria-label": "Look closer" }, h("h4", { text: "Look closer" }), this.toolRow, this.looks),
       h("section", { class: "ros-answer", "aria-label": "Your answer" }, h("div", { class: "ros-questions" }, this.diagnoses.el, this.remedies.el),
         h("div", { class: "ros-actions" }, this.check, this.reveal, this.undo), this.verdict));
-    this.empty = h("p", { class: "ros-empty", text: "Each case breaks something on the graph, for real, and shows what one sees of it. Find out what it is. Press a case to begin; its fault is undone when the next one begins." });
+    this.empty = h("p", { class: "ros-empty", text: "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Press a case to begin. Its fault is removed when the next case begins." });
     this.trouble = h("div", { class: "ros-trouble", role: "alert", hidden: true });
     this.el = h("section", { class: "ros-panel ros-breakit", "aria-label": "Break it" }, this.banner,
       h("div", { class: "ros-head" }, h("h3", {}, h("span", { class: "ros-tag", text: "Break it" }), " Find the fault"), this.score), this.row, this.trouble, this.empty, this.body);

@@ -294,7 +294,7 @@ def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -
     if right and right_remedy:
         return _solution(fault, "right", "Right.")
     if right:
-        words = "The diagnosis is right. Another remedy fits it better."
+        words = "The diagnosis is right, but another remedy fits it better."
         return {"state": "half", "words": words, "reason": ""}
     other = fault_with(diagnosis)
     reason = f"That fault would look different: {other.reason}" if other else ""

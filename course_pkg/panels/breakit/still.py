@@ -18,8 +18,8 @@ from course_pkg.panels.paper import (
 )
 
 BEGIN = (
-    "Each case breaks something on the graph, for real, and shows what one sees of it. Find out what it is. "
-    "Press a case to begin; its fault is undone when the next one begins."
+    "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Press a "
+    "case to begin. Its fault is removed when the next case begins."
 )
 VERDICTS = {"right": GOOD, "half": ACCENT, "wrong": ERROR, "shown": ACCENT}
 

@@ -26,8 +26,8 @@ function question(model, el, signal) {
   let live = true;
   const draw = () => {
     answer.write(model.get("answer"), live);
-    const said = model.get("answer") ? "Kept. You can change it until you compare." : "Commit to an answer before you run the next cell.";
-    const after = model.get("answer") ? "Kept. The result is known: a change now is marked as a late change." : "The result is known: an answer now is marked as a late answer.";
+    const said = model.get("answer") ? "Your answer is kept. You can change it until you compare." : "Commit to an answer before you run the next cell.";
+    const after = model.get("answer") ? "Your answer is kept. The result is known now, so a change is marked as a late change." : "The result is known: an answer now is marked as a late answer.";
     say(status, !live ? "No kernel answers: run the notebook to keep a prediction." : model.get("notice") || (model.get("compared") ? after : said));
   };
   for (const trait of ["answer", "compared", "notice"]) model.on(`change:${trait}`, draw);

@@ -119,7 +119,7 @@ class ServiceView {
   #drawEmpty(picked) {
     const trouble = this.model.get("trouble");
     const some = this.model.get("services").length > 0;
-    const text = trouble || (picked ? "" : some ? "Pick a service to see what it asks for." :
+    const text = trouble || (picked ? "" : some ? "Pick a service to see the fields of its request." :
       "No node offers a service yet. Run the cell that starts a server; it appears here by itself.");
     say(this.empty, text);
     setAttribute(this.empty, "hidden", !text);
@@ -167,7 +167,7 @@ class ServiceView {
     say(this.clock, outcome.at ? `#${outcome.number} at ${outcome.at}` : "");
     clearInterval(this.ticking);
     if (phase === "running") this.#tick();
-    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields: its arrival is the answer.")] : []));
+    else this.answer.replaceChildren(...(outcome.error ? failure(outcome.error) : outcome.rows ? [valueTable(outcome.rows, "The response has no fields. It shows only that the handler has returned.")] : []));
     this.answer.classList.toggle("ros-past-answer", phase === "running");
     this.#drawButtons();
   }

@@ -83,7 +83,8 @@ def _draw_error(paper: Paper, error: State) -> None:
 def _draw_services(paper: Paper, services: list[State]) -> None:
     own = [each for each in services if not each["tool"]]
     paper.write(
-        "Pick a service to see what it asks for. On the graph now:" if own else "No service yet", FAINT
+        "Pick a service to see the fields of its request. On the graph now:" if own else "No service yet",
+        FAINT,
     )
     paper.y += 4
     for each in own[:MOST]:

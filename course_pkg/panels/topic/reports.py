@@ -102,16 +102,18 @@ def published(report: PublisherReport, own: str) -> str:
         same = len(peers) == report["reached"]
         return f"Message {count} went to {_all(peers) if same else _count(report['reached'], 'subscriber')}."
     if not report["latch"]:
-        return f"Message {count} went to nobody: no subscriber was connected when it was published."
+        return f"Message {count} reached no subscriber: no subscriber was connected when it was published."
     if peers:
         return f"Message {count} was kept, and went to {_all(peers)} as soon as it was connected."
-    return f"Message {count} went to nobody yet. It is latched, so the next subscriber gets it."
+    return f"Message {count} has reached no subscriber yet. It is latched, so the next subscriber gets it."
 
 
 def _rate(report: PublisherReport) -> str:
     measured = report["statistics"].get("rate")
     kept = f" (measured: {measured:.4g} Hz)" if measured else ""
-    skipped = f" {_count(report['skipped'], 'message')} had to be left out." if report["skipped"] else ""
+    skipped = (
+        f" {_count(report['skipped'], 'message')} could not be sent in time." if report["skipped"] else ""
+    )
     return f"Publishing at {report['rate']:g} Hz{kept}.{skipped}"
 
 

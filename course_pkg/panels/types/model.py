@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 Catalogue = tuple[tuple[str, ...], tuple[str, ...]]  # service types, message types
 TOOLS = {"srv": "rossrv", "msg": "rosmsg"}
 CHANGED = (
-    "The file has changed since the type was built. The panel shows the built type, which programs here "
-    "still use. Build it again with catkin_make, and restart the kernel."
+    "The file has changed since the type was built. The panel shows the built type, which programs "
+    "here still use. Build the type again with catkin_make, and restart the kernel."
 )
 UNBUILT = (
     "This type is not built yet. ROS's tools show it from its file, but Python can import it only after "

@@ -324,4 +324,7 @@ def _of_body(kind: MessageType | None) -> str:
         return "These are fields of a type that is not known here."
     if not kind.fields:
         return "This part of the type has no fields, so the length is 0 and nothing follows."
-    return "The fields follow in the order of the definition, without names. So the MD5 must be equal."
+    return (
+        "The fields follow in the order of the definition, without names. Therefore, client and server "
+        "must have the same MD5."
+    )

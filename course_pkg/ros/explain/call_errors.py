@@ -14,7 +14,7 @@ FROM_CALLS: tuple[Row, ...] = (
     (
         r"timeout must be non-zero",
         "wait_for_service() needs a timeout above 0.",
-        "Give it some seconds, or omit the wait and catch the exception of the call.",
+        "Give a timeout of some seconds, or omit wait_for_service() and catch the exception of the call.",
         "06",
     ),
     (
@@ -51,13 +51,19 @@ FROM_CALLS: tuple[Row, ...] = (
     (
         r"unable to receive data|transport error completing service call|Connection reset",
         "The server ended during the call.",
-        "Start the server again. Repeat the call only if the server may do the work twice.",
+        (
+            "Start the server again. Repeat the call only if it does no harm when the server does the "
+            "work twice."
+        ),
         "12",
     ),
     (
         r"CallTimeout.{0,300}accepts connections, but sends nothing",
         "The server did not answer in time: it is stopped, or blocked by a connection that sends nothing.",
-        "Inspect its process: `kill -CONT` continues a stopped process. Otherwise start the server again.",
+        (
+            "If the server's process is stopped, resume it with `kill -CONT`. Otherwise start the "
+            "server again."
+        ),
         "12",
     ),
     (

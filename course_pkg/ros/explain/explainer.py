@@ -17,7 +17,10 @@ _BUILD = re.compile(r"^(?:CMake Error|-- |Base path:|Invoking \"|\[rospack\])", 
 
 NOTHING = Explanation(
     "There is no error message. A call that waits prints nothing, because rospy has no time limit for calls.",
-    "Find the server's name with `rosservice info`, then check with `rosnode ping` if this node answers.",
+    (
+        "Find the server's node with `rosservice info`. Then check with `rosnode ping` whether this "
+        "node answers."
+    ),
     "12",
     known=False,
 )

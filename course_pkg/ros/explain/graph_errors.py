@@ -21,14 +21,17 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"Unable to register with master node",
-        f"{NO_MASTER} init_node() keeps trying, and prints this only once.",
+        f"{NO_MASTER} init_node() keeps trying, and prints this message only once.",
         "Start a master, or correct ROS_MASTER_URI. Ctrl-C ends the wait.",
         "12",
     ),
     (
         r"MasterSilent|accepts connections, but did not answer within|the master at \S+ does not answer",
         "The master accepts connections, but does not answer: it is stopped, or hangs.",
-        "Continue it (`kill -CONT` with its process id), or end it and restart the master and all nodes.",
+        (
+            "Resume the stopped process (`kill -CONT` with its process id), or end it and restart the "
+            "master and all nodes."
+        ),
         "12",
     ),
     (
@@ -65,7 +68,10 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"signal only works in main thread",
-        "init_node() was called outside the main thread. It stopped halfway; a second call does not work.",
+        (
+            "init_node() was called outside the main thread. The call stopped before its end, and a "
+            "second call does not work."
+        ),
         "Restart the kernel, and call init_node() or join() in a separate cell before you start threads.",
         "02",
     ),
@@ -90,7 +96,7 @@ FROM_GRAPH: tuple[Row, ...] = (
     (
         r"topic types do not match",
         "Publisher and subscriber of one topic have different types. The subscriber gets no error.",
-        "Compare them with `rostopic info` and `rostopic type`, and use the same type in both nodes.",
+        "Compare the types with `rostopic info` and `rostopic type`, and use the same type in both nodes.",
         "02",
     ),
     (

@@ -56,7 +56,10 @@ FROM_HANDLERS: tuple[Row, ...] = (
     (
         r"service cannot process request: handler ended with (?:SystemExit|KeyboardInterrupt)",
         "The handler called sys.exit() or was interrupted, so it returned no response.",
-        "Return a response or raise ServiceException; with plain rospy, the client would wait for ever.",
+        (
+            "Return a response or raise ServiceException. Without the course's tools, the client would "
+            "wait forever."
+        ),
         "05",
     ),
     (

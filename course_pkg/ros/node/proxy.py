@@ -230,7 +230,10 @@ class _Call:
         if self.transport is None or not self.transport.socket:
             return "the server was not reached"
         if self.transport.md5sum is None:
-            return "the server accepts connections, but sends nothing: it is stopped or busy with another one"
+            return (
+                "the server accepts connections, but sends nothing: it is stopped or busy with another "
+                "connection"
+            )
         return "its handler is still working, is waiting for something, or has ended without an answer"
 
     def _break_off(self, error: GraphError) -> None:

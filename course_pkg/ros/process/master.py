@@ -15,7 +15,7 @@ from types import TracebackType
 from course_pkg.errors import GraphError, MasterSilent, MasterUnreachable, PortBusy, SetupError
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
-from course_pkg.waiting import wait_until
+from course_pkg.waiting import at_this_load, wait_until
 
 READY = 15.0  # maximum time in s until the master answers; usually 0.15 s, but much longer on a busy machine
 ATTEMPTS = 5
@@ -104,9 +104,10 @@ class PrivateMaster:
         Return whether `process` is the master that answered.
         """
         client = MasterClient(self.uri, timeout=1.0)
-        pid = wait_until(lambda: _pid(client) or (process.returncode is not None and ENDED), READY, 0.005)
+        limit = at_this_load(READY)
+        pid = wait_until(lambda: _pid(client) or (process.returncode is not None and ENDED), limit, 0.005)
         if not pid:
-            raise GraphError(f"rosmaster was started, but did not answer at {self.uri} within {READY:g} s.")
+            raise GraphError(f"rosmaster was started, but did not answer at {self.uri} within {limit:.0f} s.")
         return pid == process.pid
 
 

@@ -12,7 +12,7 @@ from course_pkg.errors import NodeFailed, SetupError
 from course_pkg.ros.process.master import OTHER_ADDRESSES, PrivateMaster, local_environment
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient
-from course_pkg.waiting import wait_until
+from course_pkg.waiting import at_this_load, wait_until
 
 ROSOUT = "/rosout"  # the name of the node, and also of its topic
 # maximum time in s until /rosout is registered; usually 0.05 s, but much longer on a busy machine
@@ -68,9 +68,9 @@ class Roscore(PrivateMaster):
             ended = rosout.returncode is not None
             return "met" if _receives(client) else "ended" if ended else ""
 
-        if wait_until(settled, READY, INTERVAL) != "met":
+        if wait_until(settled, at_this_load(READY), INTERVAL) != "met":
             raise NodeFailed(
-                f"The node {ROSOUT} has ended, or is not on the graph after {READY:g} s. Start it again.",
+                f"The node {ROSOUT} has ended, or does not appear on the graph. Start it again.",
                 "",
                 rosout.returncode,
             )

@@ -37,7 +37,9 @@ def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Pa
         topic = listening(lab_page)
         topic.get_by_label("data").fill("1.5")
         topic.get_by_role("button", name="Publish", exact=True).click()
-        expect(topic.get_by_text("Message 1 went to nobody: no subscriber was connected")).to_be_visible()
+        expect(
+            topic.get_by_text("Message 1 reached no subscriber: no subscriber was connected")
+        ).to_be_visible()
         expect(topic.locator(".ros-deliveries")).to_contain_text("this panel")
         expect(topic.get_by_text("Nothing received yet.").first).to_be_visible()
         topic.get_by_label("data").fill("-2.5")
@@ -108,7 +110,7 @@ def test_a_busy_kernel_is_reported(lab: Lab, lab_page: Page) -> None:
         topic.get_by_role("button", name="Publish", exact=True).click()
         expect(topic.get_by_text("Waiting for the kernel: it is busy with another cell.")).to_be_visible()
         busy.unlink()
-        expect(topic.get_by_text("Message 1 went to nobody")).to_be_visible()
+        expect(topic.get_by_text("Message 1 reached no subscriber")).to_be_visible()
         expect(topic.get_by_text("Waiting for the kernel")).to_be_hidden()
 
 

@@ -157,7 +157,8 @@ def test_the_last_attempt_by_time(tmp_path: Path) -> None:
     (chosen,) = attempts_to_grade([given], "last", lambda each: times[each.origin])
     assert chosen.origin == f"s01/a/{FILE}"
     assert chosen.notes == (
-        f"Handed in 2 times: {chosen.origin} was handed in last and was graded, not s01/b/{FILE}.",
+        f"Handed in 2 times: {chosen.origin} was handed in last and was graded. "
+        f"These do not count: s01/b/{FILE}.",
     )
     assert attempts_to_grade([given], "last", lambda _: None) == [given]
 
@@ -174,5 +175,7 @@ def test_the_best_attempt_counts_after_lateness(tmp_path: Path) -> None:
     last = replace(grade, origin=names[2], factor=0.9)
     (best,) = best_attempts([full, last])
     assert best.origin == names[2]
-    assert best.notes[-1] == f"Handed in 2 times: {names[2]} has the most points and counts, not {names[0]}."
+    assert best.notes[-1] == (
+        f"Handed in 2 times: {names[2]} has the most points and counts. These do not count: {names[0]}."
+    )
     assert best_attempts([grade]) == [grade]

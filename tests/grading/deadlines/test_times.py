@@ -135,7 +135,7 @@ def test_the_table_of_collected_files(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("Teilnehmer,Zuletzt geändert (Abgabe)\n", "switch it to English"),
+        ("Teilnehmer,Zuletzt geändert (Abgabe)\n", "switch Moodle to English"),
         ("student,days\n", "student,submitted"),
         ("student,submitted\nsecret,soon\n", "line 2: this is not a time"),
         ("student,submitted\n,2026-11-01T10:00Z\n", "line 2: each row needs a student"),

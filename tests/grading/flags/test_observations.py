@@ -99,7 +99,7 @@ def test_a_flag_shows_the_line() -> None:
     answer = ANSWER.format(line="\nimport inspect  # why?")
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": answer}))["s01"]
     assert (flag.where, flag.line, flag.evidence) == ("05.1", 2, "import inspect  # why?")
-    assert flag.words == "It imports inspect."
+    assert flag.words == "The code imports inspect."
 
 
 def test_the_solutions_have_no_flags() -> None:
@@ -124,7 +124,7 @@ def test_right_example_answers() -> None:
         handed_in = [submission(f"s{number}", answers, chapter) for number, answers in ours]
         flags = [flag for each in flags_of(SEARCHED, *handed_in).values() for flag in each]
         flagged += [(flag.where, flag.words) for flag in flags]
-    assert flagged == [("08.1", "It calls subprocess.run(), which can run other programs.")]
+    assert flagged == [("08.1", "The code calls subprocess.run(), which can run other programs.")]
 
 
 def test_a_program_in_a_package() -> None:
@@ -153,4 +153,4 @@ def test_programs_that_are_hard_to_read() -> None:
 def test_a_program_that_is_too_long() -> None:
     """The instructor is told that the program was not searched."""
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": "x = 1\n" * 5000}))["s01"]
-    assert flag.words == "It is too long, so its code was not searched."
+    assert flag.words == "The code is too long, so it was not examined for flags."

@@ -28,11 +28,11 @@ START = "\x1b[91mNotebook cell execution failed\x1b[0m\n\x1b[94mCell 3: "
         ),
         (
             f"{START}Cell outputs differ\n mismatch 'text/html'\n<p>cut",
-            "The cell showed another output than with the right answers.",
+            "The output of the cell differs from the output with the right answers.",
         ),
         (
             f"{START}Cell outputs differ\n\nMissing output fields from running code: {{'text/plain'}}",
-            "The cell showed no output, or less output than with the right answers.",
+            "The cell showed no output, or less output than it shows with the right answers.",
         ),
         (
             "pytest plugin exception: Kernel dead on test start",

@@ -188,7 +188,7 @@ def test_last_of_several_answers_is_used() -> None:
     """The last of several answers is used, and a note tells the student."""
     made = _rebuilt(_student(lambda cells: _copied(cells, D, OTHER), d=ANSWER))
     assert made.answers["05.1"] == OTHER
-    assert made.notes == ("05.1: 2 cells answer it; the last one was used.",)
+    assert made.notes == ("05.1: 2 cells answer this exercise; the last one was used.",)
 
 
 def test_identical_copy_leads_to_no_note() -> None:
@@ -300,7 +300,9 @@ def test_tags_and_metadata_of_the_student_stay_out() -> None:
         cells[_place(cells, D)]["metadata"]["tags"] = ["nbval-skip", "raises-exception", "mine"]
 
     made = _rebuilt(_student(change, d=ANSWER))
-    assert made.notes == ("05.1: The tag nbval-skip, raises-exception on its cell has no effect in grading.",)
+    assert made.notes == (
+        "05.1: The tag nbval-skip, raises-exception on the exercise's cell has no effect on the grade.",
+    )
 
 
 def test_markers_and_magics_are_removed() -> None:

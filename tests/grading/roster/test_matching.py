@@ -103,7 +103,7 @@ def test_the_summary() -> None:
     """The sentences list missing students, students who are not on the roster, and unclear students."""
     origins = {name: [f"{name}/05.ipynb"] for name in ("jdoe", "mmueller", "Ann Lee", "s99")}
     assert list(_matched(origins).summary()) == [
-        "Roster: 2 of 4 students handed in.",
+        "Roster: 2 of 4 students handed in their work.",
         "1 is not on the roster: s99.",
         "It is unclear which student Ann Lee is: it fits several rows of the roster (lines 4 and 5).",
         "canvas.csv and moodle.csv have no row for such a student. Correct the list, or the name of the "

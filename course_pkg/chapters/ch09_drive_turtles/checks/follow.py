@@ -36,7 +36,11 @@ STOPS = (
 )
 CALLED = "Call /spawn, /toggle_forward and /change_speed in this order."
 PASSED_ON = "Publish the velocities of turtle1 for MyTurtle."
-FOLLOW_GOALS = {CALLED: 3, PASSED_ON: 3, "End with 1 if a service is missing or refuses.": 2}
+FOLLOW_GOALS = {
+    CALLED: 3,
+    PASSED_ON: 3,
+    "End with exit status 1 if a service is missing or refuses a call.": 2,
+}
 
 
 @part(
@@ -209,7 +213,7 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
         expected=COUNT,
         actual=len(received),
         hints=[
-            (0, "The callback publishes nothing. Let it publish the message that it gets."),
+            (0, "The callback publishes nothing. In the callback, publish the message that arrived."),
             (
                 (lambda count: count > COUNT),
                 "Some velocities were published more than once. Publish once in the callback, not in a loop.",
@@ -244,7 +248,10 @@ def _stops_early(
         holds=driver.calls == calls,
         expected=", ".join(f"/{name}" for name in calls),
         actual=", ".join(f"/{name}" for name in driver.calls) or "no call",
-        hints="The program called another service after a failure. End the program at the first failure.",
+        hints=(
+            "The program continued to call services after a failure. End the program as soon as a "
+            "service is missing or refuses a call."
+        ),
     )
     printed = done.out + done.err
     context.require(
@@ -253,7 +260,7 @@ def _stops_early(
         expected="a message, and the exit status 1",
         actual="a traceback" if "Traceback" in printed else outcome(done),
         hints=(
-            "The program waits without a limit, or continues without the service. Give each "
+            "The program waits without a limit, or continues although a service is missing. Give each "
             "wait a timeout of 5 s."
         )
         if done.status is None

@@ -66,7 +66,8 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
                 ),
                 (
                     ANYTHING,
-                    "Before the first call, the speed has to be 1.0, and the direction straight ahead.",
+                    "Before the first call, the turtle has to move straight ahead at 1.0 m/s. Check the "
+                    "first values of your variables.",
                 ),
             ],
         )
@@ -104,10 +105,13 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
             [
                 (
                     STRAIGHT,
-                    "The turtle still moves at 1.0 m/s. Let the loop use the variable that the "
-                    "handler changes.",
+                    "The turtle still moves at 1.0 m/s. In the loop, use the variable that the handler "
+                    "changes.",
                 ),
-                ((abs(wanted), 0.0), "A negative speed means backwards. Publish the number with its sign."),
+                (
+                    (abs(wanted), 0.0),
+                    "A negative speed moves the turtle backwards. Publish the number with its sign.",
+                ),
                 (
                     (float(int(wanted)), 0.0),
                     "The part after the decimal point is lost. Use a float, or a double in C++.",
@@ -153,7 +157,7 @@ def _starts_and_stops(
         stream.becomes(
             STANDING,
             "data=False stops the turtle: the program publishes velocities of 0",
-            "The turtle still moves. While it is stopped, publish messages whose fields are all 0.",
+            "The turtle still moves. After a call with data=False, publish messages whose fields are all 0.",
         )
         _says(context, switch, moving=False, already=True)
         speed = context.random.number(2.0, 9.0)
@@ -170,8 +174,8 @@ def _starts_and_stops(
                 ),
                 (
                     ANYTHING,
-                    "After data=True, the turtle has to move with its old direction and the last speed. Do "
-                    "not change either of them when you stop it.",
+                    "After data=True, the turtle has to move in its old direction and at the last "
+                    "speed. Do not change the direction or the speed when you stop the turtle.",
                 ),
             ],
         )
@@ -194,10 +198,11 @@ def _says(context: CheckContext, switch: Service, *, moving: bool, already: bool
         expected='a message with the word "already"' if already else 'a message without the word "already"',
         actual=response.message,
         hints=[
-            ("", "The message is empty. Write into it what the handler has done."),
+            ("", "The message is empty. Write a text that describes what the handler has done."),
             (
                 matches("already"),
-                "This call changed the state. Compare `data` with the state before you set the state.",
+                'This call changed the state, so the message must not contain "already". Compare `data` '
+                "with the old state before you set the new state.",
             ),
             (
                 ANYTHING,

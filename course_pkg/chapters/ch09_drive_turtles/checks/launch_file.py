@@ -59,7 +59,7 @@ START = f"""%%writefile {FILE.path}
     "09.6",
     points=2,
     goal=(
-        "Repair exercise3.launch: start the simulator and the driver always, but "
+        "Repair exercise3.launch, so that it always starts the simulator and the driver, but starts "
         "spawn_turtle_plus only with addturtle:=true."
     ),
     needs=[f"file:{FILE.path}"],
@@ -137,8 +137,8 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
         hints=[
             (
                 (lambda _: wanted),
-                "The node is missing with addturtle:=true. Compare the name in the condition "
-                "with the name of the argument.",
+                "With addturtle:=true, a node is missing. Compare the name of the argument in your "
+                "condition with the name in the <arg> tag.",
             ),
             (
                 (lambda _: not argument),
@@ -172,8 +172,8 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
         expected=f"three programs, two of them in {file.package}",
         actual=telling_line(missing[0] if missing else done.out),
         hints=(
-            "The attributes pkg and type are the two words that follow rosrun: the package "
-            "and the file name of the program."
+            'Write the two words that follow `rosrun` in a terminal into the attributes "pkg" and '
+            '"type": the package and the file name of the program.'
         ),
     )
 
@@ -189,7 +189,10 @@ def _runs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
         holds=alike,
         expected="two turtles, each with a driver",
         actual=telling_line(printed),
-        hints="The three programs start, but their names do not match. Remove ns, remap and args.",
+        hints=(
+            "The three programs start, but they use different names for the topics and services. Remove "
+            'the attributes "ns" and "args" and each <remap> tag.'
+        ),
     )
 
 

@@ -15,7 +15,7 @@ KIND = "course_pkg/ChangeRate"
 AT_FIRST = 2.0  # messages per second
 # messages per second; the check sets this rate at the end, because the next message then comes after 1000 s
 TINY = 0.001
-ALLOWED = "The node refused a rate that is allowed: above 0 and at most 100, with fractions."
+ALLOWED = "The node refused a rate that is allowed. Accept every number above 0 and up to 100, such as 2.5."
 REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
 
 START = f"""%%writefile {PROGRAM.path}
@@ -56,15 +56,17 @@ if __name__ == "__main__":
         publisher.publish(message)
         rate.sleep()
 """
-CHANGED = "Change the rate, return the old one, and refuse impossible rates."
+CHANGED = "Change the rate, return the old rate, and refuse impossible rates."
 RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
 
 
 @part(
     "09.3",
     points=3,
-    goal="Repair pubvel_toggle_plus.py: /change_rate changes the rate, returns the old one, and refuses "
-    "impossible rates.",
+    goal=(
+        "Repair pubvel_toggle_plus.py, so that /change_rate changes the rate, returns the old rate, and "
+        "refuses impossible rates."
+    ),
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
@@ -90,7 +92,9 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
             expected=rate,
             actual=change(rate=rate).before,
             near=1e-6,
-            hints="A call of /toggle_forward changed the rate, too, but it has to change only the direction.",
+            hints=(
+                "A call of /toggle_forward also changed the rate. In its handler, change only the direction."
+            ),
         )
         stream.moves_turtle()
         change(rate=TINY)
@@ -112,8 +116,8 @@ def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
             stream.has_rate(
                 wanted,
                 "the program publishes at the rate that /change_rate sets",
-                "You cannot change the rate of a Rate object. When the number has changed, "
-                "create a new Rate object.",
+                "You cannot change the rate of a Rate object. After a call of /change_rate, create a "
+                "new Rate object.",
             )
     for impossible in (0.0, -slow, 100.5, float("nan")):
         refuses(context, change, "impossible rates are refused", rate=impossible)
@@ -123,8 +127,8 @@ def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
         actual=change(rate=fast).before,
         near=1e-6,
         hints=(
-            "The handler refused the rate, but it had already stored it. Check the number "
-            "before you store it."
+            "The handler stored the rate before it refused the call. Check the rate first, and store "
+            "only a rate that is allowed."
         ),
     )
     return fast
@@ -159,7 +163,7 @@ def refuses(context: CheckContext, service: Service, assertion: str, **fields: f
     """
     (number,) = fields.values()
     why = (
-        "each comparison with nan is false, so your test does not find it"
+        "each comparison with nan is false, so your test does not find nan"
         if number != number
         else "this value is not allowed"
     )
@@ -170,5 +174,7 @@ def refuses(context: CheckContext, service: Service, assertion: str, **fields: f
         holds="error processing" not in error,
         expected="a refusal",
         actual=error,
-        hints="The handler failed with an error that rospy does not expect. Raise rospy.ServiceException.",
+        hints=(
+            "The handler raised an error of the wrong type. To refuse a call, raise rospy.ServiceException."
+        ),
     )

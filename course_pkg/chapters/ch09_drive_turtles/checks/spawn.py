@@ -43,14 +43,17 @@ if __name__ == "__main__":
     print("spawned", response.name)
 """
 SPAWNED = "Wait for /spawn, spawn the turtle, and print its name."
-ENDS = "End with 1 if no turtle was spawned."
+ENDS = "End with exit status 1 if no turtle was spawned."
 SPAWN_GOALS = {SPAWNED: 3, ENDS: 1}
 
 
 @part(
     "09.1",
     points=2,
-    goal="Change spawn_turtle.py: wait at most 5 s for /spawn, and end with 1 if no turtle was spawned.",
+    goal=(
+        "Change spawn_turtle.py: wait at most 5 s for /spawn, and end with exit status 1 if no turtle "
+        "was spawned."
+    ),
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
@@ -106,7 +109,11 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
         holds=len(requests) == 1,
         expected="one request",
         actual=f"{len(requests)} requests, and {outcome(done)}",
-        hints="Each call of /spawn creates a turtle: one call is enough." if requests else _why_no_call(done),
+        hints=(
+            "The program called /spawn more than once, and each call creates a turtle. Call /spawn only once."
+        )
+        if requests
+        else _why_no_call(done),
     )
     context.expect(
         "the request is x = 3, y = 3, theta = 0 and the name MyTurtle",
@@ -122,7 +129,10 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
                 (lambda actual: actual["name"] != "MyTurtle"),
                 "Compare the name with MyTurtle, letter by letter.",
             ),
-            (ANYTHING, "Compare your numbers with the fields that rossrv show turtlesim/Spawn prints."),
+            (
+                ANYTHING,
+                "Compare your numbers with the order of the fields in `rossrv show turtlesim/Spawn`.",
+            ),
         ],
     )
     context.require(
@@ -147,7 +157,10 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
 
 def _why_no_call(done: Finished) -> str:
     if done.status is None:
-        return "The program waits, but sends no request. Compare the service name in your wait with /spawn."
+        return (
+            "The program waits, but sends no request. Compare the name of the service for which you wait "
+            "with /spawn."
+        )
     if done.status == 0:
         return "The program ended without a request: call the service after the wait."
     return why_it_ended(done)
@@ -187,7 +200,10 @@ def _is_refused(context: CheckContext, world: World) -> None:
         holds=len(server.requests) <= 1,
         expected="one request",
         actual=f"{len(server.requests)} requests",
-        hints="The program repeated a call that was refused. Call once, and end after a failure.",
+        hints=(
+            "The program repeated a call that was refused. Call /spawn once, and end the program after a "
+            "failure."
+        ),
     )
     _fails_with_one(
         context,
@@ -215,9 +231,7 @@ def _gives_up(context: CheckContext, world: World, running: Running, began: floa
         actual=f"an end after {took:.0f} s",
         hints=NO_WAIT
         if took < NO_WAIT_ENDS
-        else (
-            "The program gave up too early. Give the timeout in seconds; in roscpp, write ros::Duration(5)."
-        ),
+        else "The program gave up too early. Set the timeout to 5 s; in roscpp, write ros::Duration(5).",
     )
     _fails_with_one(
         context,

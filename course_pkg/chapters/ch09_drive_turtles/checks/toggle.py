@@ -16,26 +16,31 @@ ONE_CALL = "after a call, the turtle turns at 1.0 rad/s"
 NEXT_CALL = "after the next call, the turtle goes straight ahead again"
 AT_FIRST: Hints = [
     (TURNING, "Before the first call, the turtle has to go straight ahead: begin with `forward = True`."),
-    (ANYTHING, "Straight ahead is linear.x = 1.0. Leave the other fields at 0."),
+    (ANYTHING, "To drive straight ahead, set linear.x = 1.0. Leave the other fields at 0."),
 ]
 TOGGLED: Hints = [
     (
         STRAIGHT,
-        "After the call, the turtle still goes straight ahead. Does the loop read the "
-        "variable that the handler changes?",
+        "After the call, the turtle still goes straight ahead. In the loop, read the variable that the "
+        "handler changes.",
     ),
     (
         (1.0, 1.0),
-        "The turtle turns, but it also still moves ahead. Make a new message in each "
-        "round of the loop, or set both numbers.",
+        "The turtle turns, but it also still moves ahead. Create a new message in each round of the "
+        "loop, or set both linear.x and angular.z.",
     ),
     (ANYTHING, "While the turtle turns, linear.x has to be 0.0, and angular.z has to be 1.0."),
 ]
 BACK: Hints = [
-    (TURNING, "The second call changed nothing. Each call changes True to False, or False to True."),
+    (
+        TURNING,
+        "The second call changed nothing. Each call has to change the variable from True to False, or "
+        "from False to True.",
+    ),
     (
         ANYTHING,
-        "After the second call, the velocity has to be the same as at the beginning: set both numbers.",
+        "After the second call, the velocity has to be the same as at the beginning: set both linear.x "
+        "and angular.z.",
     ),
 ]
 
@@ -61,7 +66,10 @@ TOGGLE_GOALS = {TOGGLED_BY_CALL: 3, "Publish twice per second, and move the turt
 @part(
     "09.2",
     points=2,
-    goal="Add /toggle_forward to pubvel_toggle.py: each call changes between straight ahead and turning.",
+    goal=(
+        "Add the service /toggle_forward to pubvel_toggle.py: each call changes between driving straight "
+        "ahead and turning."
+    ),
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
     start=START,
@@ -86,7 +94,8 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         stream.has_rate(
             RATE,
             "the program publishes twice per second",
-            "rospy.Rate(2) and ros::Rate(2) mean 2 Hz, which is two messages per second.",
+            "rospy.Rate(2) and ros::Rate(2) mean 2 Hz, which is two messages per second. Call sleep() "
+            "of this object once after each message.",
         )
         stream.moves_turtle()
 

@@ -147,8 +147,8 @@ def why_it_ended(done: Finished) -> str:
             "before it show the place of the error."
         )
     return (
-        "The program reached its last line and ended. A node that publishes has to run "
-        "in a loop until it is shut down."
+        "The program reached its last line and ended. Publish in a loop that runs until the node is shut "
+        "down."
     )
 
 

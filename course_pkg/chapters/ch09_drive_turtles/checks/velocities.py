@@ -18,8 +18,8 @@ KEEP_COMING = "the program publishes velocities all the time"
 SILENCE = 4.0  # maximum s without a message; in the check, the programs publish at least twice per second
 FLYING = 0.05  # s after a response; in this time, a message from before the call may still arrive
 SILENT = (
-    "No velocity arrived for 4 s. Publish in each round of the loop, even if the velocity is 0, and never "
-    "make the pause between two messages longer."
+    "No velocity arrived for 4 s. Publish a message in each round of the loop, even if the velocity is "
+    "0, and do not add other pauses to the loop."
 )
 NEAR = 0.25  # allowed relative error of a rate, because the machine may be busy
 
@@ -34,7 +34,13 @@ class Stream:
         self._subscription: Subscription = context.subscribe(world.name("turtle1/cmd_vel"), TWIST)
         self._subscription.published(
             within=4.0,
-            hints=[("no publisher", "Publish on /turtle1/cmd_vel, and compare this name with yours.")],
+            hints=[
+                (
+                    "no publisher",
+                    "The node does not publish on /turtle1/cmd_vel. Compare the name of your topic with this "
+                    "name.",
+                )
+            ],
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:

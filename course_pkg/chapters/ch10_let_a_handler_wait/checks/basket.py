@@ -47,30 +47,30 @@ checked_basket = CheckedBasket()
 """
 )
 FOREVER = (
-    "The handler of /take waits longer than the limit. Pass the remaining time to "
-    "wait or wait_for, and count the limit from the beginning of the call."
+    "The handler of /take waits longer than the limit. Pass the remaining time to `wait` or `wait_for`: "
+    "the time limit starts at the beginning of the call."
 )
 HELD = (
-    "A call of /put got no response while a call of /take was waiting. Wait with "
-    "the method wait or wait_for of the condition, which releases the lock in the "
-    "meantime."
+    "A call of /put got no response while a call of /take was waiting. Use the method `wait` or "
+    "`wait_for` of the condition, which releases the lock while the thread waits."
 )
 NOT_WOKEN = (
     "An item came, but the waiting call did not return. Call notify_all() or "
     "notify() in handle_put, after the change."
 )
 TOO_MANY = (
-    "More items were taken than were put in. A thread that wakes up must check "
-    "again whether an item is there: wait in a while loop, or use wait_for."
+    "More items were taken than were put in. A thread that wakes up must check again whether an item is "
+    "there: use a `while` loop, or use `wait_for`."
 )
 TOO_EARLY = (
-    "The handler of /take did not wait for the whole limit. A thread may wake up although no item is "
-    "there. In this case, the thread has to wait again, for the remaining time."
+    "The handler of /take returned before its time limit was over. If a thread wakes up although no item "
+    "is there, wait again for the remaining time."
 )
 ERRORS = [
     (
         matches("un-acquired lock"),
-        "The methods wait and notify need the lock of the condition. Call them inside `with self.changed:`.",
+        "The methods `wait` and `notify` need the lock of the condition. Call these methods inside "
+        "`with self.changed:`.",
     ),
     (
         matches("field message must be"),
@@ -154,7 +154,8 @@ def _at_once(context: CheckContext, assertion: str, took: float) -> None:
         expected="an immediate response",
         actual=f"a response after {took:.1f} s",
         hints=(
-            "An item was in the basket before the call. Check first, and wait only while the basket is empty."
+            "An item was in the basket before the call. First check whether the basket is empty, and "
+            "wait only in this case."
         ),
     )
 

@@ -109,16 +109,20 @@ class Gate:
 NOT_TOGETHER: Hints = [
     (
         1,
-        "The second call began after the first call had returned. Start all threads "
-        "before you join the first thread, and pass the function to the thread without "
-        "calling it.",
+        "The second call began after the first call had returned. Start all threads before you call "
+        "join(), and write the `target` of each thread without parentheses.",
     ),
-    (ANYTHING, "Some calls began only after other calls had returned. Start all threads first."),
+    (
+        ANYTHING,
+        "Some calls began only after other calls had returned. Start all threads before you call join() "
+        "of the first thread.",
+    ),
 ]
 ERRORS = [
     (
         matches("TimesUp"),
-        "All calls have returned, but the function has not. Join each thread once, after its start.",
+        "All calls have returned, but your function has not returned. Start each thread, and then call "
+        "join() of each thread once.",
     ),
     (
         matches("cannot join thread before"),
@@ -181,11 +185,11 @@ def _called(context: CheckContext, count: int, gate: Gate) -> None:
         hints=[
             (
                 0,
-                "The service was not called. Call the service in `name`; if the thread's target "
-                "has one argument, args is a tuple such as (name,).",
+                "The service was not called. Call the service whose name is in `name`; for a target "
+                "with one argument, `args` has to be a tuple such as (name,).",
             ),
             (lambda actual: actual < count, "There were too few calls. Start one thread for each call."),
-            (ANYTHING, "There were too many calls. Let each thread make one call."),
+            (ANYTHING, "There were too many calls. Make exactly one call in each thread."),
         ],
     )
     context.expect(

@@ -41,13 +41,12 @@ FOREVER = (
     "The handler waits longer than request.patience. Use this time, in seconds, as the timeout of the wait."
 )
 RESTARTED = (
-    "After a change of the customers, the time limit started again. Calculate the "
-    "end of the waiting time once, or use wait_for, which does this for you."
+    "When the customers changed, the time limit started again from the beginning. Calculate the end of "
+    "the wait only once, or use `wait_for`, which does this for you."
 )
 LEFT = (
-    "The handler called watch.next() a second time without the lock, when the "
-    "customer had already left. Use the result of one call, or call it again inside "
-    "`with watch.changed:`."
+    "The handler called watch.next() a second time without the lock, when the customer had already left. "
+    "Use the result of the first call, or make the second call inside `with watch.changed:`."
 )
 RARELY = (
     "The handler calls watch.next() only a few times per second, so it notices a "
@@ -65,7 +64,7 @@ TOO_EARLY = (
 ERRORS = [
     (
         matches("cannot (wait on|notify on) un-acquired lock"),
-        "The methods wait and wait_for need the lock. Call them inside `with watch.changed:`.",
+        "The methods `wait` and `wait_for` need the lock. Call these methods inside `with watch.changed:`.",
     ),
     (
         matches("returned None"),
@@ -84,7 +83,7 @@ ERRORS = [
     (matches("TimesUp"), FOREVER),
     (
         matches("cannot process request"),
-        "If no customer came, do not raise an error. Return an ordinary response with detected=False.",
+        "If no customer came, do not raise an error. Return a normal response with detected=False.",
     ),
 ]
 FOUND = "Respond as soon as a customer is there, and after request.patience at the latest."
@@ -178,9 +177,13 @@ def _no(context: CheckContext, response: Message) -> None:
         hints=[
             (
                 lambda actual: actual[:2] == [False, 0],
-                "No customer came, so arrived has to be zero, which is rospy.Time().",
+                "No customer came, so the field `arrived` has to be the time 0, which is rospy.Time().",
             ),
-            (ANYTHING, "No customer is there, so detected has to be False and number has to be 0."),
+            (
+                ANYTHING,
+                "No customer is there, so the field `detected` has to be False, and the field `number` "
+                "has to be 0.",
+            ),
         ],
     )
 

@@ -46,7 +46,7 @@ CASES = Cases(
 )
 
 
-@part("10.7", points=2, goal="Find the cause for six observations.", needs=["causes"])
+@part("10.7", points=2, goal="Find the cause of each of six observations.", needs=["causes"])
 def find_the_cause(context: CheckContext) -> None:
     """Compare the cause that the student chose for each case with the right one."""
     compare_cases(context, "causes", CASES)

@@ -27,33 +27,34 @@ MEETING = 2.0  # s for which a call to the till waits for another call
 ABSENT = 4.0  # time limit for a sale without a server of the till, on a busy machine (s)
 CALL_BACK = 2.0  # s; after this time, the till continues without a response from the shop
 LOCKED = (
-    "The till called /left while it was charging, but got no response: your handler "
-    "holds the lock during the call, and /left needs this lock. Release the lock "
-    "before you call the till."
+    "The till called /left while it was charging, but got no response, because your handler holds the "
+    "lock that /left needs. Release the lock before you call the till."
 )
 SERIAL = (
     "The till never had two calls at the same time, so your handler holds a lock during the call. Release "
     "the lock before you call the till."
 )
 STUCK = (
-    "A client waits forever, because a lock was acquired but not released. `with` "
-    "releases the lock in every case."
+    "A client waits forever, because a lock was acquired but not released. Use `with`, which releases "
+    "the lock in every case."
 )
 ERRORS = [*SHELF_ERRORS, (matches("TimesUp"), STUCK)]
 TORN = (
-    "Two threads changed the shelf at the same time, so one change was lost. Hold "
-    "one lock while you read, decide and write, also when you put a thing back."
+    "Two threads changed the shelf at the same time, so one change was lost. Hold one lock while you "
+    "read, decide and write, and hold the same lock while you put a thing back."
 )
-SOLD_OUT = '"Sold out" is an ordinary response here. Return success=False, and do not raise an error.'
+SOLD_OUT = (
+    '"Sold out" is a normal response of /buy, not an error. Return success=False, and do not raise an '
+    "exception."
+)
 NOT_CAUGHT = (
     "The call of the till failed, and the exception ended your handler. Catch "
     "rospy.ServiceException, put the thing back, and return success=False."
 )
 
 NO_TILL = (
-    "The server of the till does not run, but the handler waits for it without a "
-    "limit. Call the till directly: the call raises rospy.ServiceException "
-    "immediately."
+    "The till has no server, but the handler waits for this service without a limit. Call the till "
+    "without a wait: the call raises rospy.ServiceException immediately."
 )
 
 
@@ -223,7 +224,7 @@ def _not_reserved(count: int) -> Hints:
 
 
 NOT_SOLD: Hints = [
-    (matches("False"), "The till has charged, but success is False. Set success to True."),
+    (matches("False"), "The till has taken the money, but success is False. Set success to True."),
     (ANYTHING, "The message of /buy has to be the number of the receipt, as a string."),
 ]
 
@@ -275,13 +276,13 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
             expected=False,
             actual=response.success,
             hints=(
-                "The till did not charge, but success is True. Return success=False after an "
-                "error of the till."
+                "The till did not take the money, but success is True. Return success=False if the call "
+                "of the till fails."
             )
             if asked == 1
             else (
-                "The call of the till failed, and your handler called the till again. Call it "
-                "once: the client decides what to do next."
+                "The call of the till failed, and your handler called the till again. Call the till only "
+                "once, because the client decides what to do next."
             ),
         )
         context.require(
@@ -347,8 +348,10 @@ def _sells_to_fifty(
         f"{CALLERS} clients at the same time: the number of things left is right",
         expected=count - sold,
         actual=shelf.things,
-        hints="The shelf that was given to Shop has another number than /left returns. Use its methods "
-        "read() and write(count), and do not replace them.",
+        hints=(
+            "The number on the shelf is different from the number that /left returns. Use the methods "
+            "read() and write(count) of the shelf, and do not replace these methods."
+        ),
     )
 
 

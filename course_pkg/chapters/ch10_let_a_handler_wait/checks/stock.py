@@ -16,15 +16,15 @@ from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.service_calls import Service
 
 STUCK = (
-    "A client waits forever, because no thread releases the lock. Release the lock in every case, as "
-    "`with` does, and do not acquire it again in a thread that already holds it."
+    "A client waits forever, because no thread releases the lock. Use `with`, which releases the lock in "
+    "every case, and do not acquire the lock twice in the same thread."
 )
 ERRORS = [
     *SHELF_ERRORS,
     (matches("TimesUp"), STUCK),
     (
         matches("cannot process request: '?b?'?sold out"),
-        '"Sold out" is an ordinary response. Return success=False, and do not raise an error.',
+        '"Sold out" is a normal response, not an error. Return success=False, and do not raise an exception.',
     ),
     (
         matches("has no attribute 'lock'"),
@@ -101,9 +101,13 @@ def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
         expected="sold out" if left is None else str(left),
         actual=seen.message,
         hints=[
-            ("", "The message is empty. Set it to the number that is left, as a string."),
+            ("", "The message is empty. Set it to the number of things that are left, as a string."),
             (str((left or 0) + 1), "This is the number before the sale. Return the number after the sale."),
-            (ANYTHING, 'The message has to be the number that is left, such as "7", or the text "sold out".'),
+            (
+                ANYTHING,
+                'The message has to be the number of things that are left, such as "7", or the text '
+                '"sold out".',
+            ),
         ],
     )
 
@@ -113,8 +117,8 @@ def _wrong_number_sold(count: int) -> Hints:
         ((lambda actual: actual > count), TWICE),
         (
             (lambda actual: actual < count),
-            "A client got no thing although some were left. If another thread holds the "
-            "lock, wait for the lock.",
+            "Some things were left, but a client got none of them. If another thread holds the lock, "
+            "wait for the lock.",
         ),
     ]
 
@@ -140,5 +144,8 @@ def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count:
         "the shelf contains the number of things that were not sold",
         expected=0,
         actual=shelf.things,
-        hints="The number on the shelf is wrong. Write the number of things that are left to the shelf.",
+        hints=(
+            "The number on the shelf is wrong. Count the things that are left, and write this number to "
+            "the shelf."
+        ),
     )

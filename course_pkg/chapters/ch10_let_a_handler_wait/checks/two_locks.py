@@ -204,7 +204,8 @@ ERRORS = [
     ),
     (
         matches("unlocked lock"),
-        "The function released a lock that it did not hold. `with` avoids this mistake.",
+        "The function released a lock that it did not hold. Use `with`, which releases each lock "
+        "exactly once.",
     ),
     (
         matches("TimesUp|in vain"),
@@ -222,14 +223,14 @@ CROSSED = (
     "the same order in every call, for example by the numbers of the shelves."
 )
 UNLOCKED = (
-    "A count was changed without both locks. Between the two changes, another thread may read a wrong "
-    "total: hold both locks while you read and write."
+    "A count was changed while the function did not hold both locks. Another thread can then read a "
+    "wrong total: hold both locks while you read and write."
 )
 
 UNLOCKED_READ = (
-    "A count was read before the function held both locks, so another thread may "
-    "change it in the meantime. First acquire the locks in the order of the "
-    "shelves' numbers, and then read."
+    "A count was read before the function held both locks, so another thread can change this count "
+    "before you write. First acquire both locks in the order of the shelves' numbers, and then read the "
+    "counts."
 )
 MOVED = "Move a thing in one thread, but not from an empty shelf."
 
@@ -342,8 +343,8 @@ def _moves_one(
         expected="two free locks",
         actual="a lock that is still held",
         hints=(
-            "A lock is still held after the function has returned. Release it in every "
-            "case; `with` does this."
+            "A lock is still held after the function has returned. Use `with`, which releases the lock "
+            "in every case."
         ),
     )
     _both_locks(context, pair)
@@ -355,13 +356,13 @@ def _both_locks(context: CheckContext, pair: CheckedPair) -> None:
         "both locks are held while a count changes",
         holds=all(held == 2 for held in changes),
         expected="two locks",
-        actual=f"{min(changes, default=0)} of them",
+        actual=f"locks held: {min(changes, default=0)}",
         hints=UNLOCKED,
     )
     context.require(
         "both locks are held while a count changes",
         holds=all(held == 2 for held in reads),
         expected="two locks while a count is read",
-        actual=f"{min(reads, default=0)} of them",
+        actual=f"locks held: {min(reads, default=0)}",
         hints=UNLOCKED_READ,
     )

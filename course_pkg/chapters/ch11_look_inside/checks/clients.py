@@ -13,21 +13,25 @@ ERRORS = [
     (
         matches("TransportTerminated|TransportInitError|AttributeError"),
         "A broken connection can raise three kinds of errors, and this error is one of them. Catch all "
-        "three, create a new proxy, and call once more.",
+        "three, create a new proxy, and call the service once more.",
     ),
     (
         matches("transport error"),
-        "The connection broke, and your method raised the error. Catch the error, "
-        "create a new proxy (the old proxy stays broken), and call once more.",
+        "The connection broke, and your method raised the error. Catch the error, create a new proxy "
+        "(the old proxy stays broken), and call the service once more.",
     ),
 ]
 
 
-AGAIN = "Your method called again and again. Call only once more, and raise the error of this second call."
+AGAIN = (
+    "Your method called the service again and again. Call the service only once more, and raise the "
+    "error of this second call."
+)
 NOT_MEASURED = "The second call failed, too, so there is no response. Raise the error of the second call."
 REFUSED = (
     "The server refused with an error message: raise this error.",
-    "The connection works, but the server refused. Call again only if the connection broke.",
+    "The connection works, but the server refused the call. Call the service again only if the "
+    "connection broke.",
 )
 ONE_FOR_ALL = "Use one connection for all calls, even after a refusal."
 STORED = "Look the address up once, and use the stored address for all calls."
@@ -185,14 +189,15 @@ LOST = [
 MOVED = [
     (
         matches("refused|OSError|Connection"),
-        "The server is not at the old address any more. Catch the OSError, look up the address again, and "
-        "call ask once more.",
+        "The server is not at the old address any more. Catch the OSError, look up the address again, "
+        "and call `ask()` once more.",
     )
 ]
 RESET = [
     (
         matches("ConnectionReset|BrokenPipe|ConnectionError|OSError"),
-        "Another program uses this address now, so ask raised another kind of OSError. Catch every OSError.",
+        "Another program uses this address now, so `ask()` raised a different kind of OSError. Catch "
+        "every OSError.",
     )
 ]
 SHARED = (
@@ -202,8 +207,8 @@ SHARED = (
 SAID_NO = (
     "The server refused the call, so the address was right: raise the error. Look up the address again "
     "only after an OSError.",
-    "Your method called twice. Call again only after an OSError, which means that "
-    "no server is at the address.",
+    "Your method called `ask()` twice. Call `ask()` again only after an OSError, which means that no "
+    "server is at the address.",
 )
 
 
@@ -284,12 +289,12 @@ def _measures_both(
     assertion: str,
     numbers: list[float],
     hints: Hints,
-    other: str = "These are not the numbers that ask returned. Return both numbers without a change.",
+    other: str = "These are not the numbers that `ask()` returned. Return both numbers without a change.",
 ) -> None:
     context.expect(
         assertion,
         expected=numbers,
         actual=client.measure(hints).returned(),
         near=1e-6,
-        hints=[(None, "The method returned None: return the tuple that ask returns."), (ANYTHING, other)],
+        hints=[(None, "The method returned None: return the tuple that `ask()` returns."), (ANYTHING, other)],
     )

@@ -52,8 +52,8 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
         ),
         (
             ANYTHING,
-            "Compare your bytes with the bytes of step 3: the length of the header, and "
-            "then the length and name=value of each field.",
+            "Compare your bytes with the bytes of step 3. First comes the length of the header, and "
+            "then, for each field, its length and its text name=value.",
         ),
     ]
 
@@ -126,11 +126,12 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed(fields, total=lambda body: len(body) + 4),
-            "The first length is too large by 4. It has to be the number of bytes that follow it.",
+            "The first length is too large by 4. Count only the bytes after this length, without its "
+            "own 4 bytes.",
         ),
         (
             _packed(fields, total=lambda _: len(fields)),
-            "The first number is the number of fields. It has to be the number of bytes that follow.",
+            "The first number is the number of fields. Write the number of bytes that follow instead.",
         ),
         (
             _packed(fields, count=len),
@@ -309,9 +310,8 @@ def _receive_errors(count: int = 1) -> Hints:
     return [
         (
             matches("^TimesUp"),
-            "An earlier call read too many bytes and lost them, and now the function waits "
-            "for them. Pass only the number of missing bytes to recv. (With makefile(), use "
-            "buffering=0.)",
+            "An earlier call read too many bytes and lost them, and now the function waits for these "
+            "bytes. Pass only the number of missing bytes to recv() (with makefile(), use buffering=0).",
         ),
         (
             matches("Bad file descriptor|closed file"),
@@ -320,8 +320,8 @@ def _receive_errors(count: int = 1) -> Hints:
         (
             matches("^(Connection|BrokenPipe)"),
             (
-                "The connection is still open, and the other bytes follow. A short piece is not the end; "
-                "only b'' means the end."
+                "The connection is still open, and the other bytes follow. Call recv() again after a "
+                "short piece, because only b'' means the end of the connection."
             )
             if count
             else (

@@ -116,13 +116,13 @@ NOT_REFUSED: Hints = [
     ),
     (
         matches("error processing request: 'session'|NoneType"),
-        "The missing field caused another exception. Read the field with .get(), and "
-        "raise rospy.ServiceException.",
+        "The missing field caused an exception of the wrong type. Read the field with .get(), and raise "
+        "rospy.ServiceException.",
     ),
     (
         matches("error processing request"),
-        "The handler raised an exception of another type. Raise rospy.ServiceException, "
-        "so that the client gets a refusal.",
+        "The handler raised an exception of the wrong type. Raise rospy.ServiceException, so that the "
+        "client gets a refusal.",
     ),
     (
         matches("returned None"),

@@ -86,8 +86,8 @@ UNTIL_THE_END = (
     "length contain the number of bytes that follow: receive exactly this number."
 )
 IN_ORDER = (
-    "After the whole header of the server, read one byte for success, then 4 bytes "
-    "of length, and then as many bytes as this length."
+    "First read the whole header of the server. Then read one byte for success, 4 bytes for the length "
+    "N, and N bytes of data."
 )
 ANSWERED = "Return the response, even if it arrives byte by byte."
 
@@ -227,8 +227,8 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
 WRONG_MD5: Hints = [
     (
         "*",
-        "The star matches every definition, even a definition with other fields. Send "
-        "the MD5 sum of your type.",
+        'The value "*" matches every definition, even a definition with other fields. Send the MD5 sum '
+        "of your type.",
     ),
     ("none", "The field `md5sum` is missing. The server needs this field to compare the definitions."),
     (ANYTHING, "This is the MD5 sum of another type, or only of the request: use geometry._md5sum."),
@@ -270,8 +270,8 @@ def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: 
         'The header of the server had a field "error". Check for this field before you send the request.'
         if in_handshake
         else (
-            "The byte for success was 0, so an error message follows instead of a response. "
-            "Read it, and raise it."
+            "The byte for success was 0, so an error message follows instead of a response. Read this "
+            "message, and raise a ServiceException with it."
         )
     )
     server_text = (

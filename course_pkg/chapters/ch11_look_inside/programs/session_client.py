@@ -17,7 +17,7 @@ from course_pkg.srv import AddUp
 
 USAGE = (
     "usage: session_client SESSION AMOUNT…   (example: session_client alice 5 "
-    "10)\nWith _rate:=2 it repeats all amounts until Ctrl-C, with two calls per "
+    "10)\nWith _rate:=2, the program repeats all amounts until Ctrl-C, with two calls per "
     "second."
 )
 

@@ -19,7 +19,10 @@ DECISIVE = {
     "A": "the master has an address for the name, but no process accepts connections at this address.",
     "B": "open connections to the server work; only the lookup of the name fails.",
     "C": "no service of this node responds, not even get_loggers.",
-    "D": "get_loggers responds, so the process runs. The two services without a response share something.",
+    "D": (
+        "get_loggers responds, so the process runs. The two services without a response wait for the "
+        "same object."
+    ),
     "E": "two handlers read the same number at the same time, but no call failed.",
     "F": "the server did the work of the first try; only the response was lost.",
     "G": "both servers work, but the master stores only the newest provider of a name.",

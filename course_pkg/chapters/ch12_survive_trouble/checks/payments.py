@@ -29,8 +29,8 @@ ERRORS = [
     ),
 ]
 UNKNOWN = (
-    "At the deadline, pay() does not know whether the till has charged. Return "
-    "None, and do not raise an error."
+    "At the deadline, pay() does not know whether the till has already taken the money. Return None, and "
+    "do not raise an error."
 )
 GIVEN_UP = [(matches("^TimeoutError|^ServiceException"), UNKNOWN), *ERRORS]
 
@@ -80,7 +80,7 @@ def pays_after(
         "each try has the same id",
         holds=len(ids) <= 1,
         expected="one request_id",
-        actual=f"{len(ids)} of them",
+        actual=f"{len(ids)} different ids",
         hints=(
             "The tries of one payment had different ids, so the till charges each try. "
             "Create the id once, before the first try."
@@ -102,8 +102,8 @@ def _why_given_up(words: str, took: float, tries: int) -> str:
     begin = f"In this case, the till was {words}. "
     if took > DEADLINE / 2 and tries < 2:
         return begin + (
-            "The first try used all the time. Give each try at most half a second, or the "
-            "remaining time if this is less."
+            "The first try used the whole time until the deadline. Limit each try to half a second, or "
+            "to the remaining time if this is less."
         )
     return (
         f"{begin}The till worked again before the deadline, but pay() had given up. Try "

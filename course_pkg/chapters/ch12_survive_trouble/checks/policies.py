@@ -19,10 +19,10 @@ DECISIVE = {
     "not started": "The call did not reach a server, but the server will run in a few seconds.",
     "md5": "The two programs were built with different definitions. Another try does not change this.",
     "speed": "The request sets a state. The second request has the same effect as the first one.",
-    "payment": "The till may have charged already, but it recognises a repeated request.",
+    "payment": "Perhaps the till has already taken the money, but it recognises a repeated request.",
     "step": (
-        "The robot may have moved already, and a second request would move it again. A "
-        "call of /where does not move it."
+        "Perhaps the robot has already moved, and a second request would move the robot again. A call of "
+        "/where does not move the robot."
     ),
 }
 ENTRIES = {

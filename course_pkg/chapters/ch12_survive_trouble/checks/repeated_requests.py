@@ -52,7 +52,7 @@ RACE = (
     "the receipt."
 )
 TOO_SOON = (
-    "A request failed and was repeated, but nothing was charged. Store the request_id after take has "
+    "A request failed and was repeated, but nothing was charged. Store the request_id after `take()` has "
     "returned, not before."
 )
 REFUSED = (
@@ -165,8 +165,8 @@ ANOTHER_RECEIPT: Hints = [
     (0, "The receipt is 0, the default of the field. Store the first receipt, and send it again."),
     (
         ANYTHING,
-        "The repetition got another receipt. Store the first receipt under the "
-        "request_id, and send it again.",
+        "The repetition got a different receipt. Store the first receipt under the request_id, and send "
+        "this receipt again.",
     ),
 ]
 
@@ -229,8 +229,8 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
         request_id=request_id,
         cents=cents,
         hints=(
-            "The purse raised an error, but the client got a receipt. Do not catch the "
-            "error, so that it reaches the client."
+            "The purse raised an error, but the client got a receipt. Remove the code that catches the "
+            "error: rospy then sends the error to the client."
         ),
     )
     charge(request_id=request_id, cents=cents)
@@ -267,7 +267,7 @@ NOT_REFUSED: Hints = [
     ),
     (
         matches("error processing"),
-        "The handler raised another exception for an empty id. Raise rospy.ServiceException.",
+        "For an empty id, the handler raised an exception of the wrong type. Raise rospy.ServiceException.",
     ),
     (
         ANYTHING,

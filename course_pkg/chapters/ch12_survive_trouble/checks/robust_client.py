@@ -160,7 +160,11 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
         saying=reason,
         hints=[
             (None, "The till refused, but pay() did not raise an error. Raise the ServiceException again."),
-            (ANYTHING, "pay() raised another error. Raise the same ServiceException, with a bare `raise`."),
+            (
+                ANYTHING,
+                "pay() raised a different error. To raise the same ServiceException again, write `raise` "
+                "without anything after it.",
+            ),
         ],
     )
     till.plan.clear()
@@ -187,8 +191,8 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
         expected="the receipt, after another try",
         actual=result.error,
         hints=(
-            'The error contains "handler returned", so the handler may have done its work '
-            "before. This is not a refusal: try again."
+            'The error contains "handler returned", so it is possible that the handler has done its '
+            "work. Do not treat this error as a refusal: try again."
         ),
     )
 
@@ -215,7 +219,7 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
         expected=f"one request to a till that takes {A_LITTLE:g} s",
         actual=f"{tries} requests within {result.took:.1f} s",
         hints=(
-            f"A try had less than {TRY:g} s, so pay() called the till again while it was "
+            f"A try had less than {TRY:g} s, so pay() called the till again while the till was "
             f"still working. Give each try {TRY:g} s."
         ),
     )

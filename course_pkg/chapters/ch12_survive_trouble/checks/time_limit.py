@@ -39,9 +39,9 @@ BUSY = 0.8  # CPU time in s; a thread that waits without a pause uses more in LO
 ERRORS = [
     (
         matches("TimesUp"),
-        "The function did not return when its time was over, because it still waits for "
-        "the thread. Check join(), and the `with` block of a thread pool, which waits "
-        "for its threads, too.",
+        "The function did not return when its time was over, because it still waits for the thread. "
+        "Check join(), and also check the `with` block of a thread pool: at its end, this block waits "
+        "for all threads.",
     ),
     (
         matches("^TimeoutError"),
@@ -219,5 +219,8 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         holds=context.read("checked_call.busy", float) < BUSY,
         expected="almost no processor time",
         actual=f"{context.read('checked_call.busy', float):.1f} s of processor time in {limit:g} s",
-        hints="The function needs processor time while it waits. Use join(seconds), which sleeps.",
+        hints=(
+            "The function needs processor time while it waits. Use join(seconds), which waits without "
+            "processor time."
+        ),
     )

@@ -29,8 +29,8 @@ DIED = (
     "OSError and rosgraph.MasterException inside the loop."
 )
 NEVER = (
-    "The master does not know the name, but the watchdog does not register the "
-    "service. Register it each time lookupService raises rosgraph.MasterError."
+    "The master does not know the name, but the watchdog does not register the service. Register the "
+    "service each time that lookupService() raises rosgraph.MasterError."
 )
 
 
@@ -140,8 +140,8 @@ def _registers_again(
         name,
         uri,
         "a name that is free again is registered",
-        "The other node has unregistered the name, but the watchdog does not register "
-        "it. Continue to poll after each result.",
+        "The other node has unregistered the name, but the watchdog does not register its own service. "
+        "Continue to poll after each result.",
     )
 
 
@@ -211,7 +211,7 @@ def _polls_with_pauses(context: CheckContext, watched: CheckedMaster, took: floa
         "the watchdog polls the master at intervals of `every` seconds",
         holds=looks < CALLS * (took / EVERY + 5),
         expected=f"a poll every {EVERY:g} s",
-        actual=f"{looks / took:.0f} a second",
+        actual=f"{looks / took:.0f} polls per second",
         hints=(
             "The watchdog polls without a pause. Wait for `every` seconds after each poll, "
             "even if the poll failed."
@@ -228,14 +228,14 @@ def _only_polls(context: CheckContext, watched: CheckedMaster) -> None:
         "a registered service is not registered again",
         holds=again == 0,
         expected="no registration",
-        actual=f"{again} of them",
+        actual=f"registrations: {again}",
         hints="The watchdog registers a name that the master already knows. Look up the name first.",
     )
     context.require(
         "the watchdog polls the master at intervals of `every` seconds",
         holds=looked > 3,
         expected="further polls",
-        actual=f"{looked} of them",
+        actual=f"polls: {looked}",
     )
     gap = watched.gap
     context.require(
@@ -250,9 +250,8 @@ def _only_polls(context: CheckContext, watched: CheckedMaster) -> None:
 NOT_STOPPED: Hints = [
     (
         "after stop",
-        "stop() returned while the thread was still calling the master, and the thread "
-        "then registered the service. Let stop() wait for the thread: join it, or use a "
-        "lock.",
+        "stop() returned while the thread was still calling the master, and the thread then registered "
+        "the service. In stop(), join the thread, or use a lock.",
     ),
     (
         "stop() hangs",

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {{
   return 0;
 }}
 """
-REPEATS = "Call at most 3 times, with pauses, and end with 1 after the last refusal."
+REPEATS = "Call the service at most 3 times, with pauses, and end with exit status 1 after the last refusal."
 
 
 @part(
@@ -284,8 +284,8 @@ def _prints(context: CheckContext, finished: Finished, volume: float, assertion:
 def _why_not_printed(finished: Finished, numbers: list[float]) -> str:
     if finished.status == 0 and numbers:
         return (
-            "The server sent another volume: print box.response.volume, and do not compute "
-            "the volume yourself."
+            "The server sent a different volume: print box.response.volume, and do not compute the "
+            "volume yourself."
         )
     return "Print box.response.volume to std::cout, and return 0."
 

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
 @part(
     "13.1",
     points=2,
-    goal="Repair CMakeLists.txt: catkin_make builds the program box_server from src/box_server.cpp.",
+    goal="Repair CMakeLists.txt, so that catkin_make builds the program box_server from src/box_server.cpp.",
     needs=[f"file:{FILE}"],
     deadline=90.0,
     start=START,
@@ -90,7 +90,10 @@ def cmake_list_file(context: CheckContext) -> None:
             "the program is built from src/box_server.cpp",
             expected=f"a program that prints {drawn}",
             actual=printed,
-            hint="The program was not built from src/box_server.cpp. Name this file in add_executable.",
+            hint=(
+                "The program was not built from src/box_server.cpp. Write the name of this file into "
+                "add_executable."
+            ),
         )
 
 
@@ -125,8 +128,8 @@ def _why_not_there(text: str) -> str:
     found = {command.name: command for command in cmake_commands(text) if not command.is_comment}
     if "add_executable" not in found:
         return (
-            "The command add_executable is missing, so CMake does not build a program from "
-            "src/box_server.cpp."
+            "The command add_executable is missing, so CMake builds no program. Add this command with "
+            "the name of the program and the file src/box_server.cpp."
         )
     if "catkin_package" not in found:
         return (
@@ -135,7 +138,7 @@ def _why_not_there(text: str) -> str:
         )
     if found["catkin_package"].line > found["add_executable"].line:
         return (
-            "catkin_package sets the folder for programs, so it has to come first: move it "
-            "above add_executable."
+            "The command catkin_package sets the folder for programs, so it has to come first. Move this "
+            "command above add_executable."
         )
     return "The first word in add_executable is the name of the program. It has to be box_server."

@@ -132,8 +132,8 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
         if took >= THINKING + COUNTING
         else f"{took:.2f} s for a client",
         hints=(
-            "Do not change the times in think() and count(), which replace real work. Let "
-            "the calls overlap instead."
+            "think() and count() replace real work, so do not change the times in these functions. Use "
+            "several threads, so that the calls overlap."
         ),
     )
 

@@ -53,8 +53,8 @@ RETURNED_FALSE = (
     "13.2",
     points=3,
     goal=(
-        "Repair box_server.cpp: its service `box` returns the area and the volume, and "
-        "refuses a side below 0."
+        "Repair box_server.cpp, so that its service `box` returns the area and the volume, and refuses a "
+        "side below 0."
     ),
     needs=[f"file:{FILE}"],
     deadline=90.0,

@@ -80,8 +80,8 @@ def more_threads(context: CheckContext) -> None:
         context,
         THREADS,
         FEW,
-        "One call works, but three calls at the same time hang. Each of them uses a "
-        "thread, and /battery needs another thread.",
+        "One call works, but three calls at the same time do not end. Each call of /report uses one "
+        "thread, so use at least one further thread for /battery.",
     )
 
 
@@ -109,8 +109,8 @@ def own_queue(context: CheckContext) -> None:
         context,
         QUEUE,
         MANY,
-        "One call works, but eight calls at the same time hang. Put only /battery into "
-        "the new queue, and give this queue its own thread.",
+        "One call works, but eight calls at the same time do not end. Put only /battery into the new "
+        "queue, and give this queue its own thread.",
     )
 
 

@@ -69,7 +69,8 @@ def _counts(
         hints=[
             (
                 lambda _: bool(caller),
-                "Another node may continue a session. Count only by the value of the field.",
+                "Another node can continue a session. Choose the count only by the value of the field "
+                '"session".',
             ),
             (
                 str(sum(counts.values())),
@@ -83,8 +84,8 @@ def _counts(
             ("", "The message is empty. Set it to the number, with std::to_string."),
             (
                 ANYTHING,
-                'The call had the field "session" in its header, but did not get its number. '
-                "Read the field from the connection header.",
+                'The header of the call had the field "session", but the response was not the number of '
+                "calls in this session. Read the field from the connection header.",
             ),
         ],
     )

@@ -23,7 +23,10 @@ DEADLINE = 150.0  # s; the compiler may need 90 s of this on a busy machine
 @part(
     "14.1",
     points=2,
-    goal="Write spawn_turtle.cpp: wait at most 5 s for /spawn, and end with 1 if no turtle was spawned.",
+    goal=(
+        "Write spawn_turtle.cpp: wait at most 5 s for /spawn, and end with exit status 1 if no turtle "
+        "was spawned."
+    ),
     needs=[f"file:{SPAWN.path}"],
     deadline=DEADLINE,
     start=f"%%writefile {SPAWN.path}\n...",
@@ -100,7 +103,7 @@ def bring_a_second_turtle(context: CheckContext) -> None:
     "14.6",
     points=1,
     goal=(
-        "Write exercise3.launch: start the simulator and the driver always, but "
+        "Write exercise3.launch: it always starts the simulator and the driver, but starts "
         "spawn_turtle_plus only with addturtle:=true."
     ),
     needs=[f"file:{LAUNCH.path}"],

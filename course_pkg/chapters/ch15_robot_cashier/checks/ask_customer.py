@@ -30,19 +30,20 @@ LATE = (
     "Wait for the service with rospy.wait_for_service(name, timeout=3)."
 )
 PARAMETER = (
-    'The field `patience` has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+    'The field `patience` has to be the private parameter "~wait" of the node: use '
+    'rospy.get_param("~wait", 2.0).'
 )
 DEFAULT = (
     "Without a parameter, the field `patience` has to be 2 s: the second argument of rospy.get_param is "
     "the default."
 )
-ONCE = "The program called more than once. Make only one call, and print its result."
+ONCE = "The program called the service more than once. Make only one call, and print its result."
 NEVER = "The program did not call the service. Call detect_customer, without a slash, after rospy.init_node."
 NO_END = (
     "The program called the service, but it did not end. Remove rospy.spin(), "
     "because the program has nothing else to do."
 )
-SILENT = "The program printed nothing. Print one line: customer or nobody."
+SILENT = 'The program printed nothing. Print one line: "customer" or "nobody".'
 FIELD = (
     'found was False, but the program printed "customer". In an if statement, a '
     "response object always counts as true: test its field `found`."
@@ -54,7 +55,7 @@ CATCH_REFUSAL = (
     "A refused call raises rospy.ServiceException. Catch this error, and end with sys.exit(str(error))."
 )
 NO_REASON = (
-    "The output does not contain the reason of the failure: print the text of the rospy.ServiceException."
+    "The output does not contain the reason for the failure: print the text of the rospy.ServiceException."
 )
 STATUS_1 = (
     "The call failed, so the exit status has to be 1: sys.exit(TEXT) prints the "

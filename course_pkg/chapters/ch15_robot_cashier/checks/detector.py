@@ -42,8 +42,8 @@ ONE_BY_ONE = (
     "the handler waits; Condition.wait_for releases its lock."
 )
 NOT_WOKEN = (
-    "The customer came while several calls were waiting, but a call noticed this "
-    "too late. Wake up all waiting calls in the callback, with notify_all."
+    "The customer came while several calls were waiting, but one of these calls responded too late. In "
+    "the callback, wake up all waiting calls with notify_all()."
 )
 UNREFUSED = "The field `patience` has to be from 0 to 60 s: raise rospy.ServiceException for any other value."
 NAN = "Each comparison with nan (not a number) is False. Write `if not 0 <= request.patience <= 60`."
@@ -173,14 +173,17 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
 SILENT = 'The error message has to contain the word "camera".'
 OLD = "The last message is older than 1 s, so do not use it: store the time at which each message arrives."
 NOBODY_KNOWS = (
-    "The camera is silent, so the node cannot know that found is False: raise rospy.ServiceException "
-    "after request.patience seconds."
+    "The camera sends no messages, so the node does not know whether a customer is there. After "
+    "request.patience seconds, raise rospy.ServiceException instead of returning found=False."
 )
-TOO_SOON = "The node refused too early. New messages may arrive, so wait for request.patience seconds."
+TOO_SOON = (
+    "The node refused the call too early. A new message can still arrive, so wait for request.patience "
+    "seconds."
+)
 FRESH = "The last message was less than 1 s old, so it is valid. Use it."
 CAME_BACK = (
-    "The camera was silent, but new messages came in time. Use the newest message, "
-    "even if there was a pause before it."
+    "The camera sent no messages for some time, but new messages came before the end of the call. Use "
+    "the newest message, even if it came after a pause."
 )
 
 REFUSED_TOO_MUCH: Hints = [(matches("camera"), FRESH), *FAILED[1:]]
@@ -194,7 +197,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
-    goals={SILENT_CAMERA: 3, "Notice a camera that becomes silent or comes back during a call.": 1},
+    goals={SILENT_CAMERA: 3, "Notice when the camera stops or starts to send messages during a call.": 1},
 )
 def the_silent_camera(context: CheckContext) -> None:
     """Call before the first message, shortly and long after the last one, and while new messages arrive."""

@@ -39,7 +39,9 @@ NO_XML = "The file is not valid XML: close each tag, and write each value in quo
 FIXED = 'The attribute "value" of an <arg> tag cannot be overridden. Use the attribute "default" instead.'
 REQUIRED = 'The file has to work without arguments: add the attribute "default" to each <arg> tag.'
 NO_BOOLEAN = 'The value of the attribute "if" has to be true or false. Write if="$(arg hardware)".'
-OTHER = "Type roslaunch --nodes my_cashier cashier.launch in the terminal, and read its output."
+OTHER = (
+    "Type `roslaunch --nodes my_cashier cashier.launch` in the terminal, and read the output of this command."
+)
 UNREADABLE: Hints = [
     (matches("Invalid roslaunch XML|not well-formed|mismatched"), NO_XML),
     (matches("cannot override arg"), FIXED),
@@ -57,9 +59,8 @@ DEFAULT_HARDWARE = (
     'the attribute "if", not "unless".'
 )
 PROGRAMS = (
-    "A node starts the wrong program. Each type has to be the name of the node, "
-    "with .py for the four nodes of my_cashier: compare the attributes pkg and "
-    "type."
+    'A node starts the wrong program. Check the attributes "pkg" and "type": each type has to be the '
+    "name of the node, with .py for the four nodes of my_cashier."
 )
 NO_PARAMETER = 'The node robot_cashier needs a <param> tag with name="wait" and value="$(arg wait)".'
 PLACE = (

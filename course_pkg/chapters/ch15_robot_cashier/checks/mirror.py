@@ -24,7 +24,7 @@ EVERY = 0.05  # s between two joint states
 NOT_HEARD = "The topic joint_states has the type sensor_msgs/JointState: pass this type to rospy.Subscriber."
 NONE_CAME = "No mirror image came. Publish the mirror image of each valid joint state in the callback."
 OTHER_TIME = "The stamp of the image is not the stamp of its joint state: copy the header of the message."
-LATE = "The images come late. Publish in the callback, without any wait in the callback."
+LATE = "The images come late. Publish each image in the callback, and do not wait or sleep there."
 ZEROS = (
     "Zeros are valid positions, so the arm would move to them. Publish nothing for an invalid joint state."
 )
@@ -114,14 +114,14 @@ def _why_invalid(state: JointState) -> tuple[str, str]:
     if state.misses_positions:
         return (
             f"an image of {len(state.position)} positions for {len(state.name)} joints",
-            "The numbers of names and positions are different: compare both lengths, and "
-            "ignore such a message.",
+            "The numbers of names and positions are different: compare both lengths, and ignore a "
+            "message with different lengths.",
         )
     if state.misses_velocities:
         return (
             f"an image of {len(state.velocity)} velocities for {len(state.name)} joints",
-            "The number of velocities has to be 0 or the number of names: check this "
-            "length, too, and ignore such a message.",
+            "The number of velocities has to be 0 or equal to the number of names. Check this length, "
+            "too, and ignore a message with any other length.",
         )
     return (
         "an image of a number that is not finite",
@@ -190,8 +190,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         ),
         (
             lambda actual: set(stamps) - set(actual) <= {FIRST + 5 * n for n in range(6)},
-            "A joint state without velocities is valid, because many robots send no "
-            "velocities. Mirror it, too.",
+            "A joint state without velocities is valid, because many robots send no velocities. Publish "
+            "its mirror image, too.",
         ),
         (
             ANYTHING,

@@ -188,7 +188,7 @@ ILLEGAL = (
 )
 ORDER = (
     "A total is not the sum of the lines that were printed before, because another call changed the till "
-    "in the meantime. Hold one lock while you print, store and add up."
+    "in the meantime. Hold one lock while you print the line, store the price and calculate the total."
 )
 
 
@@ -236,7 +236,10 @@ def the_printed_till(context: CheckContext) -> None:
             holds=len(till.printer.lines) == before + 1,
             expected="one line for each call, even if the price did not change",
             actual=f"{len(till.printer.lines) - before} lines",
-            hints="The item had this price before. Print a line for each call of till/set.",
+            hints=(
+                "The item already had this price. Print exactly one new line for each call of till/set, "
+                "even if the price stays the same."
+            ),
         )
         _prints_no_illegal_item(context, till)
         context.fulfilled(PRINTED)
@@ -265,7 +268,10 @@ def _refuses_without_print(
             holds=till.printer.calls <= before + 1,
             expected="one call of print_line",
             actual=f"{till.printer.calls - before} calls",
-            hints="The till called print_line again after a refusal. Call it once for each item.",
+            hints=(
+                "The till called print_line again after a refusal. Call print_line only once for each "
+                "call of till/set."
+            ),
         )
         _totals(context, total, prices, COUNTED, COUNTED)
     till.printer.fault = ""

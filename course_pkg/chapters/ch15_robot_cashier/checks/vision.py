@@ -37,11 +37,13 @@ ROUNDED = (
 )
 LIMIT = "All points that look dark have the value 96, but a point is dark only below 96: compare with <."
 PADDING = (
-    "A row has frame.step bytes, but only the first frame.width bytes are points: "
-    "row r begins at r * frame.step."
+    "A row has frame.step bytes, but only the first frame.width bytes are points: row r begins at byte r "
+    "* frame.step."
 )
 EMPTY = "All points are light, so this frame does not show a customer. Publish False."
-NOTHING = "The node published nothing for a valid frame. Does the callback reach the line that publishes?"
+NOTHING = (
+    "The node published nothing for a valid frame. Check that the callback reaches the line that publishes."
+)
 TWICE = "The node published more than one message for a frame. Publish once for each valid frame."
 BROKE = (
     "After a malformed frame, the node published nothing for a valid frame. Check "
@@ -60,7 +62,7 @@ SHOWN = "Publish for each valid frame whether it shows a customer."
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
-    goals={SHOWN: 3, "Leave out malformed frames.": 1},
+    goals={SHOWN: 3, "Publish nothing for malformed frames.": 1},
 )
 def the_vision(context: CheckContext) -> None:
     """Send frames with about as many dark points as the limit, frames with padding, and malformed frames."""
@@ -196,7 +198,8 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
         (
             "a step below the width",
             frames[3],
-            "In this frame, a row has fewer bytes than points, which is impossible: compare step and width.",
+            "In this frame, a row has fewer bytes than points, which is impossible: compare frame.step "
+            "with frame.width.",
         ),
         (
             "no points and no bytes",

@@ -67,7 +67,8 @@ VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits a
 NO_CALL = "No call came. Let the main thread call detect_customer in a loop until rospy.is_shutdown()."
 GIVEN_UP = "There was no call after a failed call. Catch rospy.ServiceException, wait 0.5 s, and call again."
 CALLED_ONCE = (
-    "The node called, but then it did not call again. Call in a loop: while not rospy.is_shutdown()."
+    "The node called the service once, but it did not call the service again. Make the calls in a loop: "
+    "while not rospy.is_shutdown()."
 )
 RESET_FAILED = (
     "The call of till/reset failed, and then no call of detect_customer followed. "
@@ -77,9 +78,10 @@ NO_TILL = (
     "Without the service till/reset, the node stopped calling detect_customer. Do not wait for this service "
     "without a limit, and catch rospy.ServiceException."
 )
-NO_DEFAULT = 'Without a parameter, the field `patience` has to be 2 s: rospy.get_param("~wait", 2.0).'
+NO_DEFAULT = 'Without a parameter, the field `patience` has to be 2 s: use rospy.get_param("~wait", 2.0).'
 PARAMETER = (
-    'The field `patience` has to be the private parameter "~wait" of the node: rospy.get_param("~wait", 2.0).'
+    'The field `patience` has to be the private parameter "~wait" of the node: use '
+    'rospy.get_param("~wait", 2.0).'
 )
 STILL_THERE = (
     "In the last response, found was True, so a customer is there: set the field `patience` of the next "
@@ -100,10 +102,12 @@ NO_PAUSE = (
 )
 LONG_PAUSE = "After a failed call, the next call came too late: wait only 0.5 s."
 HUNG_UP = (
-    "The node made another call before the response came. A call can take as long as its field `patience` "
-    "says: wait for its response."
+    "The node made another call before the response came. Wait for each response, which can take as long "
+    "as the `patience` of its request."
 )
-NOT_GREETED = "A customer came, but no greeting followed: publish on greetings when found is True."
+NOT_GREETED = (
+    'A customer came, but no greeting followed: publish on the topic "greetings" when `found` is True.'
+)
 GREETED_AGAIN = "There were more greetings than visits. Publish once, when the visit begins."
 NOT_FOUND = (
     "The node acted as if a customer was there, although found was False. In an "

@@ -49,7 +49,8 @@ VISITS = 2  # maximum number of customers after the restart until one of them is
 MANY = 6  # number of simultaneous calls of two customers
 
 NOT_LAUNCHED = (
-    "roslaunch ended. Type roslaunch my_cashier cashier.launch hardware:=false, and read its output."
+    "roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the terminal, and "
+    "read the output of this command."
 )
 NO_CUSTOMER = "The frames show a customer, but detect_customer does not find one. Check 15.1 and 15.2 again."
 NO_MESSAGE = "The camera publishes frames, but no message comes on customer_seen. Check 15.1 again."
@@ -67,8 +68,10 @@ NOT_RESET = "The customer has left, but the till still has items. Check 15.6 and
 NO_MIRROR = (
     "Joint states were published all the time, but only a few mirror images came. Check 15.5 and 15.6 again."
 )
-SILENT = "No frame came for more than 1 s, so detect_customer has to refuse. Check 15.3 again."
-NOT_RECOVERED = "New frames came after a pause, but detect_customer still refuses. Check 15.3 again."
+SILENT = "No frame came for more than 1 s, so detect_customer has to refuse each call. Check 15.3 again."
+NOT_RECOVERED = (
+    "New frames came after a pause, but detect_customer still refuses each call. Check 15.3 again."
+)
 RESPAWN = 'roslaunch starts a node again only if its <node> tag has respawn="true".'
 AFTERWARDS = (
     "All nodes were started again, but the next customer was not greeted. Start the "

@@ -48,7 +48,7 @@ EXECUTED = "Publish feedback after each thing, and the result at the end."
     goal="Write an action server: feedback after each thing, the result at the end, and cancellation.",
     needs=["Fetcher"],
     deadline=60.0,
-    goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal without things.": 1},
+    goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal with 0 things.": 1},
 )
 def executed_goal(context: CheckContext) -> None:
     """Create an object of the student's class; send goals with different times, and cancel one of them."""
@@ -102,7 +102,10 @@ def _wrong_feedback(things: int) -> Hints:
             list(range(things)),
             "After the first thing, `fetched` has to be 1, but range() counts from 0: add 1.",
         ),
-        ([things], "Only one feedback arrived, at the end. Publish feedback in the loop, after each thing."),
+        (
+            [things],
+            "Only one feedback message arrived, at the end. Publish feedback in the loop, after each thing.",
+        ),
         (
             lambda actual: not any(actual),
             "The field `fetched` is 0 in each feedback. Write FetchFeedback(fetched=…).",
@@ -165,7 +168,10 @@ def _is_on_time(context: CheckContext, at: list[float], began: float, each: floa
         holds=at[-1] - at[0] > 0.4 * (len(at) - 1) * each,
         expected="one after the other",
         actual="all at the same moment",
-        hints="All feedback arrived at the end. Publish each feedback as soon as its thing has been fetched.",
+        hints=(
+            "All feedback messages arrived at the end. Publish each message as soon as its thing has "
+            "been fetched."
+        ),
     )
     context.require(
         "the feedback comes after its thing",

@@ -18,7 +18,10 @@ CHANGED = (
     "The parameter was changed, but the function returned the old value: read the parameter in each call."
 )
 TEXT = "A parameter can also be a text. Check that the value is a number."
-LIST = "A parameter can also be a list. Check that the value is a number, instead of excluding single types."
+LIST = (
+    "A parameter can also be a list. Test whether the value is a number; a test for single types, such "
+    "as str, is not enough."
+)
 TRUTH = "In Python, True is an int with the value 1. Check for bool separately."
 NEGATIVE = "The value was negative, but a speed has to be above 0. Return the default."
 SET = "The function has set the parameter. Only read the parameter, and return the default."

@@ -54,7 +54,8 @@ LIMITED = "Refuse more parcels than the parameter capacity allows."
     "16.4",
     points=4,
     goal=(
-        "Write a node with battery, door, deliver and capacity; use the kind of interface that fits for each."
+        "Write a node with battery, door, deliver and capacity; for each of these names, use the kind of "
+        "interface that fits."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
@@ -157,16 +158,18 @@ def _delivers(
         "the result is the number of delivered parcels",
         expected=PARCELS,
         actual=client.get_result().fetched,
-        hints="Pass FetchResult(fetched=…) with the number of parcels to set_succeeded.",
+        hints=(
+            "Call set_succeeded(FetchResult(fetched=…)), where `fetched` is the number of delivered parcels."
+        ),
     )
     context.require(
         "battery continues during a delivery",
         holds=meanwhile >= 2,
-        expected=f"some {PARCELS * EACH / PERIOD:.0f} values",
+        expected=f"about {PARCELS * EACH / PERIOD:.0f} values",
         actual=meanwhile,
         hints=(
-            "The battery values stopped during the delivery. The action has its own thread: "
-            "deliver in the action's function, and publish in another thread."
+            "The battery values stopped during the delivery. Deliver the parcels in the function of the "
+            "action, which has its own thread, and publish in another thread."
         ),
     )
     charge = 100.0 - PARCELS
@@ -209,7 +212,10 @@ def _cancels(
         "a cancelled delivery returns the number of delivered parcels",
         expected=_counts(feedback)[-1],
         actual=client.get_result().fetched,
-        hints="Pass FetchResult(fetched=…) with the number of parcels delivered so far to set_preempted.",
+        hints=(
+            "Call set_preempted(FetchResult(fetched=…)), where `fetched` is the number of parcels "
+            "delivered so far."
+        ),
     )
     before_it = 100.0 - PARCELS
     charge = before_it - int(client.get_result().fetched)

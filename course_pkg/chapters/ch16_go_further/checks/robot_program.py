@@ -21,7 +21,7 @@ CAPACITY = (
     "parameter, and do not offer an interface for it."
 )
 UNFIT = {
-    "battery": "Several programs need each new value, without a request for each value.",
+    "battery": "Several programs need each new value, and none of these programs sends a request.",
     "door": "The move is short, and the client must not continue before it knows that the move is done.",
     "deliver": (
         "The client wants to get progress reports and to cancel the job. Only one kind "

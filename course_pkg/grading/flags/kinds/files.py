@@ -98,7 +98,7 @@ def _observe(program: Program) -> Iterator[Observation]:
             yield from _called(node, program)
         elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in ignored:
             for place in PLACES.finditer(node.value):
-                words = "It names a place outside of the exercise."
+                words = "The code contains the path of a place outside of the exercise."
                 yield Observation(f"names {place[0]}", node.lineno, words)
 
 
@@ -106,11 +106,11 @@ def _called(node: ast.Call, program: Program) -> Iterator[Observation]:
     function = node.func
     name = dotted(function, program.names)
     if isinstance(function, ast.Name) and function.id == "open" and not name:
-        yield Observation("open", node.lineno, "It opens a file.")
+        yield Observation("open", node.lineno, "The code opens a file.")
     elif name in SYSTEM or any(name.startswith(each) for each in MODULES):
-        yield Observation(name, node.lineno, f"It calls {name}(), which reads or changes files.")
+        yield Observation(name, node.lineno, f"The code calls {name}(), which reads or changes files.")
     elif name.startswith(PROGRAMS):
-        yield Observation(name, node.lineno, f"It calls {name}(), which can run other programs.")
+        yield Observation(name, node.lineno, f"The code calls {name}(), which can run other programs.")
     elif isinstance(function, ast.Attribute):
         yield from _method(function, node, program)
 
@@ -121,8 +121,12 @@ def _method(function: ast.Attribute, node: ast.Call, program: Program) -> Iterat
     if isinstance(called, ast.Name) and called.id == "get_ipython" and function.attr in SHELL:
         words = [each.value for each in node.args if isinstance(each, ast.Constant)]
         command = " ".join(str(word) for word in words).split(" ")[0]
-        yield Observation(f"shell {command}", node.lineno, "It runs a command of the shell or of IPython.")
+        yield Observation(
+            f"shell {command}", node.lineno, "The code runs a command of the shell or of IPython."
+        )
     elif function.attr in METHODS or (owner in PATHS and function.attr in PATH_METHODS):
         yield Observation(
-            function.attr, node.lineno, f"It calls {function.attr}(), which is a method of pathlib.Path."
+            function.attr,
+            node.lineno,
+            f"The code calls {function.attr}(), which is a method of pathlib.Path objects.",
         )

@@ -11,7 +11,7 @@ from course_pkg.grading.flags.syntax import docstrings, dotted, is_python, is_to
 from course_pkg.grading.flags.work import Found, Group
 from course_pkg.grading.grade import Flag
 
-TITLE = "Code that looks into other code"
+TITLE = "Code that inspects other code"
 MODULES = frozenset(
     [
         "_thread",
@@ -90,7 +90,8 @@ def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each way in which an answer inspects other code."""
     for work, answer in group.answers():
         if is_python(answer) and is_too_long(answer):
-            yield work, Flag("internals", answer.where, "It is too long, so its code was not searched.")
+            words = "The code is too long, so it was not examined for flags."
+            yield work, Flag("internals", answer.where, words)
     yield from unusual(group, "internals", _observe, whole_notebook=True)
 
 
@@ -100,21 +101,21 @@ def _observe(program: Program) -> Iterator[Observation]:
         line = getattr(node, "lineno", 0)
         for name in _imported(node):
             if _is_internal(name):
-                yield Observation(name, line, f"It imports {name}.")
+                yield Observation(name, line, f"The code imports {name}.")
         if isinstance(node, ast.Attribute):
             name = dotted(node, program.names)
             if name in OBJECTS or _is_internal(name):
-                yield Observation(name, line, f"It uses {name}.")
+                yield Observation(name, line, f"The code uses {name}.")
             elif _is_shell(node.value) and node.attr not in COMMANDS:
-                yield Observation(f"shell {node.attr}", line, f"It uses get_ipython().{node.attr}.")
+                yield Observation(f"shell {node.attr}", line, f"The code uses get_ipython().{node.attr}.")
             elif node.attr in ATTRIBUTES:
-                yield Observation(node.attr, line, f"It uses the attribute {node.attr}.")
+                yield Observation(node.attr, line, f"The code uses the attribute {node.attr}.")
         elif isinstance(node, ast.Name) and program.names.get(node.id) in OBJECTS:
-            yield Observation(program.names[node.id], line, f"It uses {program.names[node.id]}.")
+            yield Observation(program.names[node.id], line, f"The code uses {program.names[node.id]}.")
         elif isinstance(node, ast.Name) and node.id == "__builtins__":
-            yield Observation(node.id, line, f"It uses {node.id}.")
+            yield Observation(node.id, line, f"The code uses {node.id}.")
         elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in CALLS:
-            yield Observation(node.func.id, line, f"It calls {node.func.id}().")
+            yield Observation(node.func.id, line, f"The code calls {node.func.id}().")
         elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in ignored:
             yield from _named(node.value, line)
 
@@ -144,6 +145,6 @@ def _named(text: str, line: int) -> Iterator[Observation]:
     It must be a module of the course, or an attribute for getattr().
     """
     if MODULE.fullmatch(text) and not PUBLIC.fullmatch(text):
-        yield Observation(text, line, f"It names {text}.")
+        yield Observation(text, line, f"The code contains the name {text}.")
     elif text in ATTRIBUTES:
-        yield Observation(text, line, f"It names the attribute {text}.")
+        yield Observation(text, line, f"The code contains the name of the attribute {text}.")

@@ -25,7 +25,7 @@ def _observe(program: Program) -> Iterator[Observation]:
     for node in ast.walk(program.module):
         if isinstance(node, ast.Attribute | ast.Subscript) and not isinstance(node.ctx, ast.Load):
             if name := _changed(node, program):
-                yield Observation(f"change {name}", node.lineno, f"It changes {name}.")
+                yield Observation(f"change {name}", node.lineno, f"The code changes {name}.")
         elif isinstance(node, ast.Call):
             yield from _called(node, program)
     yield from _replaced(program)
@@ -59,15 +59,15 @@ def _called(node: ast.Call, program: Program) -> Iterator[Observation]:
     function = node.func
     full = dotted(function, program.names)
     if full.startswith(PATCHERS):
-        yield Observation(full, node.lineno, f"It calls {full}(), which replaces objects in modules.")
+        yield Observation(full, node.lineno, f"The code calls {full}(), which replaces objects in modules.")
     sets = isinstance(function, ast.Name) and function.id in SETTERS
     sets = sets or (isinstance(function, ast.Attribute) and function.attr in METHODS)
     if sets and node.args and (name := _name(node.args[0], program)):
-        yield Observation(f"change {name}", node.lineno, f"It changes an attribute of {name}.")
+        yield Observation(f"change {name}", node.lineno, f"The code changes an attribute of {name}.")
     if isinstance(function, ast.Attribute) and function.attr in UPDATES:
         inside = _name(function.value, program)
         if inside.endswith(".__dict__") or inside == "sys.modules":
-            yield Observation(f"change {inside}", node.lineno, f"It changes {inside}.")
+            yield Observation(f"change {inside}", node.lineno, f"The code changes {inside}.")
 
 
 def _replaced(program: Program) -> Iterator[Observation]:
@@ -77,8 +77,8 @@ def _replaced(program: Program) -> Iterator[Observation]:
         targets = node.targets if isinstance(node, ast.Assign) else []
         for target in targets:
             if isinstance(target, ast.Name) and target.id in modules:
-                words = f"It gives the name of the module {target.id} to another object."
+                words = f"The code uses the name of the module {target.id} for another object."
                 yield Observation(f"replace {target.id}", node.lineno, words)
         if isinstance(node, ast.ClassDef | ast.FunctionDef) and node.name in modules:
-            words = f"It gives the name of the module {node.name} to another object."
+            words = f"The code uses the name of the module {node.name} for another object."
             yield Observation(f"replace {node.name}", node.lineno, words)

@@ -14,8 +14,10 @@ from course_pkg.grading.flags.work import Answer, Found, Group
 from course_pkg.grading.grade import Flag
 
 TITLE = "The course's own solution"
-EXACT = "It is the solution of the course."
-CHANGED = "It is the solution of the course, except for names, comments, texts or the order."
+EXACT = "The answer is the same as the course's solution."
+CHANGED = (
+    "The answer is the same as the course's solution; only names, comments, strings or the order differ."
+)
 
 
 def find(group: Group) -> Iterator[Found]:
