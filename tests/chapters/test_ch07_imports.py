@@ -8,7 +8,7 @@ from typing import cast
 
 import pytest
 
-from course_pkg.chapters.ch07_build_a_package.checks.program import Program, can_be_imported
+from course_pkg.chapters.ch07_build_a_package.checks.program import IMPORTED, Program, can_be_imported
 from course_pkg.checking.assertions import AssertionFailed
 from course_pkg.checking.channel import Channel
 from course_pkg.checking.commands.folder import Folder
@@ -59,8 +59,14 @@ def test_import_that_never_ends_is_a_mistake() -> None:
 
 
 def test_an_import_that_ends_is_accepted() -> None:
-    """The script contains only definitions: it prints nothing, and its exit status is 0."""
-    assert [each.holds for each in imported(status=0).assertions] == [True]
+    """The script contains only definitions, so the import ends, and the check's own code then exits."""
+    assert [each.holds for each in imported(status=IMPORTED).assertions] == [True]
+
+
+def test_a_script_that_exits_during_its_import_is_a_mistake() -> None:
+    """A script could hide that it starts a node if it ends the process with the exit status 0."""
+    with pytest.raises(AssertionFailed, match="an import of the script starts no node"):
+        imported(status=0)
 
 
 @pytest.fixture
