@@ -91,7 +91,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
     ):
         expect(panel(lab_page, "Prediction compared")).to_contain_text("You had made no prediction.")
         panel(lab_page, "Prediction").get_by_label("an empty reply").check()
-        expect(panel(lab_page, "Prediction")).to_contain_text("a change now is marked as a late change")
+        expect(panel(lab_page, "Prediction")).to_contain_text("a change is marked as a late change")
         run_all(lab_page)
         expect(panel(lab_page, "Prediction").get_by_label("an empty reply")).to_be_checked()
         expect(panel(lab_page, "Prediction compared")).to_contain_text("came after the result")
