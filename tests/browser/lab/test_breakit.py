@@ -35,10 +35,15 @@ def begin(lab: Locator, name: str) -> None:
     expect(lab.get_by_text("The fault is there.")).to_be_visible()
 
 
+def shown(text: str) -> str:
+    """Return a diagnosis or a remedy as the page shows it: without the backticks of Markdown."""
+    return text.replace("`", "")
+
+
 def answer(lab: Locator, fault: Fault) -> None:
     """Choose the right diagnosis and remedy of a fault, and check them."""
-    lab.get_by_label(fault.diagnosis.replace("`", "")).check()
-    lab.get_by_label(fault.remedy.replace("`", "")).check()
+    lab.get_by_label(shown(fault.diagnosis)).check()
+    lab.get_by_label(shown(fault.remedy)).check()
     lab.get_by_role("button", name="Check").click()
 
 
@@ -71,8 +76,8 @@ def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
     expect(form.locator(".ros-looks").get_by_label("What it printed")).to_contain_text("/lab/door")
     wrong = next(case for case in cases() if case.fault.name == "stale").diagnoses
     other = next(text for text in wrong if text != named("stale").diagnosis)
-    form.get_by_label(other.replace("`", "")).check()
-    form.get_by_label(named("stale").remedy.replace("`", "")).check()
+    form.get_by_label(shown(other)).check()
+    form.get_by_label(shown(named("stale").remedy)).check()
     form.get_by_role("button", name="Check").click()
     expect(form.get_by_text("This is not the fault.")).to_be_visible()
     expect(form.get_by_text("That fault would look different")).to_be_visible()
@@ -96,9 +101,9 @@ def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
     expect(form.get_by_role("button", name=f"Case {number('returns_none')},")).to_be_focused()
     shared.keyboard.press("Enter")
     expect(form.get_by_text("The fault is there.")).to_be_visible()
-    form.get_by_label(named("returns_none").diagnosis).focus()
+    form.get_by_label(shown(named("returns_none").diagnosis)).focus()
     shared.keyboard.press("Space")
-    form.get_by_label(named("returns_none").remedy).focus()
+    form.get_by_label(shown(named("returns_none").remedy)).focus()
     shared.keyboard.press("Space")
     form.get_by_role("button", name="Check").focus()
     shared.keyboard.press("Enter")

@@ -91,7 +91,7 @@ def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
     write_package(tmp_path, "s01/my_geometry", my_geometry({"package.xml": manifest}))
     found = _only(tmp_path)
     assert _package(found).name == "my_geometry"
-    assert "names the package my_geometri" in found.notes[0]
+    assert "contains the package name my_geometri" in found.notes[0]
 
 
 def test_package_that_no_part_needs(tmp_path: Path) -> None:
