@@ -1,4 +1,4 @@
-"""The description of a type as plain data, for a form that is not written in Python."""
+"""The description of a type as plain data, for a form in JavaScript."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def schema(kind: ServiceType) -> ServiceSchema: ...
 @overload
 def schema(kind: MessageType) -> MessageSchema: ...
 def schema(kind: ServiceType | MessageType) -> ServiceSchema | MessageSchema:
-    """Return the data that a form needs about a type, ready for JSON."""
+    """Return the data for a form of this type, ready for JSON."""
     if isinstance(kind, ServiceType):
         return {
             "name": kind.name,
