@@ -183,7 +183,7 @@ class Stage:
     def environment(self, more: dict[str, str]) -> dict[str, str]:
         """Return the environment variables for the case's programs.
 
-        They set the master, the namespace and the log folder.
+        The variables set the master, the namespace and the log folder.
         """
         own = {
             "ROS_MASTER_URI": self.uri,
@@ -193,9 +193,9 @@ class Stage:
         return {**local_environment(), **own, **more}
 
     def local(self, text: str) -> str:
-        """Return `text` with this stage's namespace in place of /lab.
+        """Return `text` with this stage's namespace instead of /lab.
 
-        The word MASTER_PORT is replaced by the port of the stage's master.
+        The port of the stage's master replaces MASTER_PORT.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 

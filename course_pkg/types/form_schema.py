@@ -28,10 +28,11 @@ class _FieldSchema(TypedDict):
 
 
 class FieldSchema(_FieldSchema, total=False):
-    """A field: `kind` is a value of Kind, `default` is a string tree. `allowed` describes the valid values.
+    """A field: `kind` is a value of Kind, and `default` is a string tree.
 
-    A number has `low` and `high`, as strings, because JavaScript rounds an int64. An array has `length` (None
-    if it may vary) and `item`. A message, a time or a duration has `fields`.
+    `allowed` describes the valid values. A number has `low` and `high` as strings, because JavaScript rounds
+    an int64. An array has `length` (None if it may vary) and `item`. A message, a time or a duration has
+    `fields`.
     """
 
     low: str

@@ -65,8 +65,7 @@ def known(message: str) -> Explanation | None:
 
 
 def taught(chapter: str) -> str:
-    """Return the number and title of a chapter, such as "chapter 06, Write a client", or "" if it is unknown.
-    """
+    """Return the number and title of a chapter, such as "chapter 06, Write a client", or ""."""
     title = CHAPTERS.get(chapter, "")
     return f"chapter {chapter}, {title}" if title else ""
 

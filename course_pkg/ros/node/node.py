@@ -171,8 +171,7 @@ class Node:
             publisher.renew()
 
     def close(self, *, with_master: bool = True) -> None:
-        """End everything that this node has started; unregister at the master only if `with_master` is true.
-        """
+        """End everything that this node has started; if `with_master` is true, unregister it."""
         # All processes are interrupted at the same time, so they have one common deadline.
         deadline = time.monotonic() + GRACE
         for process in self._processes.values():

@@ -1,5 +1,4 @@
-"""Show a traceback in at most 12 lines: the message and the student's own code, without frames of libraries.
-"""
+"""Show a traceback in at most 12 lines: the message and the student's own code, without libraries."""
 
 from __future__ import annotations
 

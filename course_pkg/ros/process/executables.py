@@ -1,5 +1,4 @@
-"""Find the path of a node's program with the same rules as rosrun, but without the 0.1 s that rosrun takes.
-"""
+"""Find the path of a node's program with the same rules as rosrun, but faster (rosrun takes 0.1 s)."""
 
 from __future__ import annotations
 

@@ -140,8 +140,7 @@ class NodeProcess:
         return f"<{self.label}, {'running' if self.running else 'ended'}>"
 
     def _serves(self, master: MasterClient, name: str) -> bool:
-        """Return whether this process offers `name`; at the master, another process may still be registered.
-        """
+        """Return whether this process offers `name`; the master may still list another process."""
         uri = master.lookup_service(name)
         if uri is None or port_of(uri) not in self._process.listening_ports():
             return False

@@ -100,8 +100,7 @@ def encode_header(fields: dict[str, str]) -> bytes:
 
 
 def header_fields(answer: bytes) -> dict[str, str]:
-    """Return the fields of the connection header at the start of `answer`, or an empty dict without a header.
-    """
+    """Return the fields of the connection header at the start of `answer`, or {} without a header."""
     try:
         fields: dict[str, str] = decode_ros_handshake_header(answer)
     except (ROSHandshakeException, struct.error, UnicodeDecodeError):

@@ -153,8 +153,7 @@ class _Stream:
         self._sock.close()
 
     def _blocks(self) -> list[bytes]:
-        """Remove the complete blocks from the received bytes, and return them without the connection header.
-        """
+        """Remove the complete blocks from the received bytes; return them without the connection header."""
         blocks, at = [], 0
         while len(self._rest) >= at + 4:
             (length,) = struct.unpack_from("<I", self._rest, at)

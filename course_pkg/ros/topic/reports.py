@@ -34,8 +34,7 @@ class Connections(TypedDict, total=False):
 
 
 class Figures(TypedDict, total=False):
-    """The rate (1/s), the jitter (s), the longest gap (s), and the number of measured gaps between messages.
-    """
+    """The rate (1/s), the jitter (s), the longest gap (s), and the number of gaps between messages."""
 
     rate: float
     jitter: float

@@ -180,7 +180,6 @@ def _subscribers(info: RpcValue) -> dict[int, str]:
 
 
 def _statistics(probe: Probe) -> Any:  # noqa: ANN401 -- any node may answer with any value
-    """Return the value of a response; roscpp's response to getBusStats is only the value, without a status.
-    """
+    """Return the value of a response; roscpp's response to getBusStats has no status."""
     value: Any = loads(probe.answer.partition(b"\r\n\r\n")[2])[0][0]
     return value[2] if value[0] == 1 else value

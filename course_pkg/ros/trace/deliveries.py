@@ -42,8 +42,7 @@ class Deliveries(rospy.SubscribeListener):
         self.update()
 
     def update(self) -> None:
-        """Start counting the messages of new connections, and add the counts of closed connections to a sum.
-        """
+        """Count the messages of new connections, and add the counts of closed connections to a sum."""
         with self._lock:
             connected = list(self._impl.connections or ())
             for connection in connected:

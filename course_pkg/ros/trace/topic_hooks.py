@@ -231,8 +231,7 @@ def _unchanged(method: Method) -> Method:
 
 
 def _whole_messages(b: BytesIO) -> int:
-    """Return the number of complete messages; each message has a length field of 4 bytes and this many bytes.
-    """
+    """Return the number of complete messages; each message begins with its length (4 bytes)."""
     count, offset, end = 0, 0, b.tell()
     with b.getbuffer() as view:
         while offset + 4 <= end:
