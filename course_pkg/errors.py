@@ -196,7 +196,7 @@ class ChannelBroken(ChannelError):
 
 
 class ChannelClosed(ChannelError):
-    """The channel is closed by the other process."""
+    """The other process has closed the channel."""
 
 
 class ChannelTimeout(ChannelError):

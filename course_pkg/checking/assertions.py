@@ -88,8 +88,9 @@ class Results:
         # The function returns the text of the call; a report needs this text only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
-        self.marked: set[str] = set()  # the goals that the check has marked
-        self._goals: dict[str, bool] = {}  # maps each separately examined goal to whether it holds
+        self.marked: set[str] = set()  # The check has marked these goals.
+        # The value of each separately examined goal is whether the goal holds.
+        self._goals: dict[str, bool] = {}
 
     @property
     def assertions(self) -> tuple[Assertion, ...]:

@@ -282,9 +282,10 @@ class CheckContext:
     def place(self, name: str, item: object) -> None:
         """Define `name` in the kernel as a proxy for `item`, which is in this process; see checking/placed.
 
-        The proxy has the methods and attributes that the class of `item` declares with `@remote`. It can be
-        an argument of the student's function, `context.run("move", Its("shelf"))`, and code of `prepare` can
-        use it. Keep all data that the check relies on in `item`, not in code of `prepare`.
+        The proxy has the methods and attributes that the class of `item` declares with `@remote`. The proxy
+        can be an argument of the student's function, `context.run("move", Its("shelf"))`, and code of
+        `prepare` can use the proxy. Keep all data that the check relies on in `item`, not in code of
+        `prepare`.
         """
         if self._placed is None:
             self._placed = self._open.enter_context(PlacedObjects())

@@ -1,6 +1,7 @@
 """Partial credit: how the points of a part are divided among its goals.
 
-The points of a goal have at most two decimals. Their sum is exactly the points of the part.
+The points of a goal have at most two decimals. The points of all goals add up to exactly the points of the
+part.
 """
 
 from __future__ import annotations

@@ -8,12 +8,12 @@ from typing import Any, TypeAlias, TypeVar
 from course_pkg.errors import CheckError
 from course_pkg.ros.protocol.json_channel import Json
 
-Reply: TypeAlias = dict[str, Json]  # the fields of a reply on the channel
-Value: TypeAlias = Any  # a value that student code created
+Reply: TypeAlias = dict[str, Json]  # These are the fields of a reply on the channel.
+Value: TypeAlias = Any  # Student code created this value.
 Message: TypeAlias = Any  # A message, request or response; genpy generates no type annotations.
 # The fields of a message as plain data; the definition contains their types.
 Fields: TypeAlias = dict[str, Any]
-ServiceClass: TypeAlias = Any  # a service or message class that genpy generated
+ServiceClass: TypeAlias = Any  # genpy generates service and message classes.
 Item = TypeVar("Item")
 
 DEPTH = 12

@@ -30,7 +30,7 @@ class PartRecord:
     check: str
     verdict: str
     checked: str
-    passed: str  # the time at which the part passed for the first time
+    passed: str  # The part passed for the first time at this time.
     checks: int
     points: float = 0  # These are the points of the last check.
 

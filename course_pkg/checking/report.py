@@ -75,7 +75,7 @@ class Report:
     possible: float = 0
     assertions: tuple[Assertion, ...] = ()
     note: str = ""  # This text says what the student should do next, if no assertion shows it.
-    printed: str = field(default="", compare=False)  # the text that student code printed during the check
+    printed: str = field(default="", compare=False)  # Student code printed this text during the check.
     # The points are divided among these goals; without goals, a check gives all points or none.
     goals: tuple[Goal, ...] = ()
     # The value is True if the check did not finish, and grading counts it as failed.

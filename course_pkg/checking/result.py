@@ -90,7 +90,7 @@ class Finished:
         self.status = status if isinstance(status, int) else None
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
-        self.took = took if isinstance(took, float) else 0.0  # duration in s
+        self.took = took if isinstance(took, float) else 0.0  # The command took this time in s.
         # For a command that was still running: its CPU time, and the time that it waited for a CPU, in s.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0

@@ -9,7 +9,7 @@ from course_pkg.faults.stage import Stage
 
 HANG = 2.0  # If a program is still running after this time in s, it is assumed to wait for ever.
 START = 2.0  # A command gets this additional time in s, because its process has to start first.
-TIMEOUT = 10.0  # time limit in s for a program that ends without a signal
+TIMEOUT = 10.0  # A program that is expected to end has to end within this time in s.
 
 
 @dataclass(frozen=True)

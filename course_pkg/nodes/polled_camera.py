@@ -1,8 +1,9 @@
 """The node `polled_camera`: returns one picture of the shop for each call.
 
-It offers the service `request_image` (PolledImage). It subscribes to `counter`, the topic with the customers
-that `shop_camera` sees. Without messages, the pictures show a random number of customers. If `~stream` is
-above 0, the node also publishes this number of pictures per second on `image` (sensor_msgs/Image).
+The node offers the service `request_image` (PolledImage). The node subscribes to `counter`, the topic with
+the customers that `shop_camera` sees. Without messages, the pictures show a random number of customers. If
+`~stream` is above 0, the node also publishes this number of pictures per second on `image`
+(sensor_msgs/Image).
 """
 
 from __future__ import annotations

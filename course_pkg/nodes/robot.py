@@ -11,7 +11,7 @@ from sensor_msgs.msg import JointState
 
 from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
 
-RATE = 20.0  # publishing rate in Hz
+RATE = 20.0  # The robot publishes at this rate in Hz.
 
 
 class Joint(NamedTuple):

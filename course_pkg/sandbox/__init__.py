@@ -14,5 +14,6 @@ Each part runs in a new process, which is forked from a process with all imports
 
 If the machine forbids namespaces, users.py offers a weaker sandbox.
 
-These processes exchange JSON. Messages from `student_process.py` are shown as feedback, but never trusted.
+All processes of a sandbox exchange JSON. Messages from `student_process.py` are shown as feedback, but never
+trusted.
 """

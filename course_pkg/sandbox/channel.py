@@ -25,8 +25,8 @@ class Message(TypedDict, total=False):
     ready: bool  # The fork server has imported all modules.
     job: bool  # The worker sends a job.
     supervisor: int  # The process with this id is a supervisor that has started its processes.
-    port: int  # a supervisor's wait status; the supervisor and all its descendants have ended
-    over: int  # a supervisor's wait status, after it and all its descendants have ended
+    port: int  # The master of the part uses this port.
+    over: int  # A supervisor with this wait status, and all its descendants, have ended.
 
 
 def pair() -> tuple[socket.socket, socket.socket]:

@@ -11,20 +11,21 @@ from typing import Any, NoReturn
 from course_pkg.sandbox import namespaces
 
 STUDENT = 1000  # The student's code inside the sandbox has this uid and gid.
-MEMORY = 1 << 30  # maximum address space of each process in bytes
+MEMORY = 1 << 30  # Each process may use at most this address space in bytes.
 # Maximum address space of a check runner in bytes, mostly for the stacks of its threads.
 CHECK_RUNNER = 2 << 30
-TOGETHER = 768 << 20  # maximum memory of all processes of a part together in bytes
+TOGETHER = 768 << 20  # All processes of a part together may use at most this memory in bytes.
 PROCESSES = 200  # Maximum number of processes and threads; a launch file with three nodes has about 60.
-DISK = 128 << 20  # maximum size of all files in /student, and of all files in /tmp, in bytes
+# The total size of all files in each of the folders /student and /tmp has this limit in bytes.
+DISK = 128 << 20
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
 # This folder contains copies of files, and this variable lists the paths of the files.
 SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"
-FILES = 20_000  # maximum number of files in /student, and in /tmp
-FILE = 64 << 20  # maximum size of one file in bytes
+FILES = 20_000  # Each of the folders /student and /tmp may contain at most this number of files.
+FILE = 64 << 20  # A file has at most this size in bytes.
 # Maximum number of open files and sockets, which also limits the memory for socket buffers.
 OPEN = 256
-PROCESSOR = 120  # maximum CPU time in s
+PROCESSOR = 120  # A process has at most this CPU time in s.
 
 # These requests (asm-generic/ioctls.h) write input into another user's terminal.
 TIOCSTI, TIOCLINUX = 0x5412, 0x541C

@@ -14,7 +14,7 @@ from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.student_process import prepare
 from course_pkg.sandbox.supervisor import supervise
 
-CLEAR_TIMEOUT = 60.0  # maximum time in s for ending all processes of a part
+CLEAR_TIMEOUT = 60.0  # All processes of a part have to end within this time in s.
 
 
 def serve_forks(sock: socket.socket, private: str, *, isolation: Isolation) -> NoReturn:

@@ -12,11 +12,12 @@ from course_pkg.types.fields import Plain
 from course_pkg.waiting import at_this_load
 
 SETUP_TIMEOUT = 25.0  # Time limit in s for the cells before and after the answer, which may start nodes.
-ANSWER_TIMEOUT = 20.0  # time limit in s for a student's cell
+ANSWER_TIMEOUT = 20.0  # A student's cell has this time limit in s.
 
-LONGEST_PATH = 500  # maximum length of a path in characters
+LONGEST_PATH = 500  # A path has at most this number of characters.
 
-Record = dict[str, Plain]  # the record of a check runner: its report, and the seed of its random inputs
+# The record of a check runner contains its report, and the seed of its random inputs.
+Record = dict[str, Plain]
 
 
 @dataclass(frozen=True)
@@ -56,8 +57,8 @@ def work_file(path: str, data: bytes, *, executable: bool = False) -> WorkFile:
 class PartJob:
     """One part: the cells to run, and the check to run after them.
 
-    `before` and `after` are cells of the reference notebook. `answers` are the student's cells; the last one
-    is the cell of this part. time limit for the check (s)
+    `before` and `after` are cells of the reference notebook. `answers` are the student's cells; the last cell
+    is the answer of this part.
     """
 
     check: str
@@ -65,7 +66,7 @@ class PartJob:
     answers: tuple[str, ...]
     after: str
     seed: int
-    deadline: float  # time limit in s for the check itself
+    deadline: float  # The check itself has this time limit in s.
     setup_timeout: float = SETUP_TIMEOUT
     answer_timeout: float = ANSWER_TIMEOUT
     files: tuple[WorkFile, ...] = ()
@@ -92,10 +93,10 @@ class PartResult:
     """The result of a part: the check runner's record, if any, and the student process's messages."""
 
     record: Record | None
-    ending: str  # the reason for a missing record, or ""
+    ending: str  # This is the reason for a missing record, or "".
     # The cells' error messages may be false, so they are only used as feedback.
     messages: tuple[dict[str, str], ...] = ()
-    took: float = 0.0  # duration in s
+    took: float = 0.0  # The part took this time in s.
     # The value is true if the sandbox worker itself failed; the result of the answer is then unknown.
     lost: bool = False
 

@@ -1,8 +1,8 @@
 """Linux system calls for a sandbox, called from Python: namespaces(7), mount(2), capabilities(7).
 
 Each function changes the calling process, which must have only one thread. A function raises OSError with the
-name of the system call if the kernel refuses the call. The comments contain the names of the kernel headers
-that define the numbers.
+name of the system call if the kernel refuses the call. The comments name the kernel headers that define the
+constants.
 """
 
 from __future__ import annotations

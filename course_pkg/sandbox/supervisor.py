@@ -25,12 +25,12 @@ if TYPE_CHECKING:
 
 MASTER_PORT = 11311
 MASTER_TIMEOUT = 5.0  # The master has to start within this time in s.
-CLEAR_TIMEOUT = 5.0  # maximum time in s for ending all processes of a part
-MEMORY_INTERVAL = 0.1  # time in s between two measurements of the memory
+CLEAR_TIMEOUT = 5.0  # All processes of a part have to end within this time in s.
+MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the memory.
 # These lines of proc(5) contain the private memory, and the shared memory without a file (KiB).
 COUNTED = ("RssAnon:", "RssShmem:")
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
-TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # exit statuses of a supervisor
+TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # These are exit statuses of a supervisor.
 
 
 def supervise(

@@ -1,9 +1,9 @@
 """A weaker sandbox for machines that forbid namespaces: other users of the machine, and limits.
 
-Such a machine is, for example, a container of Gradescope in which the grader is root. The processes of a part
-run as users that own no other files. The student's code therefore cannot read the solutions, write the
-grades, or send signals to the grader. Without namespaces, the student's code can reach the network, and it
-can see the names of processes.
+An example is a container of Gradescope in which the grader is root. The processes of a part run as users that
+own no other files. The student's code therefore cannot read the solutions, write the grades, or send signals
+to the grader. Without namespaces, the student's code can reach the network, and it can see the names of
+processes.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from course_pkg.waiting import Deadline, wait_until
 
 # Debian, Ubuntu and systemd use no user ids from 60578 to 61183.
 FIRST, GROUPS = 60600, 140
-KILL_TIMEOUT = 20.0  # maximum time in s for killing the processes of a user
+KILL_TIMEOUT = 20.0  # All processes of a user have to end within this time in s after they were killed.
 SHARED = ("/tmp", "/var/tmp", "/dev/shm", "/run/lock", "/dev/mqueue")  # noqa: S108 -- everybody can write there
 
 
@@ -62,7 +62,8 @@ def become(uid: int) -> None:
     os.setresuid(uid, uid, uid)
     namespaces.give_up_privileges()
     namespaces.be_unreadable()
-    namespaces.die_with_parent()  # The change of the user has cancelled this setting.
+    # Linux has cancelled this setting because the user changed, so it is set again.
+    namespaces.die_with_parent()
 
 
 def run_confined(work: Callable[[], None], uid: int) -> NoReturn:

@@ -1,7 +1,7 @@
 """The trusted process of a sandbox worker: it reads one job per line, and prints one result per line.
 
-Its two arguments are the kind of isolation (see isolation.py), and the folder of an instructor's private
-parts or "".
+The two arguments of the worker are the kind of isolation (see isolation.py), and the folder of an
+instructor's private parts or "".
 """
 
 from __future__ import annotations

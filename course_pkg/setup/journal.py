@@ -12,7 +12,7 @@ from course_pkg.errors import SetupError
 
 KEPT_LOGS = 10
 TAIL_LINES = 8
-WATCH_INTERVAL = 0.5  # time in s between two calls of `watch`
+WATCH_INTERVAL = 0.5  # This is the time in s between two calls of `watch`.
 LEAST_FREE = 1 << 20  # A disk with less free space (in bytes) is treated as full.
 FULL = ("No space left on device", "not enough free space")
 

@@ -40,7 +40,7 @@ UNATTENDED = ("env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8")
 LOCKED = re.compile(r"Could not get lock|lock was locked by another process|Unable to (?:acquire|lock)")
 # The set-up waits up to this time in s for a lock, because `apt-get update` and dpkg cannot wait.
 LOCK_TIMEOUT = 600.0
-RETRY_INTERVAL = 2.0  # time in s between two attempts
+RETRY_INTERVAL = 2.0  # This is the time in s between two attempts.
 WAITING = "Another program is installing packages. Waiting for its end, for at most 10 minutes."
 
 

@@ -16,11 +16,11 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-POLL = 0.25  # time in s between two checks whether the camera still sends messages
+POLL = 0.25  # This is the time in s between two checks whether the camera still sends messages.
 # If an Eye receives no valid frame for this time in s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0
 
-Time: TypeAlias = "float | genpy.Time"  # a time of a Watch's clock
+Time: TypeAlias = "float | genpy.Time"  # This is a time of the clock of a Watch.
 Frame = TypeVar("Frame")
 
 
@@ -47,7 +47,7 @@ class Watch:
         self.changed = threading.Condition()
         self._now = now
         self._there: tuple[Customer, ...] = ()
-        self._last = -float("inf")  # the time of the camera's last message, in s of time.monotonic()
+        self._last = -float("inf")  # The camera's last message arrived at this time of time.monotonic().
 
     @property
     def silent_for(self) -> float:
@@ -106,7 +106,7 @@ class Eye(Generic[Frame]):
         self.changed = threading.Condition()
         self._sees = sees
         self._seen = False
-        self._last = -float("inf")  # the time of the newest valid frame, in s of time.monotonic()
+        self._last = -float("inf")  # The newest valid frame arrived at this time of time.monotonic().
 
     def hear(self, frame: Frame) -> None:
         """Process a frame, but ignore a malformed frame; this method is the callback of a subscriber."""

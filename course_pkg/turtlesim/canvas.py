@@ -7,7 +7,7 @@ import math
 Colour = tuple[int, int, int]
 Point = tuple[float, float]
 
-SIDE = 500  # width and height of the canvas in px
+SIDE = 500  # The canvas has this width and height in px.
 DEPTH = 3  # A pixel has three bytes: red, green, blue.
 EMPTY = (1.0, 0.0)  # The range is empty if a row does not touch the line.
 

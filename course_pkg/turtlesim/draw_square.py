@@ -13,11 +13,11 @@ from turtlesim.msg import Pose
 from course_pkg.ros import prepare_node
 from course_pkg.turtlesim.world import normalized
 
-SIDE = 2.0  # length of a side in m
-CORNER = math.pi / 2  # angle of a corner in rad
-SPEED = 1.0  # maximum velocity in m/s
-TURN = 0.8  # maximum angular velocity in rad/s
-TOLERANCE = 0.01  # maximum error in m or rad at the end of a side or corner
+SIDE = 2.0  # A side of the square has this length in m.
+CORNER = math.pi / 2  # The turtle turns by this angle in rad at each corner.
+SPEED = 1.0  # This is the maximum velocity in m/s.
+TURN = 0.8  # This is the maximum angular velocity in rad/s.
+TOLERANCE = 0.01  # A side or corner may end with this error in m or rad.
 # Velocity in 1/s per remaining m or rad: the turtle slows down before the end of a side or corner.
 SLOW = 4.0
 

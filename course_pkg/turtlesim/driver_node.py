@@ -19,7 +19,7 @@ from course_pkg.srv import (
 )
 from course_pkg.turtlesim.driving import SPEED, Toggling, keep_driving
 
-MAX_RATE = 100.0  # maximum number of velocity messages per second
+MAX_RATE = 100.0  # A driver publishes at most this number of velocity messages per second.
 
 
 class AdjustableDriver(Toggling):

@@ -9,8 +9,8 @@ from typing import Protocol
 from geometry_msgs.msg import Twist
 from std_srvs.srv import EmptyRequest, EmptyResponse
 
-SPEED = 1.0  # default speed in m/s
-TURN = 1.0  # default angular velocity in rad/s
+SPEED = 1.0  # This is the default speed in m/s.
+TURN = 1.0  # This is the default angular velocity in rad/s.
 SLICE = 0.02  # The clock is checked once in this time (s), so a new rate takes effect within this time.
 
 Publish = Callable[[Twist], None]

@@ -12,10 +12,10 @@ from itertools import count
 
 from course_pkg.turtlesim.canvas import SIDE, Canvas, Colour, Point
 
-TICK = 0.016  # length of a tick in s
+TICK = 0.016  # A tick has this length in s.
 PIXELS = 45.0  # Pixels per metre; in turtlesim of ROS, the picture of a turtle has this height.
-WIDTH = (SIDE - 1) / PIXELS  # width and height of the world in m
-HOME = WIDTH / 2  # x and y of the middle of the world in m
+WIDTH = (SIDE - 1) / PIXELS  # The world has this width and height in m.
+HOME = WIDTH / 2  # The middle of the world has this x and y in m.
 COMMAND_TIMEOUT = 1.0  # A velocity command is valid for this time in s.
 BACKGROUND: Colour = (69, 86, 255)
 

@@ -15,7 +15,7 @@ from course_pkg.errors import FieldError
 from course_pkg.types.fields import Field, Kind, MessageClass, Plain, elements, members
 from course_pkg.types.numbers import float32
 
-# a value in the representation that genpy uses
+# This is a value in the representation that genpy uses.
 Genpy: TypeAlias = "Plain | genpy.Message | TVal | Sequence[Genpy]"
 
 

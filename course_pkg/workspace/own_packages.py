@@ -78,9 +78,10 @@ class OwnPackages:
             "LD_LIBRARY_PATH": [self._devel / "lib"],
             "PYTHONPATH": [self._devel / folder for folder in _module_folders()],
         }
-        # maps the path of each generated file to the time of its last change in ns
+        # The dict maps the path of each generated file to the time of its last change in ns.
         self._seen: dict[str, int] = {}
-        self._unreadable: set[str] = set()  # the messages of the last refresh() about package.xml files
+        # These are the messages of the last refresh() about package.xml files.
+        self._unreadable: set[str] = set()
 
     def follow_cells(self, shell: InteractiveShell | None) -> None:
         """Call refresh() now and, in a notebook, before each cell; print its message, if any."""

@@ -17,7 +17,7 @@ from course_pkg.waiting import at_this_load, wait_until
 
 SLACK = 3.0  # After the time limit of a command, the kernel has this additional time in s to reply.
 ENDING = 5.0  # A command has to end within this time in s after SIGINT or SIGKILL.
-LOOK = 0.1  # time in s between two snapshots of a graph
+LOOK = 0.1  # This is the time in s between two snapshots of a graph.
 COLOUR = re.compile(r"\x1b\[\d*m")
 
 

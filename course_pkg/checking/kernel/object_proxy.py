@@ -20,7 +20,7 @@ from course_pkg.checking.plain_values import Value, plain
 from course_pkg.errors import ChannelClosed, ChannelError
 from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 
-CONNECT_TIMEOUT = 10.0  # maximum time in s for connecting to the check runner
+CONNECT_TIMEOUT = 10.0  # A connection to the check runner has to be open within this time in s.
 OVER = "this object belongs to a check that has ended"
 
 Ask = Callable[..., Value]

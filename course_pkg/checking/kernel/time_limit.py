@@ -19,7 +19,7 @@ from typing import Any, TypeVar
 
 from course_pkg.ros.notebook.tracebacks import is_students
 
-REPEAT = 0.2  # time in s between two attempts to end a call that waits in a library
+REPEAT = 0.2  # This is the time in s between two attempts to end a call that waits in a library.
 
 Value = TypeVar("Value")
 

@@ -47,7 +47,7 @@ class Late:
 
 
 Act = Mapping[str, Value] | genpy.Message | Refuse | HangUp | Silence | Late
-Script = Callable[..., Act]  # maps a request to the next action
+Script = Callable[..., Act]  # A script returns the next action for a request.
 
 
 @dataclass

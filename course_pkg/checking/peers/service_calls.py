@@ -18,7 +18,7 @@ from course_pkg.waiting import Deadline
 
 HANDLERS_ERROR = matches("error processing request")
 LONGEST = 2000  # A traceback in a report has at most this number of characters.
-TIMEOUT = 3.0  # time limit in s for one call, unless a check sets another limit
+TIMEOUT = 3.0  # A call has this time limit in s, unless a check sets another limit.
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Reply:
     request: Message
     response: Message = None
     error: str = ""
-    took: float = 0.0  # duration in s
+    took: float = 0.0  # The call took this time in s.
 
     @property
     def unanswered(self) -> bool:
@@ -51,7 +51,7 @@ class Service:
     ) -> None:
         self.name = name
         self.kind = kind
-        self.took = 0.0  # the duration of the last call in s
+        self.took = 0.0  # The last call took this time in s.
         self._results = results
         self._label = label  # Assertions show this text for the service.
         self._hints = hints

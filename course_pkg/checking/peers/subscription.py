@@ -30,8 +30,8 @@ class Arrival:
     """One message: its `fields` as plain data, and its time of arrival `at` (time.monotonic())."""
 
     fields: Fields
-    at: float  # time of arrival in s
-    by: str  # name of the node that published the message
+    at: float  # The message arrived at this time in s.
+    by: str  # The node with this name published the message.
     latched: bool  # The value is true if the publisher sends its last message to later subscribers.
 
 
@@ -46,7 +46,7 @@ class Subscription:
         self._label = label  # The titles of assertions show this text for the topic.
         self._cls = kind
         self._arrivals: list[Arrival] = []
-        self._others: deque[str] = deque(maxlen=1)  # the type of the last message that had a wrong type
+        self._others: deque[str] = deque(maxlen=1)  # This is the type of the last message with a wrong type.
         self._arrived = threading.Condition()
 
     @property

@@ -33,7 +33,7 @@ CATKIN_MAKE = "catkin_make -j2"
 
 @dataclass(frozen=True)
 class Package:
-    """A package for exercises: its name, and the check's own version of each file, by path."""
+    """A package for exercises: its name, and the check's own version of each file."""
 
     name: str
     files: Mapping[str, str]
@@ -86,9 +86,9 @@ def built(
     """Build a copy of the student's package, and assert that the build succeeds.
 
     If `alone` is true, only `examined` comes from the student. The files in `drawn` (content by path in the
-    package) replace the student's files. Their content is random, so no student's CMakeLists.txt can contain
-    it. Raises CheckError if the build takes more than `within` s; a build with C++ needs more than the
-    default.
+    package) replace the student's files. The content of these files is random, so no student's CMakeLists.txt
+    can contain it. Raises CheckError if the build takes more than `within` s; a build with C++ needs more
+    than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}

@@ -29,7 +29,7 @@ CAPACITY = 1000  # The list `calls` stores at most this many calls.
 class HandledCall:
     """One call that the server handled.
 
-    It contains the `time` in s since the epoch, and either a response or an error message.
+    `time` is in s since the epoch; `response` or `error` is the result.
     """
 
     time: float
@@ -136,7 +136,7 @@ class Service:
     def _replace(self, before: ServiceImpl) -> None:
         """Let this service also answer the clients that are still connected to the earlier service.
 
-        Both services have the same address. The shutdown() of the earlier service would unregister this
+        The two services have one address. The shutdown() of the earlier service would unregister this
         address, so the earlier service gets an invalid address.
         """
         before.uri = "rosrpc://replaced:0"

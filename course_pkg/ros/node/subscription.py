@@ -24,9 +24,9 @@ Callback = Callable[[Message], object]
 
 
 class Subscription:
-    """A subscription: `messages` holds the last 1000 messages, the oldest first.
+    """A subscription: `messages` contains the last 1000 messages, the oldest message first.
 
-    `errors` holds the last 1000 exceptions that `callback` raised.
+    `errors` contains the last 1000 exceptions of `callback`.
     """
 
     def __init__(self, topic: str, cls: MessageClass, callback: Callback | None = None) -> None:

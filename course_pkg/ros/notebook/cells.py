@@ -31,8 +31,8 @@ class CellRun:
     source: str = ""
     # The value is True for a check; objects of a check are ended when the check ends.
     temporary: bool = False
-    error: str = ""  # the class name of the exception that ended the run
-    # maps each created object to the function that ends it, the oldest object first
+    error: str = ""  # This is the class name of the exception that ended the run.
+    # The dict maps each created object to the function that ends it, the oldest object first.
     created: dict[Hashable, Close] = field(default_factory=dict)
     threads: frozenset[int] = frozenset()  # These threads were running when the run began.
 
@@ -53,7 +53,7 @@ class Cells:
     def __init__(self, close_all: CloseAll) -> None:
         self._close_all = close_all
         self._runs: dict[str, CellRun] = {}
-        self._cells: dict[str, str] = {}  # maps the `source` of a run to the id of its cell
+        self._cells: dict[str, str] = {}  # The dict maps the `source` of a run to the id of its cell.
         self._current: CellRun | None = None
         # This is the number of cells that run inside the current cell, for example with %%capture.
         self._depth = 0

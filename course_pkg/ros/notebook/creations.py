@@ -35,7 +35,7 @@ EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError
 # An ended service gets this address. With the old address, its shutdown() would unregister a newer service of
 # this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
-LOOK = 0.5  # time in s between two checks whether an action server has ended
+LOOK = 0.5  # This is the time in s between two checks whether an action server has ended.
 
 
 def note_creations(cells: Cells) -> None:

@@ -117,8 +117,8 @@ def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> Non
     """Return as soon as the master at ROS_MASTER_URI answers.
 
     Ctrl-C interrupts this function, but it does not interrupt the wait in init_node(). The function polls the
-    master every `interval` s, and calls `warn` once if no master answers. It raises MalformedMasterUri and
-    NotAMaster at once.
+    master every `interval` s, and calls `warn` once if no master answers. The function raises
+    MalformedMasterUri and NotAMaster at once.
     """
     client, warned = MasterClient(master_uri()), False
     while True:

@@ -14,7 +14,7 @@ from course_pkg.errors import ChannelBroken, ChannelClosed, ChannelTimeout
 from course_pkg.waiting import Deadline
 
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
-LIMIT = 1 << 26  # default maximum length of a line, in bytes
+LIMIT = 1 << 26  # This is the default limit for the length of a line in bytes.
 CHUNK = 65536  # One read or write handles at most this number of bytes.
 
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from course_pkg.errors import GraphError, MasterSilent, MasterUnreachable, NotAMaster
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient, items
 
-Addresses = dict[str, str]  # maps the name of each node or service to its address
+Addresses = dict[str, str]  # The dict maps the name of each node or service to its address.
 REMAP = "__master:="  # Source: http://wiki.ros.org/Remapping%20Arguments
-# maps a topic or service to its publishers, subscribers or servers
+# The mapping contains the publishers, subscribers or servers of each topic or service.
 Registered = Mapping[str, tuple[str, ...]]
 
 

@@ -1,8 +1,8 @@
 """List the registrations at the master, and remove the registrations of nodes that have ended.
 
-Unlike `rosnode cleanup`, this module has a time limit and does not ask for confirmation. It removes a
-registration only if its address refuses connections. A suspended node (SIGSTOP) still accepts connections, so
-its registrations are not removed.
+Unlike `rosnode cleanup`, this module has a time limit and does not ask for confirmation. This module removes
+a registration only if the registered address refuses connections. A suspended node (SIGSTOP) still accepts
+connections, so its registrations are not removed.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 A subscriber of rospy wakes up for each message, and with hundreds of messages per second, this takes too much
 CPU time. The reader therefore uses TCPROS itself (http://wiki.ros.org/ROS/TCPROS), and reads all new messages
-every 50 ms. It does not register as a subscriber, because a panel should not change the graph.
+every 50 ms. The reader does not register as a subscriber, because a panel should not change the graph.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.protocol.probe import ask_all, encode_header, rpc_answer, rpc_probe
 from course_pkg.ros.protocol.xmlrpc import number
 
-INTERVAL = 0.05  # time in s between two reads
-SEARCH = 1.0  # time in s between two requests to the master
+INTERVAL = 0.05  # This is the time in s between two reads.
+SEARCH = 1.0  # This is the time in s between two requests to the master.
 TIMEOUT = 0.5  # A node has to respond within this time in s.
 # If a message has more bytes, the reader closes the connection.
 LONGEST = 1 << 20

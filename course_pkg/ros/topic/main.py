@@ -1,7 +1,7 @@
 """The program of a topic process: `python -m course_pkg.ros.topic.main DESCRIPTOR TOPIC`.
 
-It receives commands through its channel. The name of a command is in the field "do", and these are the other
-fields:
+The process receives commands through its channel. The name of a command is in the field "do", and these are
+the other fields:
 
     type      name, text           the type of the topic; text is "" if the type is built
     publish   texts, latch, queue, count
@@ -9,7 +9,7 @@ fields:
     stop, withdraw
     plot      path                 record the values of this number; "" for no number
 
-It sends a Report at most ten times per second. It ends when the channel is closed.
+The process sends a Report at most ten times per second, and ends when the channel is closed.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from course_pkg.types import MessageType, StringTree, compile_message, message_t
 
 REPORT_INTERVAL = 0.1  # Two reports have at least this time in s between them.
 SELDOM = 3  # Every third report also contains the data that takes long to compute or to send.
-GRAPH_INTERVAL = 1.0  # time in s between two requests to the master
+GRAPH_INTERVAL = 1.0  # This is the time in s between two requests to the master.
 
 
 class TopicNode:

@@ -1,7 +1,8 @@
 """A subscription to a topic of any type.
 
-It counts the messages, and stores their times and the bytes of the last messages. A message is deserialised
-only if a panel shows its values, because deserialising all messages of a fast topic takes too long.
+A subscription counts the messages, and stores their times and the bytes of the last messages. A message is
+deserialised only if a panel shows its values, because deserialising all messages of a fast topic takes too
+long.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from course_pkg.ros.node.type_lookup import Message
 from course_pkg.ros.topic.reports import Source
 from course_pkg.ros.topic.statistics import DownsampledSeries, RateStatistics
 
-CAPACITY = 10  # This number of messages is stored.
+CAPACITY = 10  # Only the last messages, up to this number, are stored.
 LONGEST = 16_384  # The body of a longer message (in bytes) is not stored.
 
 Extract = Callable[[bytes], float]

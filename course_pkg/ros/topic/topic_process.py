@@ -34,7 +34,7 @@ class TopicProcess:
     """A separate node on `topic`; it ends when end() is called, or when this process ends.
 
     `reported` is called with this object and each report. `lost` is called with this object and an error
-    message if the node ends without end(). Both functions are called on another thread.
+    message if the node ends without end(). `reported` and `lost` are called on another thread.
 
     `main.py` lists the commands, and `reports.py` lists the keys of a report.
     """

@@ -18,7 +18,7 @@ from course_pkg.ros.protocol.probe import Probe, ask_all, rpc_answer, rpc_probe
 from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
-TIMEOUT = 0.5  # time limit of a poll in s
+TIMEOUT = 0.5  # This is the time limit of a poll in s.
 STATISTICS = "getBusStats"  # The third item of the response is for services; rospy leaves it empty.
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
@@ -69,11 +69,11 @@ class Activity:
 class ActivityPoller:
     """Polls the nodes of a graph.
 
-    It requests the subscriber's name only once for each connection.
+    A poller requests the subscriber's name only once for each connection.
     """
 
     def __init__(self) -> None:
-        # maps the address of each node to its connections, and each connection to the subscriber
+        # The dict maps each node's address to its connections, and each connection to the subscriber.
         self._peers: dict[str, dict[int, str]] = {}
 
     def poll(self, snapshot: Snapshot, timeout: float = TIMEOUT) -> Activity:

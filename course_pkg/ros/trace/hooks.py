@@ -13,7 +13,7 @@ from rospy.impl.tcpros_base import TCPROSTransport
 HOOKED = "hooked_by_course"  # This attribute marks a method that has been replaced.
 TRANSPORT = "TCPROSTransport"  # rospy's modules create their connections with the class of this name.
 
-Method = Callable[..., Any]  # rospy has no type annotations
+Method = Callable[..., Any]  # rospy has no type annotations.
 
 
 class Hook:

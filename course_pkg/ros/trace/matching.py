@@ -1,8 +1,8 @@
 """Combine the records of several nodes: match each handler with its request, each callback with its message.
 
-Both nodes of a connection count its messages. Records with the same connection, name and number describe the
-same message. A later connection may use the same ports again. Records are therefore not matched if several
-matches are possible, or if their times contradict each other.
+The publisher and the subscriber both count the messages of a connection. Two records describe one message if
+they have the same connection, name and number. A later connection may use the same ports again. Records are
+therefore not matched if several matches are possible, or if their times contradict each other.
 """
 
 from __future__ import annotations

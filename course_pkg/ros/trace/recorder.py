@@ -38,8 +38,7 @@ CALLERS = 100
 
 EXCHANGED = (REQUEST, WAIT, RESPONSE)  # These phases of a call use the connection.
 
-# (the client's numeric address, the server's port). Client and server both know these values. Both ends know
-# these values.
+# (the client's numeric address, the server's port). Client and server both know these values.
 Connection = tuple[Sequence[str | int], int]
 # (the connection, the number of the message on this connection, the name of the other node)
 Transfer = tuple[Connection, int, str]

@@ -23,7 +23,7 @@ NOBODY = "nobody was connected"  # The note of a message that had no subscriber.
 OF_CALLS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER)
 BLOCKED = (LOOKUP, CONNECT, WAIT)  # During these phases of a call, a node waits for another node.
 
-# The name and the identifier of a thread. A later thread may have the same identifier.
+# The name and the identifier of a thread.
 Thread = tuple[str, int]
 
 

@@ -1,6 +1,6 @@
 """A relay that forwards TCP connections and stores their bytes, to show the bytes of a real call.
 
-The relay is between a client and a server. It does not change or interpret the bytes.
+The relay is between a client and a server. The relay does not change or interpret the bytes.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from types import TracebackType
 MOST = 4 << 20
 # At most this number of connections is stored. Further connections are only forwarded and counted.
 CONNECTIONS = 50
-CONNECT_TIMEOUT = 5.0  # maximum time in s for connecting to the server
+CONNECT_TIMEOUT = 5.0  # A connection to the server has to be open within this time in s.
 CLOSE_TIMEOUT = 2.0  # Wait up to this time in s for the end of open connections.
 CHUNK = 65536  # At most this number of bytes is forwarded at a time.
 
@@ -36,7 +36,7 @@ class Chunk:
 class RelayedConnection:
     """One connection and its bytes, in the order of their arrival."""
 
-    opened: float  # time.monotonic() when the connection was opened
+    opened: float  # The connection was opened at this time of time.monotonic().
     chunks: list[Chunk] = field(default_factory=list)
     # This is "client" or "server" for the program that closed first, and empty while the connection is open.
     closed_by: str = ""
