@@ -1,4 +1,7 @@
-"""The folder for a student's results and own packages; each checkout has its own folder outside it."""
+"""The folder for a student's results and own packages.
+
+Each checkout has its own folder outside the checkout.
+"""
 
 from __future__ import annotations
 

@@ -69,8 +69,8 @@ def wait_until(
 def at_this_load(seconds: float) -> float:
     """Return a time limit in s for work that takes at most `seconds` s on an idle machine.
 
-    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Otherwise,
-    a program that waits for a CPU would look like a program that never ends.
+    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Without a
+    longer limit, a program that waits for a CPU would look like a program that never ends.
     """
     load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
     return seconds * min(max(load, 1.0), MOST)

@@ -89,7 +89,7 @@ class Results:
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
         self.marked: set[str] = set()  # The check has marked these goals.
-        # The value of each separately examined goal is whether the goal holds.
+        # The dict contains the separately examined goals, and whether each goal holds.
         self._goals: dict[str, bool] = {}
 
     @property

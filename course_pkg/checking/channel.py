@@ -1,7 +1,7 @@
 """The connection between the check client in a kernel, which is not trusted, and the check runner.
 
-They use a stream socket, with one JSON object of at most `LIMIT` bytes in each line. The runner never
-unpickles or evaluates received data.
+The client and the runner use a stream socket, with one JSON object of at most `LIMIT` bytes in each line. The
+runner never unpickles or evaluates received data.
 
     client -> runner   {"protocol": 4, "check": "05.1"}            once, first
     runner -> client   {"ask": 1, "do": "look", "name": "measure"}

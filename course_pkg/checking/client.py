@@ -1,4 +1,7 @@
-"""`check("05.1")`: the check client in the kernel. It calls the check runner, and shows the report."""
+"""`check("05.1")`: the check client in the kernel.
+
+The client calls the check runner, and shows the report.
+"""
 
 from __future__ import annotations
 
@@ -22,8 +25,8 @@ from course_pkg.checking.report import Report, Verdict, report_from
 from course_pkg.errors import ChannelClosed, ChannelError, CheckError
 from course_pkg.ros.notebook.cells import Cells
 
-# Two messages of the check runner are at most this time in s apart. In grading, a check can take up to 600 s
-# on a busy machine, and the kernel may receive no message before.
+# The check runner has to send its next message within this time in s. In grading, a check can take up to 600
+# s on a busy machine, and the kernel may receive no message during this time.
 TIMEOUT = 900.0
 RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.runner_process import main; main()"
 

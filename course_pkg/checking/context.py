@@ -38,8 +38,8 @@ KNOWN = (AssertionFailed, ChannelError, CheckError)
 class CheckContext:
     """One run of a check.
 
-    The first failed assertion ends the run, or only the `goal` block in which it is. When the run ends, all
-    its servers, topics and folders are closed.
+    The first failed assertion ends the run, or only the `goal` block that contains the assertion. When the
+    run ends, all its servers, topics and folders are closed.
     """
 
     def __init__(self, check: str, channel: Channel, node: Node, seed: int) -> None:
@@ -61,7 +61,7 @@ class CheckContext:
     def fulfilled(self, goal: str) -> None:
         """Mark a goal of the part as fulfilled: it earns its points even if a later assertion fails.
 
-        A goal earns points only if all assertions before its mark hold. Put the part's main goal first, so
+        A goal earns points only if all assertions before this call hold. Put the part's main goal first, so
         that a program that does nothing, or refuses everything, earns no points for a later goal. If the goal
         was also examined with `goal`, it must not have failed there.
         """

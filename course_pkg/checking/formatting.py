@@ -14,7 +14,7 @@ def command_line(name: str, kind: ServiceClass, request: Message) -> str:
 
 
 def explained(error: str) -> str:
-    """Return the meaning of an error message of ROS, and what the student can do, or "" if it is unknown."""
+    """Return the meaning of a ROS error message, and what the student can do; "" for an unknown message."""
     if error.startswith("TimesUp"):
         return (
             "The call has not returned: the handler waits for something that does not happen, or runs an "

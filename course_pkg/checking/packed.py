@@ -2,7 +2,7 @@
 
 The source of a check contains answers, such as expected values and files of a package. `check()` needs this
 source on the student's computer. In the packed source, students do not find an answer by accident or with a
-search, but they can unpack it deliberately.
+search, but they can unpack the source deliberately.
 """
 
 from __future__ import annotations

@@ -9,11 +9,11 @@ from course_pkg.errors import CheckError
 from course_pkg.ros.protocol.json_channel import Json
 
 Reply: TypeAlias = dict[str, Json]  # These are the fields of a reply on the channel.
-Value: TypeAlias = Any  # Student code created this value.
+Value: TypeAlias = Any  # This is a value that student code created.
 Message: TypeAlias = Any  # A message, request or response; genpy generates no type annotations.
 # The fields of a message as plain data; the definition contains their types.
 Fields: TypeAlias = dict[str, Any]
-ServiceClass: TypeAlias = Any  # genpy generates service and message classes.
+ServiceClass: TypeAlias = Any  # This is a service or message class of genpy.
 Item = TypeVar("Item")
 
 DEPTH = 12

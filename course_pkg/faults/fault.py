@@ -21,8 +21,8 @@ class Fault:
     Python program, or "$ " and a command line.
 
     `look` names the kind of symptom with one or two words: a group, and optionally a smaller group of very
-    similar symptoms. Faults with a similar `look` supply the wrong diagnoses. The diagnoses of the faults in
-    `unlike` are never offered as wrong choices, because they would also be correct.
+    similar symptoms. The wrong diagnoses for students come from faults with a similar `look`. The diagnoses
+    of the faults in `unlike` are never offered as wrong choices, because they would also be correct.
     """
 
     name: str

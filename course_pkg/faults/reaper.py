@@ -2,9 +2,9 @@
 
 usage: reaper.py MASTER NAMESPACE FOLDER
 
-The processes of a case end with the kernel; if the case has killed a process, its registrations remain at the
-master. After SIGTERM, which means that the kernel has ended, this program removes these registrations. This
-program runs for every case, so it imports other modules only after SIGTERM.
+The processes of a case end with the kernel. If the case has killed a process, the registrations of this
+process remain at the master. After SIGTERM, which means that the kernel has ended, this program removes these
+registrations. This program runs for every case, so it imports other modules only after SIGTERM.
 """
 
 from __future__ import annotations

@@ -12,10 +12,11 @@ from course_pkg.sandbox import namespaces
 
 STUDENT = 1000  # The student's code inside the sandbox has this uid and gid.
 MEMORY = 1 << 30  # Each process may use at most this address space in bytes.
-# Maximum address space of a check runner in bytes, mostly for the stacks of its threads.
+# A check runner may use at most this address space in bytes, mostly for the stacks of its threads.
 CHECK_RUNNER = 2 << 30
 TOGETHER = 768 << 20  # All processes of a part together may use at most this memory in bytes.
-PROCESSES = 200  # Maximum number of processes and threads; a launch file with three nodes has about 60.
+# At most this number of processes and threads may run; a launch file with three nodes has about 60.
+PROCESSES = 200
 # The total size of all files in each of the folders /student and /tmp has this limit in bytes.
 DISK = 128 << 20
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
@@ -23,7 +24,7 @@ MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
 SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"
 FILES = 20_000  # Each of the folders /student and /tmp may contain at most this number of files.
 FILE = 64 << 20  # A file has at most this size in bytes.
-# Maximum number of open files and sockets, which also limits the memory for socket buffers.
+# At most this number of files and sockets may be open, which also limits the memory for socket buffers.
 OPEN = 256
 PROCESSOR = 120  # A process has at most this CPU time in s.
 
@@ -47,8 +48,8 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
     """Run `work` without privileges, in new user and process namespaces, and with new folders in memory.
 
     Call this function in a forked process that is root in its user namespace. This function never returns:
-    after the end of `work`, it ends all processes that `work` started. If `may_write` is false, /student is
-    read-only.
+    after the end of `work`, the function ends all processes that `work` started. If `may_write` is false,
+    /student is read-only.
     """
     namespaces.die_with_parent()
     namespaces.unshare(

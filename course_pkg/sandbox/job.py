@@ -11,7 +11,8 @@ from course_pkg.checking.report import Report, report_from
 from course_pkg.types.fields import Plain
 from course_pkg.waiting import at_this_load
 
-SETUP_TIMEOUT = 25.0  # Time limit in s for the cells before and after the answer, which may start nodes.
+# The cells before and after the answer, which may start nodes, have this time limit in s.
+SETUP_TIMEOUT = 25.0
 ANSWER_TIMEOUT = 20.0  # A student's cell has this time limit in s.
 
 LONGEST_PATH = 500  # A path has at most this number of characters.

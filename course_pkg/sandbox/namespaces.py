@@ -127,7 +127,7 @@ def adopt_orphans() -> None:
 def be_unreadable() -> None:
     """Prevent other processes of this user from reading this process.
 
-    Examples are ptrace, /proc/PID/mem and /proc/PID/fd.
+    Other processes could otherwise use ptrace, /proc/PID/mem and /proc/PID/fd.
     """
     _done(_libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0), "prctl")
 

@@ -19,7 +19,7 @@ from course_pkg.waiting import interrupt_after
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
-REPEAT = 0.5  # Time in s between two alarms; a cell may catch the first alarm.
+REPEAT = 0.5  # This is the time in s between two alarms; a cell may catch the first alarm.
 LONGEST = 2000  # An error message has at most this number of characters.
 
 Send = Callable[[Mapping[str, str]], None]

@@ -197,7 +197,7 @@ def memory_below(ancestor: int) -> int:
 def _end_all(folder: str, isolation: Isolation) -> None:
     """Kill all descendants, wait for their end, and delete the folder.
 
-    The mounts of a namespace end with it.
+    When a namespace ends, its mounts end too.
     """
     end_all_below(CLEAR_TIMEOUT)
     if isolation.users:

@@ -82,7 +82,7 @@ def run_confined(work: Callable[[], None], uid: int) -> NoReturn:
 def make_folder(users: Users) -> str:
     """Make the folders of a part, and return the student's work folder.
 
-    The folder `commands` next to it belongs to the command runner, also for its temporary files.
+    The folder `commands` next to the work folder belongs to the command runner, also for its temporary files.
     """
     base = Path(tempfile.mkdtemp(prefix="course-grading-"))
     base.chmod(0o755)

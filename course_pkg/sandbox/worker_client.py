@@ -19,7 +19,9 @@ from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 
 START_TIMEOUT = 90.0  # The worker has to start within this time in s; without load, the start takes 2 s.
-SLACK = 45.0  # If there is no result this time (s) after a part's own limit, the worker itself has failed.
+# After a part's own limit and this additional time in s, a missing result means that the worker itself has
+# failed.
+SLACK = 45.0
 
 
 class SandboxWorker:

@@ -122,7 +122,7 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 def _leftovers(places: Places) -> Iterator[Finding]:
     """Find processes of this checkout that are still running although their parent has ended.
 
-    After SIGKILL of an owner, the supervisor normally ends the owned process within seconds.
+    If an owner was killed with SIGKILL, its supervisor normally ends the owned process within seconds.
     """
     orphans = _orphans(places)
     wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)

@@ -16,7 +16,10 @@ PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt",
 
 
 class Places(NamedTuple):
-    """The folders of one checkout; created files are outside, because rosrun searches the checkout."""
+    """The folders of one checkout.
+
+    The set-up creates files only outside the checkout, because rosrun searches the checkout.
+    """
 
     checkout: Path
     cache: Path

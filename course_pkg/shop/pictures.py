@@ -18,7 +18,7 @@ HALF_BREADTH = 0.13  # Half the width of a customer is this fraction of the pict
 
 WIDTH, HEIGHT = 160, 120  # A frame has this size in pixels.
 DARK = 96  # A pixel with a lower brightness is dark.
-SHARE = 10  # If at least one of 10 pixels is dark, the frame shows a customer.
+SHARE = 10  # If at least 1/SHARE of the pixels are dark, the frame shows a customer.
 BRIGHT, DARK_COAT = 208, 40  # These are the minimum brightness of the wall and of a coat.
 SHADE = 12  # Pixels of the wall and of a coat vary in brightness by less than this value.
 # Half the width of a customer's head and shoulders is this fraction of the frame's height.

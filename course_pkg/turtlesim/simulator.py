@@ -20,7 +20,8 @@ from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
 FIRST = "turtle1"  # This turtle exists after a reset.
-# Requests take at most this time in s in one tick, so many requests do not delay a pose for longer.
+# Requests take at most this time in s in one tick. Even many requests therefore do not delay a pose for
+# longer.
 BUDGET = 0.008
 MAX_DELAY = 0.25  # Ticks with a longer delay (s) are skipped, for example after the machine was suspended.
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))

@@ -4,8 +4,8 @@ With a queue, rospy starts a thread for each subscriber of a topic. This thread 
 1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
 directly, and a subscriber that does not read blocks the publisher.
 
-A turtle therefore writes a message directly if the connection's buffer has space. Otherwise, the turtle drops
-the message.
+A turtle therefore writes a message directly if the connection's buffer has space. If the buffer has no space,
+the turtle drops the message.
 """
 
 from __future__ import annotations

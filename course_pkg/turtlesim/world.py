@@ -13,7 +13,8 @@ from itertools import count
 from course_pkg.turtlesim.canvas import SIDE, Canvas, Colour, Point
 
 TICK = 0.016  # A tick has this length in s.
-PIXELS = 45.0  # Pixels per metre; in turtlesim of ROS, the picture of a turtle has this height.
+# A metre has this number of pixels; in turtlesim of ROS, the picture of a turtle has this height.
+PIXELS = 45.0
 WIDTH = (SIDE - 1) / PIXELS  # The world has this width and height in m.
 HOME = WIDTH / 2  # The middle of the world has this x and y in m.
 COMMAND_TIMEOUT = 1.0  # A velocity command is valid for this time in s.
@@ -54,7 +55,7 @@ class Velocity:
 class Turtle:
     """One turtle.
 
-    Any thread may set `velocity`. Only the world's thread sets all other attributes.
+    Any thread may set `velocity`. All other attributes are set only by the world's thread.
     """
 
     name: str

@@ -156,7 +156,7 @@ class _Diagnosis:
                 line, word.column, f"{word.text!r} cannot be a type", self._type_advice(word.text, name.text)
             )
         base = found[1]
-        # Only if Header is not an array does genmsg replace it with std_msgs/Header.
+        # genmsg replaces Header with std_msgs/Header, but not in an array.
         if base in _BUILTIN or word.text == "Header":
             return
         full = base if "/" in base else f"{self.package}/{base}"

@@ -23,7 +23,7 @@ def float32(number: float) -> float:
         return math.nan
     packed = _FLOAT32.pack(number)
     exact: float = _FLOAT32.unpack(packed)[0]
-    # The search begins at 6 digits, because fewer digits are not necessary for a normal float32. For
+    # The format with 6 digits also finds every shorter number, so the search begins at 6 digits. For
     # subnormal numbers, one digit can be enough.
     fewest = 6 if abs(exact) >= _SMALLEST_NORMAL_FLOAT32 else 1
     for digits in range(fewest, 9):
@@ -64,7 +64,7 @@ def parse_integer(text: str) -> int:
 
 
 def nearest_number(text: str, integer: bool) -> str | None:
-    """Return the number that a mistyped string probably means, or None if it is not clear."""
+    """Return the number that a mistyped string probably means, or None if the meaning is not clear."""
     guess = text.replace("\N{MINUS SIGN}", "-").replace("\N{EN DASH}", "-").replace("_", "").strip()
     if guess.count(",") == 1 and "." not in guess and not integer:
         guess = guess.replace(",", ".")

@@ -43,8 +43,8 @@ def _built_module(name: str, kind: DefinitionKind) -> ModuleType | None:
     package, short = split_type_name(name)
     if not short.isidentifier() or not package.isidentifier():
         return None
-    # This line imports the module of the type without the package's list of types. genpy.message would not
-    # find a type that was built after the import of its package.
+    # This line imports the module of a type, not its package. An import of the package, as in genpy.message,
+    # would not find a type that was built later.
     module = f"{package}.{kind}._{short}"
     return sys.modules.get(module) or _import(module)
 
@@ -147,7 +147,7 @@ def _each_folder(
     kind: DefinitionKind, packages: Iterable[str], finder: rospkg.RosPack | None = None
 ) -> Iterator[tuple[str, Path]]:
     # A RosPack object caches the paths of packages, so each search creates a new object, which takes a few
-    # milliseconds. Creating the object takes a few milliseconds.
+    # milliseconds.
     finder = finder or rospkg.RosPack()
     for package in packages:
         try:

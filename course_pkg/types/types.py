@@ -68,7 +68,7 @@ class MessageType:
         return parse_fields(self.fields, tree, "", self._shape)
 
     def format(self, plain: Mapping[str, Plain]) -> dict[str, StringTree]:
-        """Return plain values as a string tree, for `parse`."""
+        """Return plain values as a string tree, which `parse` can read."""
         return {each.name: format_value(each, plain[each.name]) for each in self.fields}
 
     def to_message(self, plain: Mapping[str, Plain]) -> genpy.Message:
@@ -181,7 +181,7 @@ def compile_message(name: str, text: str) -> MessageType:
 
 
 def _require_class(cls: MessageClass | ServiceClass, attribute: str, what: str) -> None:
-    """Raise UnknownType unless genpy generated the class, with the expected kind."""
+    """Raise UnknownType unless `cls` is a generated class of the expected kind."""
     if hasattr(cls, attribute):
         return
     shown = getattr(cls, "__name__", repr(cls))

@@ -39,7 +39,7 @@ class PrintedText(io.TextIOBase):
         return True
 
     def write(self, text: str) -> int:
-        """Store `text`, but no text above the limit."""
+        """Store `text` up to the limit."""
         self.text += text[: max(PRINTED - len(self.text), 0)]
         return len(text)
 
@@ -162,7 +162,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; its handler would use the old streams otherwise."""
+    """Let rospy's log print to `stream`; otherwise, its handler would print to an earlier stream."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers

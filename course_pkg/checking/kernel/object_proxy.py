@@ -1,7 +1,7 @@
 """Proxies in the kernel for objects of the check runner (see checking/placed).
 
-A proxy stores no data. It sends each call of a method, and each read or write of an attribute, to the check
-runner, and waits for the reply.
+A proxy stores no data. A proxy sends each call of a method, and each read or write of an attribute, to the
+check runner, and waits for the reply.
 """
 
 from __future__ import annotations

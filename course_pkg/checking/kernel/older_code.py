@@ -61,7 +61,7 @@ class OlderCode:
     def _defined_again(self, function: FunctionType) -> bool:
         """Return whether the last run defined the same function again.
 
-        Only other code of the cell has changed then.
+        In that case, only other code of the cell has changed.
         """
         first, *rest = function.__qualname__.split(".")
         current = self._namespace.get(first)

@@ -34,7 +34,7 @@ class TimeLimit:
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._error = _coming_again(TimesUp)
-        self._raised = 0.0  # This is the last time of an exception in a library's code.
+        self._raised = 0.0  # An exception was last raised in a library's code at this time.
         self._stopped = False  # The value is true after the user has pressed the Stop button.
 
     def call(self, function: Callable[[], Value]) -> Value:
@@ -93,8 +93,9 @@ def _is_called(frame: FrameType | None) -> bool:
 def _coming_again(error: type[BaseException]) -> type[BaseException]:
     """Return a subclass of `error` that makes SIGALRM pending again when it is raised.
 
-    The `raise` statement creates the instance. After this, Python handles no signals until the exception has
-    left the function. With an instance from a function call, Python could handle the signal too early.
+    The `raise` statement creates an instance of this class. After this, Python handles no signals until the
+    exception has left the function. If a function call created the instance, Python could handle the signal
+    too early.
     """
     again: Any = staticmethod(partial(_thread.interrupt_main, signal.SIGALRM))
     return type(error.__name__, (error,), {"__init__": again})

@@ -64,7 +64,7 @@ class Node:
     def forget_topics(self, made: Callable[[str], bool]) -> None:
         """Unregister all publishers and subscribers of the topics for whose names `made` returns True.
 
-        A student's function may not unregister them.
+        A student's function possibly does not unregister these topics.
         """
         entries = registrations(self.master)
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])

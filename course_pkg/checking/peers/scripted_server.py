@@ -57,7 +57,8 @@ class Received:
     requests: list[Fields] = field(default_factory=list)
     # The connection header of each call, without probes.
     headers: list[dict[str, str]] = field(default_factory=list)
-    probes: int = 0  # wait_for_service makes such connections without a request.
+    # This is the number of connections without a request, such as the connections of wait_for_service.
+    probes: int = 0
 
 
 class ScriptedServer:

@@ -1,4 +1,18 @@
-"""The check runner's side of the proxies: it executes the calls that the student's kernel makes."""
+"""The check runner's side of the proxies: it executes the calls that the student's kernel makes.
+
+Each thread of the kernel has its own connection, and the check runner has one thread for each connection.
+Therefore, many calls can wait in the check runner at the same time, and `threading.get_ident()` differs for
+each thread of the kernel. Each line of a connection is one JSON object:
+
+    kernel -> runner   {"key": "…"}                                              once, first
+    kernel -> runner   {"object": 0, "do": "call", "name": "read", "args": [], "kwargs": {}}
+    kernel -> runner   {"object": 0, "do": "get", "name": "count"}
+    kernel -> runner   {"object": 0, "do": "set", "name": "count", "args": [3]}
+    runner -> kernel   {"value": 5}, {"placed": {…}} for another object, or {"error": {"type": …, "text": …}}
+
+The listening socket is on the loopback interface, which a kernel in a sandbox shares with its check runner.
+The key is only in the request `place` on the channel, so other users of the computer do not know it.
+"""
 
 from __future__ import annotations
 

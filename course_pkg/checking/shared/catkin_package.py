@@ -60,14 +60,14 @@ class BuiltPackage:
         return self.folder.command("bash", "-c", f". {setup} && {line}", within=within, worded=line)
 
     def start(self, line: str, *, worded: str = "", setup: str = SETUP) -> Running:
-        """Start a command that continues to run, such as `rosrun PACKAGE PROGRAM`; a context manager.
+        """Start a command that continues to run, such as `rosrun PACKAGE PROGRAM`; returns a context manager.
 
         A report shows `worded` instead of the command, if `worded` is given.
         """
         return self.folder.start("bash", "-c", f". {setup} && exec {line}", worded=worded or line)
 
     def md5(self, type_name: str) -> tuple[str, str]:
-        """Return the MD5 sum of a service type that Python imports, and "", or "" and the error output."""
+        """Return (MD5 sum, "") of a service type that Python imports, or ("", error output)."""
         name = self.package.name
         line = f"python3 -c 'from {name}.srv import {type_name}; print({type_name}._md5sum)'"
         done = self.run(line)
@@ -104,7 +104,7 @@ def built(
 def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: float) -> Finished:
     """Run catkin_make in `folder` after the commands `before` of bash, such as "ulimit -t 6;".
 
-    Raises CheckError if it has not finished after `within` s.
+    Raises CheckError if catkin_make has not finished after `within` s.
     """
     line = f"{before} exec {CATKIN_MAKE} {options}"
     build = folder.command("bash", "-c", line, within=within, worded="catkin_make")

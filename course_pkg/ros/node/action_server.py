@@ -44,7 +44,7 @@ class ActionServer:
         self._server.start()
 
     def stop(self) -> None:
-        """Remove the action from the graph and cancel a running goal; its thread may continue to run."""
+        """Remove the action from the graph and cancel a running goal; the goal's thread may continue."""
         if self._stopped.is_set():
             return
         self._stopped.set()

@@ -5,8 +5,8 @@ another node with the same name starts, rospy is shut down. A second init_node()
 no error. This module therefore sets rospy's variables to the values that they had before the first
 init_node().
 
-init_node() also removes the root logger's handlers. Without this module, the log messages of all threads
-would appear below the cell that is running.
+init_node() also removes the root logger's handlers. The log messages of all threads would then appear below
+the running cell, so this module restores the handlers.
 """
 
 from __future__ import annotations

@@ -99,7 +99,7 @@ def _unregistering_in_bounded_time() -> Iterator[None]:
 
 
 def _noting(cells: Cells, close: Callable[[Any], None]) -> Callable[[Method], Method]:
-    """Return a decorator for an `__init__` method that also records the new object."""
+    """Return a decorator that makes an `__init__` method record the new object."""
 
     def replace(method: Method) -> Method:
         def __init__(self: Any, *args: Any, **kwds: Any) -> None:  # noqa: ANN401, N807 -- of rospy's classes

@@ -20,8 +20,8 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 TAIL = 2000  # An error message contains at most this many characters of the output.
-# The process polls once in this time (s). Each poll takes some milliseconds in this process and in the
-# master.
+# wait_for_service() and wait_for_output() poll once in this time (s). Each poll takes some milliseconds in
+# this process and in the master.
 INTERVAL = 0.05
 GRACE = 3.0  # A node has to end within this time in s after SIGINT; a node with rospy takes 0.6 s.
 

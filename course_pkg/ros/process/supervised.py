@@ -29,8 +29,8 @@ class SupervisedProcess:
     `command` is empty, the supervisor does nothing except this clean-up after this process has ended.
 
     If `foreground` is true, the command uses the standard input and the terminal of this process, and it
-    receives Ctrl-C. If `output` is None, it also prints to the terminal. Raises GraphError if the command
-    cannot be started.
+    receives Ctrl-C. If `output` is None, the command also prints to the terminal. Raises GraphError if the
+    command cannot be started.
     """
 
     def __init__(

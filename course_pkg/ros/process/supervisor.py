@@ -105,7 +105,7 @@ class Supervisor:
                 self.status = status
 
     def _end_descendants(self) -> frozenset[int]:
-        """End all descendants with SIGTERM, or with SIGKILL after GRACE.
+        """End all descendants with SIGTERM, or with SIGKILL after GRACE s.
 
         Orphaned descendants become children of this process. The returned set contains the listening ports of
         the killed processes.
@@ -216,7 +216,7 @@ def _withdraw_registered(ports: frozenset[int]) -> None:
 def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
     """Unregister the owner's node, and delete the folder.
 
-    With an empty `master_uri` or `folder`, this step is skipped.
+    If `master_uri` is empty, nothing is unregistered; if `folder` is empty, nothing is deleted.
     """
     if master_uri:
         with suppress(ImportError):

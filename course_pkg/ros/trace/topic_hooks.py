@@ -1,8 +1,8 @@
 """The recorder's hooks for messages, in rospy's publishers and subscribers.
 
 A message is identified by its connection (the TCP ports) and by its number on this connection. The publisher
-counts the messages that it sends, because its queue may drop messages before. The subscriber counts the
-messages that arrive, because its queue may drop messages later.
+counts the messages that it sends, because its queue may drop messages before they are sent. The subscriber
+counts the messages that arrive, because its queue may drop messages after they have arrived.
 
 rospy has no hooks for messages, so this module replaces a few methods of rospy. If these methods differ in a
 release of rospy, the module changes nothing.
