@@ -33,6 +33,7 @@ OPEN = """async (path) => {
   await shown.context.ready;
   await shown.sessionContext.ready;
 }"""
+IDLE = "() => window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
 OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"  # the course's settings
 BASHRC = Path(course_pkg.lab.__file__).with_name("bashrc")  # the start file of the course's terminals
@@ -81,8 +82,8 @@ def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = 
     try:
         page.evaluate(THEME, f"JupyterLab {theme}")
         page.evaluate(OPEN, f"{name}.ipynb")
-        # without this wait, Run All opens a dialog that asks for a kernel
-        expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=READY)
+        # Without this wait, Run All could open a dialog that asks for a kernel.
+        page.wait_for_function(IDLE, timeout=READY)
         run_all(page)
         yield
     finally:

@@ -131,7 +131,7 @@ def main() -> None:
         points, later, left = {}, {}, {}
         for name, attack in attacks.items():
             points[name] = _points(_run(worker, attack))
-            left[name] = [each.pid for each in psutil.process_iter() if uid in each.uids()]
+            left[name] = [each.pid for each in psutil.process_iter(["uids"]) if uid in each.info["uids"]]
             left[name] += [each for each in os.listdir(FILLED) if each.startswith("filler")]
             later[name] = _points(_run(worker, RIGHT))
     found = {"refusal": refusal, "uid": uid, "done": done, "points": points, "later": later, "left": left}
