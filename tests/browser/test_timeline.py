@@ -58,7 +58,7 @@ def show(page: Page, folder: Path, given: Recording, theme: str = "light") -> Lo
 
 
 def drawing(timeline: Locator) -> Locator:
-    """Return the drawing."""
+    """Return the drawing of the timeline."""
     return timeline.locator("canvas.ros-body")
 
 

@@ -230,7 +230,7 @@ def test_cashier_greets_each_customer_once(settings: list[str]) -> None:
 
 
 def test_cashier_continues_without_a_detector(camera: NodeProcess) -> None:
-    """The cashier logs the failure once, calls again, and greets a customer after a detector has started."""
+    """After the detector starts again, the cashier greets customers again."""
     with run("cashier", "_design:=poll", "_rate:=50") as cashier:
         eventually(lambda: "No answer, so the next call follows soon" in cashier.output())
         with run("detector"):

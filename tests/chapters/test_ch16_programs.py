@@ -115,7 +115,7 @@ def test_bridge_ends_with_an_open_connection(line: websocket.WebSocket, bridge: 
 
 
 def test_bridge_listens_only_on_loopback(bridge: NodeProcess) -> None:
-    """The bridge listens only on the loopback address."""
+    """The bridge does not accept connections from other machines."""
     port = int(bridge.output().rpartition(":")[2].split()[0])
     assert port in listening_ports(bridge.pid)
     with open("/proc/net/tcp") as table:

@@ -1,4 +1,4 @@
-"""`course collect`: it collects work from home folders with each student's rights."""
+"""Tests of `course collect`, which collects work from home folders with each student's permissions."""
 
 from __future__ import annotations
 
@@ -27,17 +27,14 @@ from tests.setup.test_course import course
 
 ROOT = os.geteuid() == 0
 NOTEBOOK = "05_write_a_server.ipynb"
-TIME = 1_700_000_000  # s since 1970
-FIRST_UID = 54_321  # this machine has no user with this id
+TIME = 1_700_000_000  # This time is in s since 1970.
+FIRST_UID = 54_321  # No user of this machine has this id.
 WANTED = Wanted(["05", "06", "07"])
 
 
 @pytest.fixture
 def homes() -> Iterator[Path]:
-    """Create a folder for homes.
-
-    Every user can enter it, but other users cannot enter pytest's own folders.
-    """
+    """Create a folder for home folders that every user can enter."""
     folder = Path(tempfile.mkdtemp(prefix="course-homes-"))
     folder.chmod(0o755)
     yield folder
@@ -45,7 +42,7 @@ def homes() -> Iterator[Path]:
 
 
 def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "ros-course") -> Path:
-    """Create a student's home with files in the course's folder; other users cannot read them."""
+    """Create a student's home folder with files that other users cannot read."""
     home = homes / student
     for name, content in files.items():
         path = home / course / name
@@ -58,10 +55,7 @@ def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "
 
 
 def give(path: Path, uid: int) -> None:
-    """Make a user the owner of everything below `path`, if this process has permission to do so.
-
-    Other users cannot read it.
-    """
+    """Change the owner of all files below `path`, if this process has the permission."""
     for each in [path, *path.rglob("*")]:
         if ROOT:
             os.chown(each, uid, uid, follow_symlinks=False)
@@ -70,13 +64,13 @@ def give(path: Path, uid: int) -> None:
 
 
 def packaged() -> dict[str, bytes]:
-    """Return the files of chapter 07's package in a workspace, with those that catkin writes there."""
+    """Return the files of chapter 07's package and the files that catkin writes."""
     files = {f"workspace/src/my_geometry/{path}": content for path, content in my_geometry().items()}
     return {**files, "workspace/build/x/package.xml": b"<package/>", "workspace/src/CMakeLists.txt": b""}
 
 
 def run(homes: Path, out: Path, **options: object) -> int:
-    """Run the collection for all homes."""
+    """Run the collection for all home folders."""
     return collect(Options("ros-course", out, homes, **options))  # type: ignore[arg-type]
 
 
@@ -89,10 +83,10 @@ def times(out: Path) -> list[list[str]]:
 def test_work_is_where_the_grader_looks(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Notebooks and packages are stored by student, with their times; students without work are listed."""
+    """Notebooks and packages are stored by student, and students without work are listed."""
     notebook = raw(handed_out("05"))
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": notebook, **packaged(), "notebooks/own.ipynb": b"{}"})
-    add_home(homes, "ben", {NOTEBOOK: notebook})  # he moved it
+    add_home(homes, "ben", {NOTEBOOK: notebook})  # This student has moved the notebook.
     add_home(homes, "carla", {"notebooks/notes.txt": b""})
     add_home(homes, "dora", {}, "elsewhere")
     out = tmp_path / "out"
@@ -119,7 +113,7 @@ def test_work_is_where_the_grader_looks(
 
 
 def test_the_command_line(homes: Path, tmp_path: Path) -> None:
-    """The command does the same as the function; for an error, it prints one message."""
+    """The command does the same as the function, and prints one error message."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     words = ["collect", "ros-course", str(tmp_path / "out"), "--chapters", "5", "--homes"]
     done = course(*words, str(homes))
@@ -134,7 +128,7 @@ def test_the_command_line(homes: Path, tmp_path: Path) -> None:
 
 
 def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Path, tmp_path: Path) -> None:
-    """A new notebook or a new package completely replaces the old one; other chapters do not change."""
+    """New notebooks and packages replace the old ones, and other chapters do not change."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1", **packaged()})
     run(homes, tmp_path / "out")
     (home / "ros-course" / "notebooks" / NOTEBOOK).write_bytes(b"2")

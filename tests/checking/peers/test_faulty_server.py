@@ -127,7 +127,7 @@ def test_server_that_has_left_does_not_restart(node: Node) -> None:
 
 
 def test_simultaneous_calls_take_one_fault_each(server: FaultyServer) -> None:
-    """If two faults are planned, two of eight simultaneous calls fail."""
+    """If three faults are planned, three of eight simultaneous calls fail."""
     server.plan.extend([Fault(Refuse("busy"))] * 3)
 
     def fails(length: float) -> bool:
