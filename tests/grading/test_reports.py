@@ -205,7 +205,7 @@ def test_junit(tmp_path: Path) -> None:
 
 
 def test_feedback_teaches(tmp_path: Path) -> None:
-    """The page shows assertion, inputs, expected and actual values, hint, and unusual events."""
+    """The feedback page shows the assertion, the inputs, both values and the hint."""
     write_reports(_two(), tmp_path)
     page = " ".join("".join(Outline((tmp_path / "feedback/s02.html").read_text()).text).split())
     for words in (
