@@ -221,7 +221,7 @@ def test_pipes_large_files_and_large_packages_are_left_out(
 
 
 def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the time limit, the process is killed, and the home is reported."""
+    """If a home folder does not respond within the time limit, the home is reported."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: signal.pause())
     [home] = homes_in(homes)

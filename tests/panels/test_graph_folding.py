@@ -142,7 +142,7 @@ def test_a_box_shows_that_a_node_does_not_answer() -> None:
 
 
 def test_a_frame_contains_exactly_its_shapes() -> None:
-    """The frame contains exactly the shapes of the namespace."""
+    """A frame contains exactly the shapes of its namespace."""
     layout = laid_out(folded(picture(NESTED), {}))
     assert [framed.frame.name for framed in layout.frames] == ["/robot/", "/robot/arm/", "/robot/base/"]
     for framed in layout.frames:

@@ -244,7 +244,7 @@ def test_a_call_without_a_service_names_the_next_step() -> None:
 
 
 def test_logger_services_come_last() -> None:
-    """The student's services are listed before the logger services of each node."""
+    """The student's services come before the logger services."""
     harness = Harness()
     harness.model.offer([Offer("/a/get_loggers", "roscpp/GetLoggers", "/a"), Offer("/z", "a/Empty", "/a")])
     assert [(each["name"], each["tool"]) for each in harness.state["services"]] == [
@@ -266,7 +266,7 @@ def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness
 
 
 def test_recording_keeps_request_and_outcome(harness: Harness) -> None:
-    """The service is really called with each input, and the outcome is shown with the input."""
+    """A recording calls the service with each input, and stores the outcomes."""
     kept = harness.model.record([{"length": 1.2, "width": 5.2, "height": 8.9}, {}], "5")
     assert [each["draft"]["length"] for each in kept] == ["1.2", "0.0"]
     assert [each["outcome"]["rows"][0]["text"] for each in kept] == ["6.24", "0.0"]

@@ -1,4 +1,4 @@
-"""A recording contains the events at both ends of each connection, and matches these events."""
+"""Tests of recordings with the events of callers and servers."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ rospy.spin()
 
 @pytest.fixture
 def asker(kernel: Kernel) -> Kernel:
-    """Return a kernel that is a node and has imported some types."""
+    """Return a kernel that runs a node and has imported some types."""
     kernel.run(START)
     return kernel
 
 
 def recorded(asker: Kernel, cell: str) -> Recording:
-    """Run a cell that makes the recording `recording`, and return this recording."""
+    """Run a cell that creates the variable `recording`, and return this recording."""
     found = asker.run(f"{textwrap.dedent(cell)}\nresult = dataclasses.asdict(recording)")
     events = tuple(Event(**event) for event in found["events"])
     return Recording(
