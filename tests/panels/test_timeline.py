@@ -130,7 +130,7 @@ def test_fifty_overlapping_calls() -> None:
 
 
 def test_the_state_is_bounded() -> None:
-    """If there are too many events, calls are kept, and then messages; a note says how many are left out."""
+    """If there are too many events, a note contains the number of omitted events."""
     stream = [event for n in range(5000) for event in message(n, n / 1000, "/simulator")]
     kept = state(recording(*stream, *call(at=4.0)))
     kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]

@@ -33,7 +33,7 @@ def test_service_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """Objects that a class creates in `__init__` belong to the cell that calls it."""
+    """A service from `__init__` belongs to the cell that creates the object."""
     notebook.run(
         """
         class Counter:
