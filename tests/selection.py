@@ -1,4 +1,6 @@
-"""A pytest plug-in that selects tests. `--changed` runs tests that a change can affect, `--slow` slow tests.
+"""A pytest plug-in that selects tests.
+
+The option `--changed` selects tests that a change can affect, and `--slow` selects slow tests.
 
 A test depends on its own folder in tests/, and on the packages of course_pkg that its package may import. The
 import-linter contract in pyproject.toml lists these packages. A test of a chapter depends on this chapter and

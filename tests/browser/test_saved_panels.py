@@ -47,10 +47,7 @@ def test_a_saved_service_panel_says_that_it_is_saved(page: Page, tmp_path: Path)
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_replaces_the_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """A recorded request gets its recorded response. Any other request gets an error message.
-
-    Any other request is refused.
-    """
+    """A recorded request gets its recorded response. Any other request gets an error message."""
     widget = ServicePanel("/getGeometry")
     widget.record(
         [{"length": 1.0, "width": 2.0, "height": 3.0}, {"length": 4.0, "width": 5.0, "height": 6.0}]

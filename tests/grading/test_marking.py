@@ -30,7 +30,7 @@ lines = socket.create_connection((host, int(port))).makefile("rw")
 def send(text):
     lines.write(text + "\\n")
     lines.flush()
-"""  # a check client of the student's own, which replaces the course's
+"""  # This student's check client replaces the course's check client.
 BREAKERS = {
     "another protocol": CLIENT + 'send(json.dumps({"protocol": 1, "check": "05.1"}))\nlines.readline()',
     "another check": CLIENT + 'send(json.dumps({"protocol": 3, "check": "00.1"}))\nlines.readline()',

@@ -113,7 +113,7 @@ def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
 
 
 def test_roscore_says_that_a_master_runs(terminal: Terminal) -> None:
-    """roscore refuses to start while a master runs."""
+    """The command roscore refuses to start while a master runs."""
     printed = terminal.run("roscore")
     assert "roscore cannot run as another roscore/master is already running" in printed
     assert terminal.environment["ROS_MASTER_URI"] in printed

@@ -138,7 +138,7 @@ class Reader(HTMLParser):
 
 @pytest.mark.parametrize("attack", ATTACKS)
 def test_nothing_runs_or_loads(attack: str) -> None:
-    """The sanitizer removes scripts, requests and styles, but not their text."""
+    """The sanitizer removes scripts, styles and addresses of other files."""
     for tag, name, value in Reader(Sanitizer()(attack)).seen:
         assert tag in ("p", "a", "div", "section", "img", "table")
         assert name in ("", "title")

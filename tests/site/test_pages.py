@@ -190,7 +190,7 @@ def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
 
 
 def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
-    """The reader opens, uses and leaves the search with the keyboard only."""
+    """With the keyboard only, the reader opens a section from the search."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         look_for(page, "idempotent")

@@ -160,7 +160,7 @@ def test_lines_call_a_running_service(server: Kernel) -> None:
 
 
 def test_a_compiled_type_serves_a_built_one(server: Kernel) -> None:
-    """rospy accepts a class that was made from text instead of the built class."""
+    """In a call, rospy accepts a class that was made from text instead of the built class."""
     told = server.run("""
 text = service_type("odd_pkg/Scalars").text
 compiled = compile_service("odd_pkg/Scalars", text).cls

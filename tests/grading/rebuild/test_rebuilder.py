@@ -403,7 +403,7 @@ def test_sources_built_to_take_long(source: str) -> None:
 
 
 def test_nbval_runs_it(tmp_path: Path) -> None:
-    """nbval compares all outputs except those of exercise cells."""
+    """A run of nbval compares all outputs except those of exercise cells."""
     done = {"output_type": "execute_result", "execution_count": 2, "metadata": {}}
     reference = book(
         exercise("05.1", source="def double(x):\n    return 2 * x"),
