@@ -35,7 +35,7 @@ def matches(pattern: str) -> re.Pattern[str]:
 def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
     """Return whether plain values are equal.
 
-    Numbers may differ by `near`, relative or absolute. True is not equal to 1.
+    Numbers may differ by `near` (absolute difference or relative difference). True is not equal to 1.
     """
     if isinstance(expected, dict) and isinstance(actual, dict):
         return expected.keys() == actual.keys() and all(

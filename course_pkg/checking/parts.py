@@ -49,7 +49,7 @@ class Part:
 
     @property
     def package_files(self) -> dict[str, list[str]]:
-        """The paths of the files that the part needs from catkin packages, by the name of the package."""
+        """The files that the part needs: a dict from the names of catkin packages to paths in them."""
         found: dict[str, list[str]] = {}
         for name in self.needs:
             if packaged := PACKAGED.fullmatch(name):

@@ -16,21 +16,24 @@ import socket
 import struct
 from pathlib import Path
 
-MOUNT = 0x00020000  # sched.h: CLONE_NEWNS
+MOUNT = 0x00020000  # This constant is CLONE_NEWNS in sched.h.
 CGROUP = 0x02000000
-HOSTNAME = 0x04000000  # CLONE_NEWUTS
+HOSTNAME = 0x04000000  # This constant is CLONE_NEWUTS in sched.h.
 IPC = 0x08000000
 USER = 0x10000000
-PROCESS = 0x20000000  # CLONE_NEWPID
+PROCESS = 0x20000000  # This constant is CLONE_NEWPID in sched.h.
 NETWORK = 0x40000000
 
-MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC, MS_REMOUNT, MS_BIND = 1, 2, 4, 8, 32, 4096  # sys/mount.h
+# These constants are from sys/mount.h.
+MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC, MS_REMOUNT, MS_BIND = 1, 2, 4, 8, 32, 4096
 MS_REC, MS_PRIVATE = 16384, 1 << 18
-PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_CAPBSET_DROP = 1, 4, 24  # linux/prctl.h
+PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_CAPBSET_DROP = 1, 4, 24  # These constants are from linux/prctl.h.
 PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 36, 38
 CAPABILITIES = 64  # No current kernel has more capabilities.
-CAPSET, CAPABILITY_VERSION_3 = {"x86_64": 126, "aarch64": 91}, 0x20080522  # asm/unistd.h, linux/capability.h
-SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP, IFF_RUNNING = 0x8913, 0x8914, 1, 64  # linux/sockios.h, linux/if.h
+# These constants are from asm/unistd.h and linux/capability.h.
+CAPSET, CAPABILITY_VERSION_3 = {"x86_64": 126, "aarch64": 91}, 0x20080522
+# These constants are from linux/sockios.h and linux/if.h.
+SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP, IFF_RUNNING = 0x8913, 0x8914, 1, 64
 
 _libc = ctypes.CDLL(None, use_errno=True)
 

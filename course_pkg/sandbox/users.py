@@ -28,7 +28,7 @@ from course_pkg.waiting import Deadline, wait_until
 
 # Debian, Ubuntu and systemd use no user ids from 60578 to 61183.
 FIRST, GROUPS = 60600, 140
-KILL_TIMEOUT = 20.0  # All processes of a user have to end within this time in s after they were killed.
+KILL_TIMEOUT = 20.0  # All killed processes have to end within this time in s.
 SHARED = ("/tmp", "/var/tmp", "/dev/shm", "/run/lock", "/dev/mqueue")  # noqa: S108 -- everybody can write there
 
 

@@ -200,8 +200,8 @@ class Session:
                 receive(self._fork_server, END_TIMEOUT)
             except TimeoutError:
                 end([self._supervisor])
-                # The next job must not receive this message. Without this message, the worker cannot be used
-                # any more.
+                # The next job must not receive this message. If the message does not arrive, this worker is
+                # not used any more.
                 receive(self._fork_server, KILLED_TIMEOUT)
 
 

@@ -35,7 +35,7 @@ class Walker:
     def steer(self, x: float, y: float, theta: float) -> tuple[float, float]:
         """Return the velocity (m/s) and the angular velocity (rad/s) for a pose of the turtle.
 
-        At the end of the side or corner, both are 0.
+        At the end of the side or corner, the velocity and the angular velocity are 0.
         """
         if self.turning:
             rest = normalized(self.theta + CORNER - theta)

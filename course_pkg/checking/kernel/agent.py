@@ -249,7 +249,7 @@ def _is_placeholder(line: ast.stmt) -> bool:
 
 
 def _does_nothing(code: CodeType) -> bool:
-    """Return whether the compiled code of a function does nothing, for a function without source."""
+    """Return whether the compiled code of a function does nothing (used if there is no source)."""
     blank = _nothing.__code__
     return code.co_code == blank.co_code and not code.co_names
 

@@ -59,7 +59,7 @@ class OlderCode:
         return None
 
     def _defined_again(self, function: FunctionType) -> bool:
-        """Return whether the last run defined the same function again.
+        """Return whether the last run defined the function with the same code.
 
         In that case, only other code of the cell has changed.
         """
