@@ -17,7 +17,7 @@ from course_pkg.panels.paper import (
     prose,
 )
 
-MOST = 12  # maximum number of listed services
+MOST = 12  # The picture lists at most this many services.
 STATUS = {
     "idle": ("Not called yet.", FAINT),
     "running": ("Calling…", FAINT),
