@@ -79,7 +79,7 @@ class _Reader(HTMLParser):
     def handle_data(self, data: str) -> None:
         """Record formulas that are still LaTeX.
 
-        Only formulas in prose become MathML, not those in a cell's output.
+        Only formulas in prose must be MathML; a cell's output may contain LaTeX.
         """
         if not self._inside and (found := FORMULA.search(data)):
             self.faults.append(f"{found[0]} looks like a formula, but is not rendered")

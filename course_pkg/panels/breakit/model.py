@@ -89,10 +89,10 @@ class Scene(Protocol):
     keeper: Program | None
 
     def cause(self) -> None:
-        """Cause the fault."""
+        """Cause the fault on the graph."""
 
     def undo(self) -> None:
-        """Undo the fault."""
+        """Undo the fault on the graph."""
 
 
 SceneType = TypeVar("SceneType", bound=Scene)

@@ -52,7 +52,7 @@ class ChoiceRecord:
 
     @property
     def standing(self) -> str:
-        """One sentence: how many choices were made, or how many of the first choices are expected options."""
+        """One sentence with the number of choices, or of expected options in the first choices."""
         if not self.compared:
             return f"{len(self.chosen)} of {self.cases} cases decided."
         return f"{self.fit} of {len(self.first)} of your first choices fit."

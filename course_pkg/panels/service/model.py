@@ -1,8 +1,6 @@
 """The state of a service panel, without a page, a kernel or ROS.
 
 `connect` is a function that returns a Caller.
-
-The argument `connect` returns a Caller.
 """
 
 from __future__ import annotations

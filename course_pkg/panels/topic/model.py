@@ -240,7 +240,7 @@ class TopicModel:
         return {**check, "errors": {**check["errors"], **wrong}, "refused": self._refusals}
 
     def _commands(self, values: Values) -> Check:
-        """Return the commands that publish these values once and at a rate; {} if a setting has an error."""
+        """Return the commands for publishing these values once and at a rate, or {} if a setting is wrong."""
         assert self.kind is not None
         settings = self.settings
         try:

@@ -13,7 +13,7 @@ from std_srvs.srv import Empty, EmptyRequest, EmptyResponse, SetBool, SetBoolReq
 
 from course_pkg.ros.node.program import serve_until_shutdown
 
-Response = tuple[bool, str]  # success and message
+Response = tuple[bool, str]  # The tuple contains the fields `success` and `message`.
 
 
 class Switch:
@@ -27,7 +27,7 @@ class Switch:
     def handle_set(self, request: SetBoolRequest) -> Response:
         """Open the switch for True, and close it for False.
 
-        `success` says whether it moved, and the message describes the move.
+        `success` says whether the switch moved, and the message describes the move.
         """
         with self._lock:
             if request.data == self._open:

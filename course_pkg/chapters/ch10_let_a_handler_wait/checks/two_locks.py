@@ -10,12 +10,13 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
-LIMIT = 4.0  # s for which a thread of the check waits for a lock, or tries to acquire it again and again
-THREADS, MOVES = 4, 6  # number of threads, and number of moves per thread
-RUN = 8.0  # time limit for all threads together (s)
+# A thread of the check waits for a lock, or tries to acquire it repeatedly, for at most this many s.
+LIMIT = 4.0
+THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES moves.
+RUN = 8.0  # RUN is the time limit in s for all threads together.
 
-MEETING = 0.01  # s for which a thread that holds a lock waits for another thread
-FIRST_MEETING = 0.3  # s for which the first thread waits, so that the other threads can start
+MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
+FIRST_MEETING = 0.3  # The first thread waits at most this many s, so that the other threads can start.
 
 # This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
 KERNEL_CODE = """
@@ -135,7 +136,10 @@ class CheckedShelf:
 
 
 class CheckedPair:
-    """Two shelves. It records how many locks a thread held when it read or changed a count."""
+    """Two shelves.
+
+    The object records how many locks a thread held when the thread read or changed a count.
+    """
 
     def __init__(self, numbers: Sequence[int], counts: Sequence[int], *, crowd: bool = False) -> None:
         self.reads: list[int] = []
@@ -180,7 +184,7 @@ class CheckedPair:
 
     @property
     def error(self) -> str:
-        """One of the recorded errors, or "" if there is none."""
+        """One of the recorded errors, or ""."""
         return min(self.errors, key=lambda error: "in vain" not in error, default="")
 
     def held(self) -> int:
@@ -299,7 +303,10 @@ def move_without_deadlock(context: CheckContext) -> None:
 def _moves_one(
     context: CheckContext, pair: CheckedPair, source: int, counts: list[int], *, possible: bool
 ) -> None:
-    """Move a thing from the shelf with the index `source`; afterwards, `counts` are the right counts."""
+    """Move a thing from the shelf with the index `source`.
+
+    `counts` contains the right counts after the move.
+    """
     its = Its("move"), Its("checked_pair")
     result = context.run(
         "checked_move", *its, source, 1 - source, hints=ERRORS, worded="move(source, target)"

@@ -78,7 +78,7 @@ def persistent_client(context: CheckContext) -> None:
 
 
 def _next_act(acts: list[Act]) -> Act:
-    """Return the next act of the script. A refusal is repeated until it is removed.
+    """Return the next act of the script. A refusal is repeated until the check removes it from the script.
 
     After the last act, close the connection.
     """
@@ -142,7 +142,10 @@ def _reports_a_refusal(
 
 
 def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer) -> None:
-    """Close the first and the new connection; there has to be one more request, and then an error."""
+    """Close the first and the new connection.
+
+    The client must send one more request, and then raise an error.
+    """
     before = len(server.requests)
     result = client.measure(ERRORS)
     asked = len(server.requests) - before

@@ -11,7 +11,7 @@ from course_pkg.checking.shared.own_program import require_kernel
 from course_pkg.ros.node.proxy import BoundedProxy
 
 NAME, KIND = "/my_add_up", "course_pkg/AddUp"
-TIMEOUT = 4.0  # time limit for a call on a busy machine (s)
+TIMEOUT = 4.0  # TIMEOUT is the time limit in s for a call on a busy machine.
 REFUSED = (
     'The header had the field "session", but your handler refused the call. Check '
     "the name of the field in your code."
@@ -35,7 +35,7 @@ def totals_of_sessions(context: CheckContext) -> None:
     first, second = context.random.word(), context.random.word()
     others = [first.upper(), *(context.random.word() for _ in range(context.random.integer(4, 9)))]
     turns = [first, second, first, first, second, second, *others, first]
-    # larger than the number of calls, so that a total is different from a number of calls
+    # The amounts are larger than the number of calls, so a total differs from a number of calls.
     amounts = context.random.integers(len(turns), 20, 900)
     totals = dict.fromkeys(turns, 0)
     counts = dict.fromkeys(turns, 0)

@@ -27,7 +27,7 @@ def main() -> None:
 
 
 def _accept(listener: socket.socket) -> None:
-    with suppress(OSError):  # the listening socket was closed
+    with suppress(OSError):  # The listening socket was closed.
         while True:
             sock, _ = listener.accept()
             threading.Thread(target=_echo, args=(sock,), daemon=True).start()
