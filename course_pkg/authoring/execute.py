@@ -103,7 +103,7 @@ def _about_check(name: str, check: str, report: str) -> str:
 def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
     """Return the names sorted by estimated time, with the longest time first.
 
-    Then no long notebook starts last.
+    Otherwise, a long notebook could start last.
 
     The estimate grows with the number of a notebook's cells and with the deadlines of its checks.
     """

@@ -29,7 +29,7 @@ METADATA: NotebookMetadata = {
 
 
 def tidy(notebook: Notebook) -> None:
-    """Normalise `notebook` in place. A second call has no effect."""
+    """Normalise the notebook; `notebook` itself is changed. A second call has no effect."""
     notebook["nbformat"], notebook["nbformat_minor"] = 4, 5
     title = notebook["metadata"].get("title")
     notebook["metadata"] = {**METADATA, "title": title} if title else {**METADATA}
@@ -43,13 +43,13 @@ def tidy(notebook: Notebook) -> None:
 
 
 def strip(notebook: Notebook) -> None:
-    """Remove every output and every execution count from `notebook`, in place."""
+    """Remove every output and every execution count; `notebook` itself is changed."""
     for cell in code_cells(notebook):
         cell["outputs"], cell["execution_count"] = [], None
 
 
 def _name(cells: list[Cell]) -> None:
-    """Give each cell a valid and unique id; a second run gives the same ids."""
+    """Give each cell a valid and unique id; a second run does not change the ids."""
     taken: set[str] = set()
     for cell in cells:
         wanted = _wanted_id(cell)

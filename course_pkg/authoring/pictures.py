@@ -29,7 +29,7 @@ class _Stored(NamedTuple):
 
 
 def add_pictures(executed: Notebook, stored: Notebook) -> None:
-    """Add a still picture to each panel of `executed`, in place.
+    """Add a still picture to each panel of `executed`; `executed` itself is changed.
 
     The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
     show a recording, contain measured times, so they differ in each run. The function uses such a picture of

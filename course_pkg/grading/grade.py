@@ -55,7 +55,7 @@ class Submission:
 
     @property
     def nothing(self) -> bool:
-        """Whether the submission stands for an empty folder."""
+        """Whether the student's folder was empty."""
         return self.problem.startswith(NOTHING)
 
     @property
@@ -71,7 +71,10 @@ class Submission:
 
 @dataclass(frozen=True)
 class CellOutcome:
-    """The result of nbval for one cell of the rebuilt notebook. It is only feedback, and earns no points."""
+    """The result of nbval for one cell of the rebuilt notebook.
+
+    The result is only feedback, and earns no points.
+    """
 
     cell: str
     outcome: str  # The value is "passed", "failed" or "skipped".
@@ -81,17 +84,17 @@ class CellOutcome:
 
 @dataclass(frozen=True)
 class Flag:
-    """A reason for the instructor to look at a student's work; it changes no points.
+    """A reason for the instructor to examine a student's work. A flag changes no points.
 
     Students never see a flag.
     """
 
     kind: str  # `kind` is the name of a module in flags/kinds, such as "copies".
     where: str  # `where` is the part, such as "05.1", or the path of a file.
-    words: str  # `words` is a sentence about the reason.
+    words: str  # `words` is a sentence about the reason for the flag.
     line: int = 0  # `line` is the line number in the cell or file, or 0 for the whole cell or file.
     evidence: str = ""  # `evidence` is the text of the line.
-    others: tuple[str, ...] = ()  # `others` are the students whose work is similar.
+    others: tuple[str, ...] = ()  # The work of these students is similar.
 
 
 @dataclass(frozen=True)
@@ -119,7 +122,7 @@ class Grade:
 
     @property
     def nothing(self) -> bool:
-        """Whether the grade stands for an empty folder."""
+        """Whether the student's folder was empty."""
         return self.problem.startswith(NOTHING)
 
     @property

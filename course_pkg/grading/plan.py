@@ -1,4 +1,7 @@
-"""The parts of a chapter, and the cells that each part needs. They are computed once for all submissions."""
+"""The parts of a chapter, and the cells that each part needs.
+
+The data are computed once for all submissions.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +28,7 @@ class PartPlan:
 
     @property
     def exercise(self) -> str:
-        """The id of the exercise whose answer is examined."""
+        """The id of the exercise that the part examines."""
         return exercise_of(self.part.check)
 
     @property

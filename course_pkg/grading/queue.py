@@ -1,6 +1,6 @@
 """Grades many submissions in parallel, in threads of this machine or in workers of a dask cluster.
 
-Both use the same code: a `Task` (plain data) is submitted to an object with the interface of
+Threads and clusters use the same code: a `Task` (plain data) is submitted to an object with the interface of
 concurrent.futures.Executor, and the result is a grade as plain data.
 """
 

@@ -13,7 +13,7 @@ HEAD = (
     *("chapter", "title", "kind", "id", "text", "state", "points", "possible"),
     *("checks", "last_result", "last_time", "first_passed"),
 )
-# A spreadsheet program would run a cell as a formula if it begins with one of these characters.
+# A spreadsheet program would run a cell as a formula if the cell begins with one of these characters.
 FORMULA = ("=", "+", "-", "@")
 
 

@@ -12,8 +12,9 @@ Value = TypeVar("Value")
 class Poller(Generic[Value]):
     """Calls `read` every `every` s on a separate thread, from start() to stop().
 
-    It calls `changed` with each value that differs from the previous value. It calls `failed` with an error,
-    unless the previous error had the same text. The separate thread also makes these two calls.
+    The poller calls `changed` with each value that differs from the previous value. The poller calls `failed`
+    with an error, unless the previous error had the same text. The separate thread also makes these two
+    calls.
     """
 
     def __init__(
@@ -40,7 +41,8 @@ class Poller(Generic[Value]):
     def stop(self) -> None:
         """Tell the thread to stop; the thread may call `read` once more.
 
-        This method does not wait until the thread ends, because `read` may need a lock that the caller holds.
+        The method does not wait until the thread ends, because `read` may need a lock that the caller has
+        acquired.
         """
         if self._stop is not None:
             self._stop.set()

@@ -49,7 +49,7 @@ class PageSource(NamedTuple):
 
 
 def write_site(settings: Settings, store: NotebookStore | None = None, runs: Runs | None = None) -> list[str]:
-    """Write the site, and return a message for each chapter whose run failed.
+    """Write the site, and return a message for each chapter with a failed run.
 
     The pages of these chapters show the stored outputs.
     """

@@ -72,7 +72,7 @@ class _Reader(HTMLParser):
             self._inside.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
-        """Record the end of an element whose text is not prose, such as <pre>."""
+        """Record the end of an element without prose, such as <pre>."""
         if self._inside and self._inside[-1] == tag:
             self._inside.pop()
 

@@ -4,7 +4,7 @@ The HTML contains the data of the figures, because a page must not load image fi
 
 A drawing (SVG) becomes part of the page's HTML, so readers can select and search its text. A drawing uses the
 page's colours if its text has the colour `currentColor`, and its white background is `<rect class="ground"
-…>`. The page does not fill such a rectangle. Any other drawing keeps a white background, even in dark mode.
+…>`. The page does not fill such a rectangle. Any other drawing has a white background, even in dark mode.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ SAID = ("title", "desc")  # The description in the Markdown replaces these eleme
 # The pattern matches a reference to another element of the same drawing.
 WITHIN = re.compile(r"url\(#([^)]*)\)")
 KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".webp": "webp"}
-# This is the minimum width of a drawing, divided by the drawing's own width. In a narrower window, the
-# drawing gets a scroll bar, because smaller text cannot be read.
+# The minimum width of a drawing, divided by the drawing's own width. In a narrower window, the drawing gets a
+# scroll bar, because smaller text cannot be read.
 SMALLEST = 0.75
 
 

@@ -20,7 +20,7 @@ NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
 
 
 class Prose:
-    """Renders the Markdown of one page, and gives each heading an anchor.
+    """Renders the Markdown of one page, and adds an anchor to each heading.
 
     `highlight` converts code and the name of its language into HTML. `figure` converts the address and the
     description of a figure into HTML. All anchors begin with `prefix`.

@@ -109,8 +109,8 @@ def _call_during(seconds: float, calls: Sequence[tuple[str, str, Mapping[str, fl
 def _recording(shown: Cell, plan: Plan) -> Cell:
     """Return a cell that records the panel of the cell above; the new cell defines no variable.
 
-    The new cell reads the panel from `_oh`, IPython's dict of results. It cannot use `_`, because a notebook
-    may define a variable called `_`.
+    The new cell reads the panel from `_oh`, IPython's dict of results. The new cell cannot use `_`, because a
+    notebook may define a variable with this name.
     """
     added = copy.deepcopy(shown)
     added["id"] = f"recording-{shown['id']}"[:64]

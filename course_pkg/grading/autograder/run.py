@@ -133,5 +133,5 @@ def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
         finally:
             timer.cancel()
     if weaker:
-        _, lock = users.reserve()  # This also ends processes that a killed worker may have left.
+        _, lock = users.reserve()  # The call also ends processes that a killed worker may have left.
         lock.close()

@@ -1,4 +1,4 @@
-"""Reads a CSV table; each row gives its values by the names of the columns."""
+"""Reads a CSV table; in each row, the keys are the names of the columns."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Row:
     Error messages contain the position of the row in the file.
     """
 
-    where: str  # An example is "times.csv, line 3".
+    where: str  # `where` is the file and the line, such as "times.csv, line 3".
     values: dict[str, str]
 
     def get(self, *columns: str) -> str:

@@ -70,7 +70,7 @@ def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
 class _Entry:
     """A row of a table: a time for a chapter and a file.
 
-    An empty chapter stands for all chapters, and an empty file for all files.
+    An empty chapter means all chapters, and an empty file means all files.
     """
 
     chapter: str
@@ -122,7 +122,7 @@ def _paths(origin: str, student: str) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Worksheet:
-    """The times of submissions by Moodle's participant numbers."""
+    """The times of submissions; the keys are Moodle's participant numbers."""
 
     times: Mapping[str, datetime]
 

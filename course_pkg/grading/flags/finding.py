@@ -51,7 +51,7 @@ def with_flags(
     """Return the grades with the flags of these kinds; the flags are found in the graded submissions.
 
     Submissions that do not count, such as earlier attempts, get no flags. A grade without a submission in
-    this run keeps its old flags.
+    this run has the flags of an earlier run.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

@@ -37,7 +37,7 @@ class Fingerprint:
 
     statements: int
     code: frozenset[str] = field(default=frozenset())
-    # These are comments, strings, and names that the program defines.
+    # The set contains comments, strings, and names that the program defines.
     words: frozenset[str] = field(default=frozenset())
     # Each tuple contains the normal form and the line number of a statement.
     lines: tuple[tuple[str, int], ...] = ()

@@ -117,7 +117,7 @@ class Exercise:
         return 2 * self._bits(one.code & other.code) / total if total else 0.0
 
     def surprise(self, likeness: float) -> float:
-        """Return log2(1 / p), where p is the fraction of all pairs whose similarity is at least this high."""
+        """Return log2(1 / p), where p is the fraction of all pairs with at least this similarity."""
         as_much = len(self._ranked) - bisect_left(self._ranked, likeness - 1e-9)
         everybody = len(self._answers) * (len(self._answers) - 1) / 2
         return math.log2(everybody / max(1, as_much))

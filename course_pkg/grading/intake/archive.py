@@ -22,7 +22,7 @@ from course_pkg.grading import clean
 
 LARGEST = 20 << 20  # LARGEST is the maximum number of bytes of one notebook.
 ALTOGETHER = 4 << 30  # ALTOGETHER is the maximum number of bytes of all unpacked notebooks in a zip.
-# Maximum compression ratio; it is about 10 for a usual notebook, and 100 for one with much repetition.
+# Maximum compression ratio. A usual notebook has a ratio of 10, and a notebook with much repetition has 100.
 RATIO = 400
 SMALL = 1 << 20  # The compression ratio of files with fewer bytes is not checked.
 MEMBERS = 200_000
@@ -191,7 +191,7 @@ def _refuse_suspicious(member: zipfile.ZipInfo) -> None:
 
 
 def leads_out(path: str) -> bool:
-    """Return whether a path in an archive leads to a place outside the archive."""
+    """Return whether a path in an archive leads out of the archive."""
     parts = path.replace("\\", "/").split("/")
     return not parts[0] or ".." in parts or re.match(r"[A-Za-z]:", path) is not None
 

@@ -22,7 +22,7 @@ PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 def handed_in_nothing(
     source: Path, files: Sequence[str], outer: int, submitters: Submitters, reports: Sequence[str] = ()
 ) -> list[Submission]:
-    """Return a submission with a problem for each student whose folder contains no file.
+    """Return a submission with a problem for each student with an empty folder.
 
     `source` is a folder or a zip, `files` contains the paths in it, and `outer` is the number of folders that
     contain all students' folders. `reports` contains the paths of folders in `source` that belong to no

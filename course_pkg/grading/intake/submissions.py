@@ -154,7 +154,7 @@ def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list
 def _is_metadata(entry: Entry, outer: int) -> bool:
     """Return whether Gradescope, and not a student, wrote the file.
 
-    Such a file is not in a student's folder.
+    A file that Gradescope wrote is not in a student's folder.
     """
     return unwrapped(_inside(entry), outer) == (METADATA,)
 

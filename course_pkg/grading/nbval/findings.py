@@ -27,7 +27,7 @@ OTHER = "The result of the cell differs from the result with the right answers."
 
 
 def finding(words: str) -> str:
-    """Return a sentence about a cell for the student, or "" if `words` is "".
+    """Return a sentence about a cell for the student, or "" if `words` is empty.
 
     `words` is nbval's text about the cell.
     """

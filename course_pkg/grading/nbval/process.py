@@ -1,8 +1,8 @@
 """Runs nbval in an outer sandbox with trusted processes; the kernel runs in an inner sandbox.
 
 The trusted processes are pytest, the master and the check runner. The program reads a notebook from stdin.
-Its argument is the time limit of a cell in s. It writes the result of each cell to stdout, as one JSON object
-per line.
+The program's argument is the time limit of a cell in s. The program writes the result of each cell to stdout,
+as one JSON object per line.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Runs a rebuilt notebook with nbval, and finds the cells whose output differs from the reference output.
+"""Runs a rebuilt notebook with nbval, and finds the cells with outputs that differ from the reference.
 
 The results earn no points.
 """

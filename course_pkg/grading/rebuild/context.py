@@ -89,7 +89,7 @@ def _given(tree: ast.Module) -> frozenset[str]:
 
 
 def _bound(nodes: Iterable[ast.AST]) -> frozenset[str]:
-    """Return the names that these nodes assign, import, define, or give to a caught exception."""
+    """Return the names that these nodes assign, import or define, and the names of caught exceptions."""
     names: set[str | None] = set()
     for node in nodes:
         if isinstance(node, ast.Import | ast.ImportFrom):

@@ -61,7 +61,7 @@ def _readable(source: str) -> tuple[str, list[str]]:
 
 
 def _as_ipython_reads(source: str) -> list[str]:
-    """Return the lines in which IPython looks for a magic.
+    """Return the lines in which IPython searches for a magic.
 
     The lines have no indentation and no prompts, and no line is empty.
     """

@@ -1,6 +1,6 @@
 """Finds the cells of a student's notebook that answer an exercise, even if they were moved or copied.
 
-The cell of an exercise is found by its id or by its metadata, because a copied cell keeps its metadata.
+The cell of an exercise is found by its id or by its metadata, because a copied cell has the same metadata.
 Otherwise, the cell is found by the names that it defines, or by the file that it writes. If there are several
 such cells, the last non-blank cell is used. If the student has split the answer into several cells, the cells
 directly below belong to the answer.
@@ -168,7 +168,7 @@ class _Above:
         return not (anew or cell.source.lstrip().startswith("%%"))
 
     def needs(self, source: str, wanted: Wanted) -> bool:
-        """Return whether one of the student's own cells belongs to this answer."""
+        """Return whether a cell that the student added is part of this answer."""
         lines = [line for line in source.splitlines() if line.strip()]
         if not lines or source.lstrip().startswith(("%%", "!")):
             return False

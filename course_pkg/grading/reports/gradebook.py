@@ -74,7 +74,7 @@ class Book:
     def counted(self, student: str) -> list[str]:
         """Return the chapters that count for a student, even for a student without a submission.
 
-        These chapters were assigned; see Asked.
+        The chapters that were assigned count; see Asked.
         """
         return self._asked.counted(student, self._by_student.get(student, []), self.chapters)
 
@@ -201,7 +201,7 @@ def _about(grade: Grade) -> str:
 
 
 def _inconclusive(grade: Grade) -> list[str]:
-    """Return a sentence for each part whose check could not finish."""
+    """Return a sentence for each part with an unfinished check."""
     return [
         f"{report.check} earned no points, but its check could not finish. Look at the answer. "
         f"{clean.line(report.note, 160)}"

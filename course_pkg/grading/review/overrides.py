@@ -59,7 +59,7 @@ class Overrides:
     path: Path
     rows: Mapping[Key, Override] = field(default_factory=dict)
     head: tuple[str, ...] = COLUMNS
-    lines: tuple[tuple[str, ...], ...] = ()  # These are the cells of all lines after the first line.
+    lines: tuple[tuple[str, ...], ...] = ()  # The tuple contains the cells of all lines after the first line.
     # The values are the indices of the rows in `lines`.
     places: Mapping[Key, int] = field(default_factory=dict)
     delimiter: str = ","

@@ -104,7 +104,7 @@ class Worksheet:
     def word(self) -> str:
         """The word before the number of a participant, in lower case.
 
-        Anonymous students also have this word as their name.
+        Anonymous students have the same text as their name.
         """
         first = self._records[1:2]
         return folded(re.sub(r"\d+\s*\Z", "", self._value(first[0], IDENTIFIER))) if first else ""

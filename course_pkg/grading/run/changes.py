@@ -56,7 +56,7 @@ def _between(before: Grade, after: Grade) -> Iterator[Change]:
 
 
 def worth_changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[str]:
-    """Return a line for each part whose possible points, or the points of its goals, have changed."""
+    """Return a line for each part with a change in its possible points, or in the points of its goals."""
     old, new = (
         {report.check: report for grade in grades for report in grade.reports} for grades in (before, after)
     )

@@ -104,7 +104,7 @@ def merged(base: Grade, again: Grade) -> Grade:
 
 
 def _student(name: str, known: Sequence[str]) -> str:
-    """Return the student with this name; the number that a platform adds to the name may be missing."""
+    """Return the student with this name; `name` may lack the number that a platform adds."""
     identity = clean.identity(name)
     if identity in known:
         return identity

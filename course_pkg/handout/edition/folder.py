@@ -1,4 +1,4 @@
-"""The folder of an edition. It is a git repository, and each release with a change is a commit."""
+"""The folder of an edition. The folder is a git repository, and each release with a change is a commit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The zip file of an edition; the same files always give the same bytes."""
+"""The zip file of an edition. The bytes of the zip depend only on the files in it."""
 
 from __future__ import annotations
 

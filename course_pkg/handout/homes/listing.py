@@ -20,7 +20,7 @@ LARGEST = 4 << 20  # LARGEST is the maximum size of a list of students (bytes).
 
 @dataclass(frozen=True)
 class Home:
-    """A student's home folder, and the user whose rights are needed to read the folder."""
+    """A student's home folder, and the user with the rights to read the folder."""
 
     student: str
     path: Path

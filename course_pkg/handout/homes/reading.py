@@ -1,9 +1,9 @@
 """Reads a student's work in a child process that has only the rights of this student.
 
-If root runs `course collect`, the child gives up all rights of root before it reads the home folder. It can
-read only what the student can read. Therefore, a link, or a folder that changes during the reading, cannot
-lead to a file that the student may not read. If another user runs `course collect`, the child has the rights
-of that user.
+If root runs `course collect`, the child gives up all rights of root before it reads the home folder. The
+child can read only files that the student can read. Therefore, a link, or a folder that changes during the
+reading, cannot lead to a file that the student may not read. If another user runs `course collect`, the child
+has the rights of that user.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from course_pkg.waiting import Deadline
 # collection.
 TIMEOUT = 60.0
 ALTOGETHER = 200 << 20  # ALTOGETHER is the maximum number of bytes of one student's work.
-HEADER = 64 << 10  # HEADER is the maximum number of bytes of a header.
+HEADER = 64 << 10  # Each header of the child's data has at most this many bytes.
 CHUNK = 1 << 20
 
 

@@ -69,7 +69,7 @@ class Listed(TypedDict):
 
 
 class Score(TypedDict):
-    """The number of all cases (`of`), of solved cases, and of cases whose first answer was right."""
+    """The number of all cases (`of`), of solved cases, and of cases with a right first answer."""
 
     solved: int
     first: int

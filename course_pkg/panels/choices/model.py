@@ -132,7 +132,7 @@ class ChoicesModel:
         return self._store.write(replace(record, shown=True))
 
     def again(self) -> ChoiceRecord:
-        """Hide the reasons and delete the choices, but keep `first`."""
+        """Hide the reasons and delete the choices, but do not delete `first`."""
         return self._store.write(replace(self.record, chosen={}, shown=False))
 
     def _check(self) -> None:

@@ -72,7 +72,7 @@ class Frame:
 class Picture:
     """All shapes, lines and frames.
 
-    They are sorted by name only, and an outer frame comes before its inner frames.
+    The shapes, lines and frames are sorted by name only, and an outer frame comes before its inner frames.
     """
 
     shapes: tuple[Shape, ...] = ()

@@ -1,7 +1,7 @@
 """The widgets of predictions.
 
-Their text/plain output is the same for every student, so notebooks can be compared. Only the widget shows the
-student's answer.
+The text/plain output of the widgets is the same for every student, so notebooks can be compared. Only the
+widget shows the student's answer.
 """
 
 from __future__ import annotations

@@ -71,8 +71,8 @@ class ServiceModel:
     """Selects a service, checks the form, calls the service, and stores a history of the calls.
 
     The model calls `changed` after each change, and in each phase of a call. The keyword arguments of
-    `changed` are `services`, `form`, `draft`, `check`, `outcome` and `history`. The model holds the lock
-    `turn` while it changes its state, but not during a call.
+    `changed` are `services`, `form`, `draft`, `check`, `outcome` and `history`. The model acquires the lock
+    `turn` for each change of its state, but not for a call.
     """
 
     def __init__(

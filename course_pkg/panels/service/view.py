@@ -26,7 +26,7 @@ class ServicePanel(Panel):
     """A form for calling any service on the graph.
 
     `service` is the name of the service. With None, the reader selects a service on the page. `deadline` is
-    the maximum time of a call in s. `kind` is the type. It is needed only for a type that was made in the
+    the maximum time of a call in s. `kind` is the type. `kind` is needed only for a type that was made in the
     notebook and belongs to no package. While a page shows the panel, the panel lists the services on the
     graph.
     """
@@ -81,7 +81,7 @@ class ServicePanel(Panel):
         return self.response
 
     def record(self, inputs: Iterable[Values]) -> None:
-        """Call the service once for each of `inputs`, and keep the outcomes for pages without a kernel."""
+        """Call the service once for each of `inputs`, and store the outcomes for pages without a kernel."""
         self.publish(recording=self._model.record(inputs, self.deadline))
 
     def shown(self) -> None:

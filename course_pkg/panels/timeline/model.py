@@ -166,7 +166,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
 
 
 def _place(thread: _Thread, row: int, events: Sequence[Event], rows: list[int], depths: list[int]) -> None:
-    around: list[float] = []  # These are the ends of the events that contain the current event.
+    around: list[float] = []  # The list contains the ends of the events that contain the current event.
     for number in sorted(thread.numbers, key=lambda each: (events[each].start, -_end(events[each]))):
         while around and around[-1] <= events[number].start:
             around.pop()
@@ -190,8 +190,8 @@ def arrows(events: Sequence[Event]) -> list[list[int]]:
 def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[int]]:
     """Return the arrows of one call or of one message.
 
-    The arrow of a response or an error goes from the end of the handler to the caller. There is no such arrow
-    if the caller had already stopped waiting.
+    The arrow of a response or an error goes from the end of the handler to the caller. If the caller had
+    already stopped waiting, there is no such arrow.
     """
     found = [[message, callback] for message in part[PUBLISH] for callback in part[CALLBACK]]
     for handler in part[HANDLER]:

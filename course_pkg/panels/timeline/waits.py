@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Wait(TypedDict):
-    """The calls of one node to one service; `blocked` (the sum of the waits) and `longest` are in s.
+    """The calls of one node to one service. The unit of `blocked` (the sum of all waits) and `longest` is s.
 
     `open` is the number of unfinished calls.
     """

@@ -58,7 +58,7 @@ class TurtlePanel(Panel):
         self._colours: dict[str, Colour] = {}
         self._lock = threading.Lock()
         self._page = Page.NONE
-        # These are the number of rows that the page has received, and the edition of these rows.
+        # The number of rows that the page has received, and the edition of these rows.
         self._sent = self._edition = 0
         self._last_sent = self._last_kept = self._left = self._began
         self._reader = BulkReader(TYPES, self._received, self._missing, self._polled)

@@ -42,7 +42,7 @@ class TypeBrowser(Panel):
         super().__init__()
         self._name = name
         self._known: Catalogue = ((), ())
-        self._not_before = 0.0  # This is a time in s of time.monotonic().
+        self._not_before = 0.0  # The unit is s, as in time.monotonic().
         self._model = TypeModel(self.publish, turn=self.turn)
         self._graph: Poller[Snapshot] = Poller(look, self._seen, self._failed)
         self._files: Poller[Files] = Poller(self._list, self._listed, self.complain, every=PAUSE)

@@ -31,7 +31,7 @@ from course_pkg.types.numbers import float32
 
 ERROR = 400  # At most this many characters of an error message are shown.
 ITEMS = 8  # The first elements of an array, up to this number, are shown separately.
-# These are the `struct` format characters for signed integers; capital letters are for unsigned integers.
+# Format characters of `struct` for signed integers; capital letters are for unsigned integers.
 CODES = {1: "b", 2: "h", 4: "i", 8: "q"}
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
 

@@ -23,7 +23,7 @@ from course_pkg.panels.paper import (
     wrapped,
 )
 
-# These are the x coordinates of the client, the server and the master (px).
+# The x coordinates of the client, the server and the master (px).
 ENDS = {"client": 100.0, "server": 440.0, "master": 660.0}
 ROW = 34.0  # A step is this many px high.
 MOST, BYTES = 24, 8  # A step shows at most MOST pieces, and a piece shows at most BYTES bytes.

@@ -26,7 +26,7 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
     """Serve the name and similar names in three namespaces.
 
-    Then pass the name of a service that does not exist.
+    After that, pass the name of a service that does not exist.
     """
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
@@ -170,7 +170,7 @@ _NOBODY = [
 def who_really_publishes(context: CheckContext) -> None:
     """Register running and killed publishers of two topics.
 
-    Then pass topics without a running publisher.
+    After that, pass topics without a running publisher.
     """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
@@ -232,7 +232,7 @@ def _living(context: CheckContext, topic: str) -> object:
     return context.run(
         "living_publishers",
         topic,
-        within=8.0,  # A node that does not answer is pinged three times, which takes 6 s.
+        within=8.0,  # A node without a response is pinged three times, which takes 6 s.
         hints=[
             (
                 matches("TimesUp"),

@@ -1,4 +1,7 @@
-"""Publishers: one publishes at a rate and must not lose a message; the other publishes each change."""
+"""Publishers: one node publishes at a rate and must not lose a message.
+
+Another node publishes each change.
+"""
 
 import threading
 import time

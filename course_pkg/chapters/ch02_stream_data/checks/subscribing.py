@@ -51,7 +51,8 @@ def witness(message):
 """
 FIELDS = ("name", "position", "velocity")
 DRAWING, PREPARING = 0.25, 0.02  # A drawing takes DRAWING s, and preparing an order takes PREPARING s.
-RETURNS = 1.5  # A function must return within this time in s; on an idle machine, it takes some ms.
+# A function must return within this time in s; on an idle machine, a function returns after some ms.
+RETURNS = 1.5
 OLDEST = 0.5  # OLDEST is the maximum age in s of an angle when a drawing begins.
 ANGLES, ORDERS = 60, 20
 HEADER = "the header and its time stamp stay the same"

@@ -1,4 +1,4 @@
-"""The student's watch: it distinguishes a running stream from one that has ended."""
+"""The student's watch distinguishes a running stream from a stream that has ended."""
 
 import time
 

@@ -113,9 +113,9 @@ def _greets(
     numbers: list[int],
 ) -> None:
     if numbers[2] > max(numbers[:2]):
-        # numbers[2] is the last number that _told() publishes. A subscriber with queue_size=1 keeps this
-        # message, and a node that stores only the largest number ignores it because of a larger earlier
-        # number. Therefore, exactly one of the two hints fits.
+        # numbers[2] is the last number that _told() publishes. A subscriber with queue_size=1 receives this
+        # message. A node that stores only the largest number ignores the message, because an earlier number
+        # is larger. Therefore, exactly one hint is right.
         numbers[0], numbers[2] = numbers[2], numbers[0]
     first, later = numbers[:5], numbers[5:]
     start, call = Its("start_greeting"), "start_greeting()"

@@ -13,7 +13,7 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 DETECT = "course_pkg/DetectCustomer"
-SLACK = 0.7  # SLACK is the additional time in s on a busy machine.
+SLACK = 0.7  # On a busy machine, a poll may take this many s longer.
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "Pause 1 / rate seconds between two calls."
 NO_END = (
@@ -63,7 +63,7 @@ FOUND = "Return the number of a customer who is there, or who comes later."
 def poll_with_a_deadline(context: CheckContext) -> None:
     """Try a customer who is present and a customer who comes later.
 
-    Then try a fast and a slow detector without a customer.
+    After that, try a fast and a slow detector without a customer.
     """
     _one_who_is_there(context)
     _one_who_comes(context)

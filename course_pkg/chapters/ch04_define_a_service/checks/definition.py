@@ -26,7 +26,7 @@ FIELDS = "Write the fields of the request and of the response, with their types.
 def the_lamp(context: CheckContext) -> None:
     """Parse the text in the same way as ROS, and compare it with the description.
 
-    Then build it in another folder.
+    After that, build the definition in another folder.
     """
     text = context.source(f"file:{FILE}")
     asked, given = compile_service(TYPE, DEFINITION), read_definition(context, TYPE, text)

@@ -18,7 +18,8 @@ PACKAGE = "src/lamp_services"
 TYPE = "lamp_services/Lamp"
 # A build step may use this CPU time in s and write files of this size in KiB; it needs about 1 s of CPU time.
 LIMITS = "ulimit -t 6 -f 100000"
-# The whole build may take this many s; it takes 1.5 s on an idle machine and 20 s on a very busy machine.
+# The whole build may take this many s; a build takes 1.5 s on an idle machine and 20 s on a very busy
+# machine.
 BUILD = 40.0
 
 GENERATION = re.compile("catkin_package lists message_generation")

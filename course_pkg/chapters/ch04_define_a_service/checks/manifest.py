@@ -38,7 +38,7 @@ LISTED = {"built": "List what is needed to build.", "run": "List what is needed 
 def the_manifest(context: CheckContext) -> None:
     """Build the package with the student's file and the check's other files.
 
-    Then compare the dependencies.
+    After that, compare the dependencies.
     """
     built(context, given=[FILE])
     context.fulfilled(ACCEPTED)

@@ -194,7 +194,10 @@ def _follows(before: str) -> Callable[[str], bool]:
     goals={POSITION: 2, MOVED: 2, "Let each new Switch() be off.": 1},
 )
 def a_switch_that_tells(context: CheckContext) -> None:
-    """Call /switch with data=False, and then ten more times. Then try a new Switch(), which must be off."""
+    """Call /switch with data=False, and then ten more times.
+
+    After that, try a new Switch(), which must be off.
+    """
     turn = context.service(
         "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]
     )
@@ -246,7 +249,7 @@ def a_switch_that_tells(context: CheckContext) -> None:
     context.fulfilled(POSITION)
     context.fulfilled(MOVED)
     context.prepare(A_NEW_SWITCH)
-    if not context.has("Switch"):  # In this case, the handler is not a method of a class Switch.
+    if not context.has("Switch"):  # Without this name, the handler is not a method of a class Switch.
         return
     for stands, hint in ((False, STARTS_ON), (True, SHARES)):
         turn(data=stands)

@@ -18,7 +18,10 @@ NUMBERS = "Return the three numbers, and ignore arguments for ROS."
     goals=[NUMBERS, "Return None if there are not exactly three numbers."],
 )
 def read_the_arguments(context: CheckContext) -> None:
-    """Try valid arguments with and without arguments for ROS; then too few, too many, and a word."""
+    """Try valid arguments with and without arguments for ROS.
+
+    Then try too few arguments, too many arguments, and a word.
+    """
     name_first = (
         "The first item of the list is the name of the program. The sides begin with the second item."
     )

@@ -40,7 +40,7 @@ class Case:
     status: int
     prints: str  # The program's output must contain this text, in lower case.
     calls: int = 1
-    hint: str = ""  # `hint` is the hint for a wrong exit status.
+    hint: str = ""  # The report shows `hint` if the exit status is wrong.
     # If `remapped` is True, getGeometry is remapped; otherwise, the program runs in another namespace.
     remapped: bool = False
     late: bool = False  # `late` is True if the service starts after the program.

@@ -25,7 +25,7 @@ THERE = "Return True for a service that exists, and False for a service that doe
 def is_anybody_there(context: CheckContext) -> None:
     """Try a running server, and two names without a running server.
 
-    Then start a server while the client waits.
+    After that, start a server while the client waits.
     """
     here, nowhere, killed, later = (f"/{context.random.word()}" for _ in range(4))
     server = context.serve(here, GEOMETRY, lambda _: {})

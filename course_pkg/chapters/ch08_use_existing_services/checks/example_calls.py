@@ -47,7 +47,7 @@ def _numbers(context: CheckContext) -> ExampleCall:
 def _texts(context: CheckContext) -> ExampleCall:
     """Return a call with nested messages and with quotation marks.
 
-    One value is the word off, which YAML reads as False.
+    One value is the text "off", which YAML reads as False.
     """
     width, height, offset = context.random.integers(3, 100, 999)
     frame = f'{context.random.word()}\'s "own" $HOME'

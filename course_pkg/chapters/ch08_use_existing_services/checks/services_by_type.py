@@ -43,7 +43,10 @@ FOUND = "Return the names of all services of the type, without a call."
     goals=[FOUND, "Leave out a service whose server has ended, and find a new one."],
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve two types and types with similar names. Then add a service, and a service of a dead server."""
+    """Serve two types and types with similar names.
+
+    After that, add a service, and register a service of a dead server.
+    """
     kind, other = context.random.shuffled(KINDS)[:2]
     short = kind.partition("/")[2]
     word = context.random.word()

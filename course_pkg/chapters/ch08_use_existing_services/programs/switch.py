@@ -1,7 +1,7 @@
 """The node `switch`: a client can open and close the switch, and read its position.
 
-Its services are `~set` (std_srvs/SetBool: True opens and False closes the switch), `~toggle` and `~report`
-(std_srvs/Trigger), and `~reset` (std_srvs/Empty). It starts closed.
+The services are `~set` (std_srvs/SetBool: True opens and False closes the switch), `~toggle` and `~report`
+(std_srvs/Trigger), and `~reset` (std_srvs/Empty). The switch is closed at the start.
 """
 
 from __future__ import annotations

@@ -96,7 +96,7 @@ class Driver:
 def follows(context: CheckContext, program: TurtleProgram) -> None:
     """Assert that a program does what the exercise requires of spawn_turtle_plus.
 
-    Three runs of the program overlap, because one of them takes 5 s.
+    Three runs of the program overlap, because one run takes 5 s.
     """
     copy = program.prepare(context, program)
     name = context.random.word()

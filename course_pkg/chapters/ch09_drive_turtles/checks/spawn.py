@@ -67,7 +67,7 @@ def wait_and_spawn(context: CheckContext) -> None:
 def spawns(context: CheckContext, program: TurtleProgram) -> None:
     """Assert that a program does what the exercise requires of spawn_turtle.
 
-    The runs overlap, because one of them takes 5 s.
+    The runs overlap, because one run takes 5 s.
     """
     copy = program.prepare(context, program)
     alone, early, served, real = (World(context, copy, program) for _ in range(4))

@@ -16,7 +16,7 @@ from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.waiting import wait_until
 from course_pkg.workspace import explain
 
-# STARTING is the maximum time in s until a node is on the graph; it takes 1 s on an idle machine.
+# A node must be on the graph within this many s; it takes 1 s on an idle machine.
 STARTING = 30.0
 SETTLING = 4.0  # SETTLING is the maximum time in s until this node serves its services.
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.

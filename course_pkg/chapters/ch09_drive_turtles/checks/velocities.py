@@ -46,7 +46,7 @@ class Stream:
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
-        """Return the next `count` messages; assert that none of them takes longer than `within` s."""
+        """Return the next `count` messages; assert that no message takes longer than `within` s."""
         before = len(self._subscription.arrivals)
         for number in range(before + 1, before + count + 1):
             if len(self._subscription.wait(number, within)) < number:

@@ -97,7 +97,7 @@ ERRORS = [
 def wait_for_another_call(context: CheckContext) -> None:
     """Take from a filled and an empty basket; put an item into the basket while a client is waiting.
 
-    Then use many clients.
+    After that, use many clients.
     """
     names = [f"/{context.random.word()}" for _ in range(2)]
     context.prepare(KERNEL_CODE)

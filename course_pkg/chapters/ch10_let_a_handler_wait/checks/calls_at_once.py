@@ -91,7 +91,7 @@ class Gate:
         self._changed = threading.Condition()
 
     def __call__(self, _: Message) -> dict[str, Json]:
-        """Handle a request: wait for the other clients, and return a different word for each of them."""
+        """Handle a request: wait for the other clients, and return a different text for each client."""
         with self._changed:
             word = self._words[self.requests % len(self._words)]
             self.requests += 1
@@ -154,7 +154,7 @@ def calls_at_once(context: CheckContext) -> None:
 
 
 def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
-    """Run the function with `count` calls of `hold` s.
+    """Run the function with `count` calls that take `hold` s each.
 
     Return the time in s from the last response to the end of the function.
     """

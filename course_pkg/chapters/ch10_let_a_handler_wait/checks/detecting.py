@@ -14,7 +14,7 @@ from course_pkg.waiting import wait_until
 
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
-SLACK = 1.5  # SLACK is the additional time in s on a busy machine.
+SLACK = 1.5  # On a busy machine, a call may take this many s longer.
 # If no customer comes, request.patience has this value in s. A handler that waits twice as long exceeds
 # SLACK.
 LONG = 2.0

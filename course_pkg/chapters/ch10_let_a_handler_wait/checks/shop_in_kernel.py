@@ -57,7 +57,7 @@ class CheckedShelf:
     """A shelf with `count` things. The kernel has a proxy for the shelf.
 
     Each read and each write returns when another thread reads, or after a short time. Therefore, two threads
-    without a lock read the same number. With a lock, the other thread cannot read in this time.
+    without a lock read the same number. With a lock, no other thread can read during this time.
     """
 
     def __init__(self, count: int) -> None:

@@ -52,7 +52,7 @@ class Deadlock(Exception):
 
 
 class CheckedLock:
-    """A lock; `acquire` returns when another thread holds the other lock, or after a short time.
+    """A lock; `acquire` returns when another thread has acquired the second lock, or after a short time.
 
     Therefore, two threads that acquire the two locks in opposite order always block each other. A thread that
     waits too long gets an error, so that all threads end.
@@ -88,7 +88,7 @@ class CheckedLock:
 
     @remote
     def locked(self) -> bool:
-        """Return whether a thread holds the lock."""
+        """Return whether a thread has acquired the lock."""
         return self._lock.locked()
 
     @remote
@@ -164,12 +164,12 @@ class CheckedPair:
 
     @remote
     def returned(self, value: Value) -> None:
-        """Record the result of one of the calls."""
+        """Record the result of a call."""
         self.results.append(value)
 
     @remote
     def raised(self, error: str) -> None:
-        """Record the error that ended one of the threads."""
+        """Record the error that ended a thread."""
         self.errors.append(str(error))
 
     @property
@@ -179,7 +179,7 @@ class CheckedPair:
 
     @property
     def locked(self) -> bool:
-        """Whether a thread holds one of the locks."""
+        """Whether a thread has acquired a lock."""
         return any(shelf.lock.locked() for shelf in self._shelves)
 
     @property
@@ -188,11 +188,11 @@ class CheckedPair:
         return min(self.errors, key=lambda error: "in vain" not in error, default="")
 
     def held(self) -> int:
-        """Return the number of locks that the current thread holds."""
+        """Return the number of locks that the current thread has acquired."""
         return sum(shelf.lock.owner == threading.get_ident() for shelf in self._shelves)
 
     def meet(self) -> None:
-        """Wait until another thread also holds a lock, but only for a short time."""
+        """Wait until another thread has also acquired a lock, but only for a short time."""
         with self._turn:
             limit, self._meeting = self._meeting, MEETING
             self._turn.notify_all()
@@ -250,7 +250,7 @@ MOVED = "Move a thing in one thread, but not from an empty shelf."
 def move_without_deadlock(context: CheckContext) -> None:
     """Move things in one thread, even from an empty shelf.
 
-    Then move things in both directions at the same time.
+    After that, move things in both directions at the same time.
     """
     context.prepare(KERNEL_CODE)
     numbers = sorted(context.random.integers(2, 1, 99))

@@ -65,7 +65,10 @@ class Client:
 
 
 class ResettingPort:
-    """A program at the old address of a server. It is not a ROS server, and it resets each connection."""
+    """A program at the old address of a server.
+
+    The program is not a ROS server, and resets each connection.
+    """
 
     def __init__(self, uri: str) -> None:
         self._listener = socket.create_server(("127.0.0.1", int(uri.rpartition(":")[2])))

@@ -183,7 +183,7 @@ NOT_RAISED: Hints = [
 def exact_read(context: CheckContext) -> None:
     """Send the bytes in one piece, in several pieces, and with additional bytes.
 
-    Then close the connection too early.
+    After that, close the connection too early.
     """
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
@@ -212,15 +212,15 @@ TAKEN = (
 class OtherEnd:
     """The check's end of the connection to the student's socket.
 
-    The object sends `pieces`, and keeps the connection open until the end of the block.
+    The object sends `pieces`, and does not close the connection before the end of the block.
 
     Each piece is sent after the client has read the previous piece. Therefore, a client that reads only once
     gets only one piece.
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False) -> None:
-        # The socket is in Linux's abstract namespace. It needs no file, and only this network namespace can
-        # use it.
+        # The socket is in Linux's abstract namespace. The socket needs no file, and only this network
+        # namespace can use the socket.
         self.name = f"course-{secrets.token_hex(8)}"
         self._pieces, self._closes = pieces, closes
         self._listener = socket.socket(socket.AF_UNIX)

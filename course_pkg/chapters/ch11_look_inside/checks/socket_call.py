@@ -123,7 +123,7 @@ def call_over_a_socket(context: CheckContext) -> None:
 
 
 def _names(source: str) -> set[str]:
-    """Return the names in the code of a function, without words in comments and docstrings."""
+    """Return the names in the code of a function; comments and docstrings are ignored."""
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
     except SyntaxError:  # For example, the source of a lambda is only a part of a line.

@@ -1,7 +1,7 @@
 """The node `tcp_echo`: listens on the TCP port `~port`, and sends back all bytes that it receives.
 
-It uses no protocol of ROS. Therefore, a round trip to this program is the shortest possible time of a service
-call.
+The program uses no protocol of ROS. Therefore, a round trip to this program is the shortest possible time of
+a service call.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ GIVEN_UP = [(matches("^TimeoutError|^ServiceException"), UNKNOWN), *ERRORS]
 
 
 class Books:
-    """The payments that a till has charged, one for each request id."""
+    """The payments that a till has charged, with one payment for each request id."""
 
     def __init__(self, context: CheckContext) -> None:
         self.charged: dict[str, int] = {}
@@ -70,7 +70,7 @@ def pays_after(
 ) -> int:
     """Assert that a payment succeeds; return the number of requests.
 
-    `words` describes the state of the till.
+    `words` is a text about the state of the till.
     """
     before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
     result = pay(context, name, context.random.integer(100, 900), deadline)

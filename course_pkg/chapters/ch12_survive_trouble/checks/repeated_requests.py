@@ -89,7 +89,7 @@ FAILED = "Charge again after the purse has failed, and refuse a request without 
 def charge_once(context: CheckContext) -> None:
     """Send new and repeated requests; let the purse fail; send a request without an id.
 
-    Then send 50 requests at the same time.
+    After that, send 50 requests at the same time.
     """
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)

@@ -12,7 +12,7 @@ ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
 LONG = 4.0  # This time limit in s is longer than every call.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
-SLACK = 1.2  # SLACK is the additional time in s on a busy machine.
+SLACK = 1.2  # On a busy machine, a call may take this many s longer.
 KERNEL_CODE = """
 import threading
 import time

@@ -50,9 +50,9 @@ checked_watch = CheckedWatch()
 class CheckedMaster:
     """Calls a master for the watchdog, and records these calls.
 
-    After hold(), the master reports that it knows no service, so the watchdog registers its service. This
-    registration waits until stop() has returned. If stop() itself waits for the registration, the
-    registration waits only for `slow` s.
+    After hold(), the master reports that it knows no service, so the watchdog registers its service. The
+    registration waits until stop() has returned. If stop() itself waits for the end of the registration, the
+    registration waits for at most `slow` s.
     """
 
     def __init__(self, uri: str, slow: float) -> None:

@@ -14,7 +14,7 @@ from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.cmake_messages import cmake_commands
 
 FILE = f"{PACKAGE}/CMakeLists.txt"
-BUILDING = 75.0  # BUILDING is the time limit in s; the build takes 4 s on an idle machine.
+BUILDING = 75.0  # The build may take this many s; it takes 4 s on an idle machine.
 NO_ROSCPP = (
     "catkin_LIBRARIES contains only the libraries of the packages in "
     "find_package(catkin … COMPONENTS …). Add roscpp to this list."
@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     start=START,
 )
 def cmake_list_file(context: CheckContext) -> None:
-    """Build a program of the check with the student's CMakeLists.txt; the executable has to exist."""
+    """Build the check's own program with the student's CMakeLists.txt; the executable must exist."""
     require_tools()
     drawn = context.random.word(12)
     code = PROGRAM.replace("DRAWN", drawn)

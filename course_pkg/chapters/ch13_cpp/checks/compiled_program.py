@@ -16,10 +16,10 @@ from course_pkg.workspace.cpp_support import compile_command
 
 PACKAGE = "src/cpp_boxes"
 BOX = "course_pkg/geometry"
-# The compilation may use this CPU time in s and write files of this size in KiB; it takes 2 s for one file.
+# The compilation may use this CPU time in s and write files of this size in KiB; one file takes 2 s.
 LIMITS = "ulimit -t 30 -f 100000"
-COMPILING = 60.0  # COMPILING is the time limit in s; the compilation takes 2 s on an idle machine.
-# STARTING is the time limit in s until the program's node is on the graph; it takes 0.1 s on an idle machine.
+COMPILING = 60.0  # The compilation may take this many s; it takes 2 s on an idle machine.
+# The program's node must be on the graph within this many s; it takes 0.1 s on an idle machine.
 STARTING = 6.0
 REGISTERING = 1.5  # After its node is on the graph, the program must serve within this many s.
 STAYING = 0.4  # The program must continue to run for this many s; without ros::spin(), it ends within 0.1 s.

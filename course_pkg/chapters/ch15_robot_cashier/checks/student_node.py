@@ -24,7 +24,7 @@ from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.ros import Snapshot
 from course_pkg.workspace import explain
 
-# STARTING is the time limit in s until a node is on the graph; it takes 1 s on an idle machine.
+# A node must be on the graph within this many s; it takes 1 s on an idle machine.
 STARTING = 40.0
 # All names of a node must exist this many s after its first name, or later if the node started late.
 COMPLETE = 3.0
@@ -48,7 +48,7 @@ class Interface:
 
     @property
     def names(self) -> list[str]:
-        """All names."""
+        """The names of all services and topics of the node."""
         return [*self.services, *self.publishes, *self.subscribes]
 
     def missing(self, seen: Snapshot, space: str, node: str) -> list[str]:

@@ -29,7 +29,7 @@ TILL_SET, TILL_TOTAL, TRIGGER, PRINT_LINE = (
 )
 MANY = 8  # MANY is the number of simultaneous calls.
 ANSWER = 5.0  # A call may take this many s.
-HOLDING = 0.4  # While a reset waits, printing a line takes this many s.
+HOLDING = 0.4  # While a reset waits, the printing of a line takes this many s.
 
 SET_HINTS: Hints = [
     (
@@ -207,7 +207,7 @@ ORDER = (
 def the_printed_till(context: CheckContext) -> None:
     """Set items with a printer that works or refuses; then set many items at the same time.
 
-    Then set an item without a printer.
+    After that, set an item without a printer.
     """
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)

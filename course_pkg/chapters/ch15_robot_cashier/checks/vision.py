@@ -18,7 +18,7 @@ FRAMES, SEEN = "frames", "customer_seen"
 INTERFACE = Interface(publishes=[SEEN], subscribes=[FRAMES])
 BOOL = "std_msgs/Bool"
 DARK = 96
-# ANSWER is the time limit in s for the message after a frame on a busy machine; it usually takes 5 ms.
+# On a busy machine, the message after a frame may take this many s; it usually takes 5 ms.
 ANSWER = 8.0
 AGAIN = 0.03  # A wrong second message would arrive within this many s.
 SILENT = 0.25  # A wrong message after a malformed frame would arrive within this many s.

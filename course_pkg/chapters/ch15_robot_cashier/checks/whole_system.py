@@ -26,8 +26,7 @@ from course_pkg.ros import Snapshot
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient, items
 from course_pkg.waiting import wait_until
 
-# STARTING is the time limit in s for the start of the system on a busy machine; it takes 3 s on an idle
-# machine.
+# On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
 STARTING = 40.0
 # All other nodes must exist this many s after the first node, or later if the first node started late.
 COMPLETE = 6.0

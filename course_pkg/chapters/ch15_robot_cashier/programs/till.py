@@ -1,6 +1,6 @@
 """The node `till`: adds the prices of a customer's items.
 
-It has three services: `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
+The node has three services: `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
 (course_pkg/TillTotal) returns the sum, and `till/reset` (std_srvs/Trigger) removes all items. A price counts
 only after `print_line` (course_pkg/PrintLine) has printed it.
 """

@@ -24,7 +24,7 @@ BRIEF = 0.2  # For a robot that ignores the cancellation, the client has this li
 LATE = 0.6  # A late robot starts this many s after the call.
 SECONDS = 0.8  # The client must cancel the goal after this many s; the time is not a whole number.
 SLACK = 3.0  # On a busy machine, a call may take this many s longer.
-LONGEST = 4.7  # If a client must give up after WAIT, it may take this many s on a busy machine.
+LONGEST = 4.7  # If a client must give up after WAIT, the client may take this many s on a busy machine.
 BOUND = (
     "A wait without a time limit did not end. Pass a rospy.Duration above 0 to "
     "wait_for_server and also to wait_for_result."

@@ -53,7 +53,7 @@ EXECUTED = "Publish feedback after each thing, and the result at the end."
     goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal with 0 things.": 1},
 )
 def executed_goal(context: CheckContext) -> None:
-    """Create an object of the student's class; send goals with different times, and cancel one of them."""
+    """Create an object of the student's class; send goals with different times, and cancel one goal."""
     name = f"/{context.random.word()}"
     context.prepare(BEGIN)
     feedback = context.subscribe(f"{name}/feedback", "course_pkg/FetchActionFeedback")

@@ -11,7 +11,7 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.waiting import at_this_load
 
 FILE = "parcel_robot.py"
-# STARTING is the time limit in s until the program has registered a name; it takes 1 s on an idle machine.
+# The program must register a name within this many s; it takes 1 s on an idle machine.
 STARTING = 8.0
 # After its first registration, the program must register all other names within this many s.
 REGISTERING = 1.5
@@ -51,7 +51,7 @@ class Robot:
         self.running.__exit__(None, None, None)
 
     def name(self, name: str) -> str:
-        """Return the full name for one of the robot's relative names."""
+        """Return the full name for a relative name of the robot."""
         return f"{self.space}/{name}"
 
 
@@ -112,7 +112,7 @@ def _kind(seen: Snapshot, robot: Robot, full: str) -> str:
 
 
 def _elsewhere(seen: Snapshot, robot: Robot, name: str) -> bool:
-    """Return whether the robot uses an absolute or a private name in place of the relative name."""
+    """Return whether the robot uses an absolute or a private name instead of the relative name."""
     return bool(_kind(seen, robot, f"/{name}") or _kind(seen, robot, f"{robot.node}/{name}"))
 
 

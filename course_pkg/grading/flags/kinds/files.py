@@ -79,7 +79,7 @@ PATH_METHODS = frozenset(
     ]
 )
 PATHS = frozenset(["pathlib.Path", "pathlib.PosixPath"])
-# These are methods of get_ipython().
+# These names are methods of get_ipython().
 SHELL = frozenset(["system", "getoutput", "run_line_magic", "run_cell_magic"])
 PLACES = re.compile(
     r"(^|[/.])solutions?([/.]|$)|/proc\b|/etc/|/home/|/root/|\.ipynb\b|site-packages|\.grading\b|grades/"

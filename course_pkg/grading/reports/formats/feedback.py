@@ -108,7 +108,7 @@ def _printed(report: Report) -> str:
 
 
 def _cells(grade: Grade) -> Iterator[str]:
-    """Yield the result of nbval's run, with the cells whose result differs from the reference."""
+    """Yield the result of nbval's run, with the cells that differ from the reference."""
     if not grade.cells:
         return
     others = [cell for cell in grade.cells if cell.outcome != "passed"]
