@@ -19,7 +19,7 @@ HERE = Path(__file__).parent
 class _First(TypedDict, total=False):
     """The first choices: `of` is their number, and `fit` is the number of expected options among them.
 
-    `now` is True if the student has not changed the first choices since then.
+    `now` is True if the current choices are the first choices.
     """
 
     fit: int

@@ -148,7 +148,7 @@ class _Thread:
 def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
     """Return the row and the depth of each event.
 
-    The depth is the number of events of its thread that contain the event.
+    The depth is the number of earlier events in the same thread that had not ended when the event began.
 
     All events of a thread are in one row. Several threads can use the same row, one after another.
     """

@@ -63,7 +63,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # The limit is the same as for services that do not exist.
+        ).returned(),  # This call has the same limit as the calls for services that do not exist.
         hints=[
             (
                 False,
