@@ -73,7 +73,7 @@ def test_another_traceback_is_reduced_to_its_last_line() -> None:
 
 
 def test_every_cell_gets_a_unique_id() -> None:
-    """`tidy` gives each cell without a valid id a new id, and makes duplicate ids unique."""
+    """`tidy` gives each cell a unique and valid id."""
     notebook = book(text("a", "same"), text("b", "same"), text("c", "not valid!"), exercise(), check())
     notebook["cells"][3]["id"] = "whatever"
     tidy(notebook)

@@ -32,8 +32,8 @@ from course_pkg.ros import BoundedProxy, NodeProcess, PrivateMaster, join, look,
 from course_pkg.ros.trace.recorder import Recorder
 
 # bounded: compares the duration of a call through BoundedProxy with that of a call through
-# rospy.ServiceProxy. Both call the same server; they alternate in blocks of 20 calls. It prints the medians
-# and their ratio.
+# rospy.ServiceProxy. The two calls use the same server and alternate in blocks of 20 calls. The benchmark
+# prints the medians and their ratio.
 
 
 def bounded_main() -> None:
@@ -128,13 +128,13 @@ def panel_main() -> int:
 
 
 # robust: makes 200 payments with the solution of 12.3, and counts the errors. The till causes a fault at
-# every third payment. The till is a separate process; the benchmark stops, kills and restarts it. It writes
-# each payment to a file before it sends its response. These count as errors: a receipt without an entry in
-# the file, a payment that is missing or was made twice, a refusal that pay() does not report, and a missing
-# receipt. A payment that has not ended 2 s after its time limit counts as a hang.
+# every third payment. The till is a separate process; the benchmark stops, kills and restarts it. The till
+# writes each payment to a file before it sends its response. These count as errors: a receipt without an
+# entry in the file, a payment that is missing or was made twice, a refusal that pay() does not report, and a
+# missing receipt. A payment that has not ended 2 s after its time limit counts as a hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
-DEADLINE = 15.0  # A payment may take this many seconds; a restart of a killed till needs about 1 s.
+DEADLINE = 15.0  # A payment may take this many seconds. The restart of a killed till needs about 1 s.
 GRACE = 2.0  # A payment that takes this many seconds more than DEADLINE counts as a hang.
 IN_THE_TILL = (
     "dies before it charges",
@@ -194,7 +194,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """A till in a separate process that is restarted whenever it exits."""
+    """A till in a separate process that is restarted after each exit."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -250,7 +250,7 @@ class Street:
             os.kill(pid, number)
 
     def _recover(self) -> None:
-        """Wait until the till works again and no fault is planned."""
+        """Wait until the till is running and has no planned fault."""
         (self._folder / "plan").write_text("")
         deadline = time.monotonic() + 30
         while time.monotonic() < deadline:
@@ -436,7 +436,7 @@ def shown(runs: list[tuple[Figures, Figures]]) -> float:
 
 
 def event() -> float:
-    """Return the duration in µs of recording the beginning and the end of an event."""
+    """Return the duration in µs that the recorder needs for an event."""
     recorder = Recorder()
     rounds = []
     for _ in range(50):

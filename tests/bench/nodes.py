@@ -140,8 +140,8 @@ def processor_time(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-# fuzz: makes 10,000 random calls to the simulator, or publishes random messages. It prints whether the node
-# still runs, whether its state is consistent, and its memory.
+# fuzz: makes 10,000 random calls to the simulator, or publishes random messages. The benchmark prints whether
+# the node still runs, whether its state is consistent, and its memory.
 
 BLOCKS = 10
 

@@ -76,7 +76,7 @@ while not rospy.is_shutdown():
 
 
 def graph(turn: int) -> Snapshot:
-    """Return a graph that contains one topic with a different name for each `turn`."""
+    """Return a graph in which the name of one topic depends on `turn`."""
     names = [f"/robot_{number}" for number in range(NODES)]
     topics = [
         TopicSeen(f"/topic_{number}_{turn if not number else 0}", "std_msgs/String", (names[number % NODES],),
@@ -140,7 +140,7 @@ def idle() -> float:
 
 
 def busy() -> tuple[float, Counter[str]]:
-    """Return the percentage of a core and the trait updates while 20 nodes use 40 topics."""
+    """Return the percentage of a core and the number of updates while 20 nodes use 40 topics."""
     topics = [f"/topic_{number}" for number in range(TOPICS)]
     commands = [
         [f"robot_{number}", ",".join(topics[number::NODES]), ",".join(topics[(number + 7) % NODES :: NODES])]
@@ -287,8 +287,8 @@ def call(number: int, at: float) -> list[Event]:
     return [*mine, Event(HANDLER, whom, "/detect", at + 2.2e-3, at + 0.0999, who, key, f"Thread-{number}")]
 
 
-# topic: measures the CPU time of a topic panel, the number of its updates, and the accuracy of its rate. The
-# panel is shown by a real kernel. In place of a page, a client reads the kernel's messages.
+# topic: measures the CPU time of a topic panel, the number of its updates, and the accuracy of its rate. A
+# real kernel runs the panel. Instead of a page, a client reads the kernel's messages.
 
 TOPIC_WATCH = 10.0  # s
 TOPIC_BAR = 5.0  # The panel may use at most this percentage of a core at 100 Hz.
@@ -510,7 +510,7 @@ def turtles_main() -> None:
 
 
 def counted(page: Page) -> list[int]:
-    """Return a list whose only element is the number of bytes that the page's websockets have received."""
+    """Return a list with one number: the bytes that the page's websockets have received."""
     received = [0]
 
     def count(socket: WebSocket) -> None:

@@ -112,7 +112,7 @@ def inside(system: Path, script: str) -> None:
 
 
 def mirror(codename: str) -> str:
-    """Return the mirror from which apt installs `codename`, or the release of this machine."""
+    """Return the apt mirror for the Debian release `codename`, or for the release of this machine."""
     targets = [
         "apt-get",
         "indextargets",
@@ -164,7 +164,7 @@ def import_time(statement: str) -> float:
 
 
 def imports_main() -> None:
-    """Measure the imports alternately, and print the median difference to the import of rospy."""
+    """Print the median difference between each import and the import of rospy."""
     taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
     for _ in range(ROUNDS):
         peer = import_time(PEER)

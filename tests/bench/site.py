@@ -158,8 +158,8 @@ def axe_main() -> None:
     print(f"{count} violations on {len(pages(site))} pages, {len(WIDTHS) * len(COLOURS)} ways each")
 
 
-# nbval: prints how long nbval needs for all solutions, one after another and several at a time. Arguments:
-# `[WORKERS …]`. By default, it uses the number of workers that `course` uses on this machine.
+# nbval: prints how long nbval needs for all solutions, serially and in parallel. Arguments: By default, it
+# uses the number of workers that `course` uses on this machine.
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
 BAR = 0.45  # A parallel run may take at most this fraction of the serial run.
@@ -200,8 +200,7 @@ def _spent() -> float:
     return usage.ru_utime + usage.ru_stime
 
 
-# listeners: prints how many sockets listen while each chapter runs, and how many of them listen on addresses
-# other than 127.0.0.1.
+# listeners: prints how many listening sockets each chapter opens, and which of them are not on 127.0.0.1.
 
 LISTEN = "0A"
 LOOPBACK = ("0100007F", "00000000000000000000000001000000", "0000000000000000FFFF00000100007F")

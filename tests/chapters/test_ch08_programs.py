@@ -180,7 +180,7 @@ def test_set_to_the_present_position_does_not_move() -> None:
 
 @pytest.mark.usefixtures("switch")
 def test_toggle_moves_the_switch_each_time() -> None:
-    """Two toggles restore the first position."""
+    """After two toggles, the switch has its first position again."""
     assert [trigger("toggle") for _ in range(3)] == [(True, "opened"), (True, "closed"), (True, "opened")]
 
 

@@ -23,7 +23,7 @@ from course_pkg.checking.report import Assertion, Report, Verdict, report_from
 def test_shares_have_two_decimals_and_add_up(
     points: float, weights: list[float], shares: list[float]
 ) -> None:
-    """The points of the goals have at most two decimals, and their sum is exact."""
+    """The goals' points have at most two decimals, and their sum is the points of the part."""
     assert divided(points, weights) == shares
     assert round(sum(shares), 2) == points
 

@@ -1,4 +1,4 @@
-"""Each hint of a check must be the hint of an example answer."""
+"""Tests that each hint of a check is the hint of an example answer."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_hints_are_the_sentences_of_a_check(tmp_path: Path) -> None:
 
 
 def test_a_part_of_several_hints_shows_none_of_them() -> None:
-    """A text that occurs in several hints does not count for any of them, but a whole hint always counts."""
+    """A text from a header counts only if it occurs in one hint. A whole hint always counts."""
     one, two = Hint("", ("Return it.",)), Hint("", ("Return it. It was ", " before."))
     assert shown_by("before", [one, two]) == {two.pieces}
     assert not shown_by("Return", [one, two])

@@ -104,7 +104,7 @@ def test_the_tools_show_the_real_state(master: PrivateMaster) -> None:
 
 
 def test_names_and_groups_are_found() -> None:
-    """Faults are selected by name or by group, and the error message for an unknown name lists all names."""
+    """Faults are selected by name or by group, and an unknown name raises an error."""
     assert select() == every_fault()
     assert [each.name for each in select("stale", "stopped")] == ["stale", "stopped"]
     assert {each.group for each in select("serving")} == {"serving"}

@@ -1,4 +1,4 @@
-"""Tests of grades for packages, whose files are examined instead of the notebook's cells."""
+"""Tests of grades for submissions that contain a package."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
-    """A change of a file or of a permission changes the grade's key."""
+    """If a file or a permission changes, the key of the grade changes."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     keys = set()
     for change in (lambda: None, lambda: (package / SERVER).chmod(0o644), (package / "README.md").unlink):

@@ -58,7 +58,7 @@ def test_each_command_has_a_master_of_its_own_on_this_host_only() -> None:
 
 
 def test_a_master_that_the_user_names_is_used() -> None:
-    """If ROS_MASTER_URI is set, `course run` starts no master."""
+    """If ROS_MASTER_URI is set, `course run` uses this master."""
     assert (
         course_run("printenv", "ROS_MASTER_URI", ROS_MASTER_URI="http://robot:1").stdout == "http://robot:1\n"
     )

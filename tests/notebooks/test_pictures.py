@@ -24,7 +24,7 @@ LIMIT = 1_000_000  # GitHub does not show notebooks with more bytes than this li
 
 
 def outputs(path: Path) -> Iterator[tuple[str, Output]]:
-    """Yield each stored output that has a plain text, and this text."""
+    """Yield each stored output that has a plain text, together with the plain text."""
     for cell in code_cells(read(path)):
         for output in cell["outputs"]:
             if "text/plain" in output.get("data", {}):

@@ -1,6 +1,6 @@
 """Runs attacks in the sandbox of other users, and prints the results as a JSON object.
 
-The arguments are a folder that no student may read, and files that no student may read or change.
+The arguments are a folder that no student may read, and files that no student may change.
 """
 
 from __future__ import annotations

@@ -84,7 +84,7 @@ def test_python_is_written_as_a_person_would() -> None:
 
 
 def test_python_keeps_types_of_one_name_apart() -> None:
-    """If two types have the same short name, the Python code also contains their packages."""
+    """If two types have the same short name, the Python code also contains the packages of the types."""
     kind = compile_service("course_pkg/Point", "geometry_msgs/Point p\n---\n")
     lines = rospy_line("/x", kind, kind.request.default())
     assert "import geometry_msgs.msg\n" in lines

@@ -232,7 +232,7 @@ def test_mistake_in_a_package_is_explained(
     ids=["good", "Windows line ends", "a byte order mark", "no minimum"],
 )
 def test_successful_build_has_no_fault(workspace: Path, files: dict[str, str]) -> None:
-    """The output of a successful build contains no fault."""
+    """explain() finds no fault in the output of a successful build."""
     write(workspace, files)
     status, printed = build(workspace)
     assert (status, explain(printed)) == (0, None)
@@ -250,7 +250,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
-# Each command runs after the build, and its explanation must contain the text.
+# Each entry has a command that runs after the build, and a text that the explanation must contain.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
     "another Python": ("/usr/bin/python3 -S -c 'import numpy'", True, "#!/usr/bin/env python3"),
@@ -366,6 +366,6 @@ def test_a_fault_is_located(problem: str, text: str, line: int) -> None:
 
 
 def test_a_fault_of_another_file_stays_where_it_is() -> None:
-    """Only the messages about a package.xml contain tags."""
+    """If a fault is not in a package.xml, locate() does not change its position."""
     fault = Fault("The version is old.", "", "my_services/CMakeLists.txt", 9)
     assert locate(fault, MANIFEST) == fault

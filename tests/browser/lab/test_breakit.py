@@ -66,7 +66,7 @@ def form(shared: Page) -> Locator:
 
 
 def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
-    """At first, the panel shows only the symptom. Each answer then gets a reason."""
+    """At first, the panel shows only the symptom. After each answer, the panel shows a reason."""
     picture(form, "breakit-opened")
     begin(form, "stale")
     expect(form.get_by_label("What it printed")).to_contain_text("[Errno 111] Connection refused")

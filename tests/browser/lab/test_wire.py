@@ -38,7 +38,7 @@ def lit(wire: Locator) -> str:
 
 
 def test_a_field_and_its_bytes_belong_together(page: Page, tmp_path: Path) -> None:
-    """When the pointer is on a value, the view highlights the bytes of this value, and vice versa."""
+    """When the pointer is on a value, the view highlights the value's bytes."""
     wire = show(page, tmp_path, WireView("/getGeometry", **SIDES))
     expect(wire.locator("[aria-current]")).to_contain_text("Request")
     pieces(wire, "width").hover()

@@ -39,7 +39,7 @@ def test_error_is_a_result(error: BaseException, kind: str) -> None:
 
 
 def test_an_interrupt_is_passed_on() -> None:
-    """A KeyboardInterrupt is raised in the notebook."""
+    """An interrupt raises KeyboardInterrupt in the notebook."""
 
     def f() -> None:
         raise KeyboardInterrupt
@@ -98,7 +98,7 @@ def test_the_traceback_of_a_handler_is_kept_once() -> None:
 
 
 def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
-    """If the wrong number of parameters prevents a handler's start, there is no traceback."""
+    """If a handler has a wrong number of parameters, its error has no traceback."""
     agent = KernelAgent({})
     try:
         logging.getLogger("rosout").error("Error processing request: takes 0 positional arguments")

@@ -1,4 +1,4 @@
-"""Deadlines, extensions, and the choice of the counted attempt."""
+"""Tests of deadlines and extensions, and of the choice between several attempts."""
 
 from __future__ import annotations
 

@@ -115,7 +115,7 @@ def test_a_table_of_the_instructor(tmp_path: Path) -> None:
 
 
 def test_the_table_of_collected_files(tmp_path: Path) -> None:
-    """times.csv next to the students' folders is used, and the latest file of a submission counts."""
+    """The table times.csv next to the students' folders contains the times."""
     source = folder(
         tmp_path, {"s01/07_build_a_package.ipynb": raw(handed_out("07")), f"s02/{FILE}": NOTEBOOK}
     )

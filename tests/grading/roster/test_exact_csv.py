@@ -50,7 +50,7 @@ def test_quotes_of_php() -> None:
 
 
 def test_lines_are_counted_in_the_file() -> None:
-    """A record contains the line number of its beginning."""
+    """A record contains the number of its first line."""
     assert [each.line for each in records('a\n"1\n2"\nb\n', ",")] == [1, 2, 4]
 
 
@@ -65,7 +65,7 @@ def test_lines_are_counted_in_the_file() -> None:
     ],
 )
 def test_how_a_cell_is_written(before: str, value: str, after: str) -> None:
-    """A changed cell is quoted if the old cell was quoted or if the new value needs quotes."""
+    """A changed cell has quotes if the old cell had quotes or if the new value needs quotes."""
     record = Record([before, "x"], "\n", 1)
     record.put(0, value, ",")
     assert record.cells == [after, "x"]

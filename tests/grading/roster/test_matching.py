@@ -72,7 +72,7 @@ def test_parts_that_contradict_each_other() -> None:
 
 
 def test_a_number_of_moodle_is_no_id() -> None:
-    """Moodle's participant number does not match an id in the roster."""
+    """Moodle's participant number is not compared with the ids in the roster."""
     found = _matched({"Jo New_18": ["Jo New_18_assignsubmission_file_/05.ipynb"]})
     assert (found.strangers, found.unclear) == (("Jo New_18",), {})
 

@@ -42,7 +42,7 @@ def test_serving_again_replaces(joined: Kernel) -> None:
 
 
 def test_serving_replaces_a_raw_service(joined: Kernel) -> None:
-    """serve() replaces a service of rospy.Service."""
+    """serve() replaces a service that rospy.Service created."""
     assert (
         joined.run("""
         raw = rospy.Service("/x", Trigger, lambda request: (True, "raw"))
