@@ -53,7 +53,7 @@ class NotebookKernel:
         self.manager.shutdown_kernel(now=True)
 
     def begin(self, code: str, cell: str | None = None) -> str:
-        """Send the code and the id of a cell to the kernel, and return the id of the message."""
+        """Send the code and the id of a cell to the kernel, and return the message id."""
         content = {
             "code": textwrap.dedent(code).strip("\n"),
             "silent": False,

@@ -3,8 +3,8 @@
 The option `--changed` selects tests that a change can affect, and `--slow` selects slow tests.
 
 A test depends on its own folder in tests/, and on the packages of course_pkg that its package may import. The
-import-linter contract in pyproject.toml lists these packages. A test of a chapter depends on this chapter and
-on the chapters that it imports.
+import-linter contract in pyproject.toml lists these packages. A test of a chapter depends on the chapter's
+folder and on the chapters that the chapter imports.
 
 A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group if the group
 has passed and its files have not changed since then.
@@ -102,7 +102,7 @@ class SelectionPlugin:
     def _is_wanted(self, item: pytest.Item, *, slow: bool) -> bool:
         """Return whether a test belongs to a usual run.
 
-        If `slow` is true, return whether it belongs to a slow run.
+        If `slow` is true, return whether the test belongs to a slow run.
         """
         if item.get_closest_marker("when_changed"):
             return slow or self._selection.has_changed(item)
@@ -161,7 +161,7 @@ def _packages_below(folder: str) -> list[str]:
 
     The result contains the package with the folder's name and all packages that it may import.
 
-    If no package has this name, return all packages.
+    If no package has the name of the folder, return all packages.
     """
     package = {"chapters": "authoring", "notebooks": "authoring"}.get(folder, folder)
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]

@@ -57,7 +57,7 @@ def test_only_parts_that_differ_between_runs_are_removed() -> None:
 
 
 def test_a_readable_traceback_stays() -> None:
-    """`tidy` does not remove a traceback of the course, because this traceback contains no file paths."""
+    """A traceback of the course contains no file paths, and `tidy` does not remove it."""
     lines = [HEADER, "  This cell, line 1", "    fail()", "E: v"]
     cell = code("fail()", outputs=[{"output_type": "error", "ename": "E", "evalue": "v", "traceback": lines}])
     tidy(book(cell))

@@ -1,9 +1,9 @@
 """Measures how well the flags find copies in a class of 300 students.
 
-`grading.py copies [SEED …]` writes a class of chapter 05: for each exercise, each of 280 students takes one
-of the independently written answers (from independent_05.txt and from the chapter's example answers) and
-changes its style. The 20 other students copy answers of a student and disguise the copies with other names,
-another order and other comments. Ten of them copy all exercises, and ten copy only two of four exercises.
+`grading.py copies [SEED …]` writes a class of chapter 05. Each of 280 students gets independently written
+answers in a random style. The 20 other students copy a student's answers, and disguise the copies with other
+names, another order and other comments. Ten of them copy all exercises, and ten copy only two of four
+exercises.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Measures grading.
+"""Measures the grading of submissions.
 
-It measures the speed, the effect of a kill, the grades of solutions and of other answers, and the flags for
+The benchmarks measure the speed, the effect of a kill, the grades of different answers, and the flags for
 copies.
 
 usage: ./course run python tests/bench/grading.py speed|kill|reference|answers|copies [OPTION …]
@@ -45,7 +45,7 @@ from tests.grading.submitted import WRONG, hand_in
 # commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and `nbgrader
 # autograde` with a notebook that has the same cells. The ratio compares the durations per notebook. With
 # `plain`, only the first command runs. With `many`, `course grade` also grades 1,000 (or COUNT) submissions,
-# and the memory of all its processes is measured. nbgrader is installed into a folder of the cache.
+# and the benchmark measures the memory. nbgrader is installed into a folder of the cache.
 
 NBGRADER = "nbgrader==0.9.6"
 CHAPTER = "05"

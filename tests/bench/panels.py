@@ -46,8 +46,8 @@ from tests.browser.chromium import FLAGS
 from tests.browser.jupyter import running_lab, running_notebook
 from tests.browser.pages import new_page, panel
 
-# graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time while the graph
-# does not change.
+# graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time for an unchanged
+# graph.
 
 UPDATE_BAR = 150.0  # ms
 IDLE_BAR = 2.0  # The panel may use at most this percentage of a core.
@@ -170,8 +170,8 @@ def graph_main() -> int:
     return int(updated > UPDATE_BAR or max(resting, talking) > IDLE_BAR or sent["drawing"] > 0)
 
 
-# timeline: measures how long the timeline panel needs in a browser for the first drawing of 2,000 events, and
-# for moving the view. `./course test` installs the browser.
+# timeline: measures the time until a browser has drawn 2,000 events, and the frame rate while the view moves.
+# `./course test` installs the browser.
 
 EVENTS, LENGTH = 2000, 10.0  # s
 # The first drawing may take at most this many ms. Moving the view must reach at least this many frames per
@@ -412,8 +412,8 @@ def topic_main() -> int:
     return int(missed > 0)
 
 
-# types: measures how long the type browser needs to open, with the types of this machine, and with hundreds
-# of additional types. It is compared with `rossrv list`, which lists the same service types in a terminal.
+# types: measures the time until the type browser is open, with the types of this machine and with additional
+# types. The benchmark compares the time with `rossrv list`, which lists the same service types in a terminal.
 
 TYPES_BAR = 100.0  # The type browser may need at most this many ms to open, after the import.
 PACKAGES, TYPES = 60, 10
@@ -461,9 +461,9 @@ def types_main() -> int:
     return int(first > TYPES_BAR)
 
 
-# turtles: measures the cost of a turtle panel with five moving turtles. It needs an idle machine. `./course
-# test` installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the websocket, and at
-# most 3 % of a core for the kernel.
+# turtles: measures the cost of a turtle panel with five moving turtles. The benchmark `turtles` needs an idle
+# machine. `./course test` installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the
+# websocket, and at most 3 % of a core for the kernel.
 
 SETUP = """
 from course_pkg import TurtlePanel, join
@@ -510,7 +510,7 @@ def turtles_main() -> None:
 
 
 def counted(page: Page) -> list[int]:
-    """Return a list with one number: the bytes that the page's websockets have received."""
+    """Return a list with one number: how many bytes the page's websockets have received."""
     received = [0]
 
     def count(socket: WebSocket) -> None:

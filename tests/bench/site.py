@@ -31,10 +31,10 @@ from course_pkg.site.runs import Runs
 from tests.browser.chromium import chromium
 from tests.site.test_pages import AXE, COLOURS, WIDTHS, look_for, open_page, pages, reader, violations
 
-# pages: measures the duration of a build of the site, the size of its pages, and the time until the first
-# panel is drawn. Before this, `./course site` must have run every chapter. The build is compared with
-# `jupyter nbconvert --to html` of the same 14 executed notebooks; the two alternate. If the course has fewer
-# chapters, some of them are used twice.
+# pages: measures the duration of a build of the site, the size of the pages, and the time until the first
+# panel is drawn. Run `./course site` with every chapter before this benchmark. The benchmark compares the
+# build with `jupyter nbconvert --to html` of the same 14 executed notebooks. If the course has fewer
+# chapters, some chapters are used twice.
 
 PAGES = 14
 ROUNDS = 5
@@ -134,7 +134,7 @@ def first_panels(site: Path) -> None:
 
 
 # axe: checks the accessibility of a whole site with all rules of axe-core. Arguments: `[SITE]`. SITE is the
-# folder of a site; the default is the last site that `./course site` wrote. Each page is checked in a wide
+# folder of a site. The default is the last site that `./course site` wrote. Each page is checked in a wide
 # and a narrow window, in the light and dark themes, and with the search open and closed. The tests leave out
 # combinations that give the same result.
 

@@ -45,7 +45,10 @@ def cells(turtles: Locator, name: str) -> list[str]:
 
 
 def recorded() -> TurtleRecording:
-    """Return a recording of 5 s with a turtle that moves in a circle, and a turtle that appears after 3 s."""
+    """Return a recording of 5 s.
+
+    The first turtle moves in a circle, and the second turtle appears after 3 s.
+    """
     recording = TurtleRecording()
     for number in range(100):
         angle = number / 100 * 2 * math.pi

@@ -74,7 +74,7 @@ def test_client_of_another_definition_is_refused(adder: NodeProcess) -> None:
 
 
 def test_client_of_another_definition_with_wrong_arguments() -> None:
-    """For wrong arguments, this client prints its own usage."""
+    """For wrong arguments, the client with another service definition prints its own usage."""
     done = program("add_two_floats_client", "one", "2")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_floats_client A B")

@@ -20,7 +20,7 @@ SENTENCE = re.compile(r"[^\n]* [^\n]*\S[.?]( [^\n]*)?")
 
 @dataclass(frozen=True)
 class Hint:
-    """A hint. An f-string is stored as a list of its fixed texts."""
+    """A hint of a check. An f-string is stored as a list of its fixed texts."""
 
     place: str  # The file and the line of the hint, for error messages.
     pieces: tuple[str, ...]
@@ -40,7 +40,7 @@ def hints_in(path: Path) -> list[Hint]:
 
 
 def hints_of(chapter: str) -> list[Hint]:
-    """Return the hints in all checks of a chapter, such as "05"."""
+    """Return the hints in all checks of the chapter with the number `chapter`, such as "05"."""
     goals = {(goal.text,) for part in every_part() for goal in part.goals}
     found = [hint for path in sorted(folder_of(chapter).glob("checks/*.py")) for hint in hints_in(path)]
     return [hint for hint in found if hint.pieces not in goals]

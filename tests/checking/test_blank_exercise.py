@@ -1,4 +1,4 @@
-"""An exercise counts as blank only if the student has not changed it."""
+"""An exercise is blank only if the student has not changed it."""
 
 from __future__ import annotations
 

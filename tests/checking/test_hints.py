@@ -24,14 +24,14 @@ def area(context):
 
 @pytest.mark.parametrize("chapter", chapters())
 def test_every_hint_has_an_example_answer(chapter: str) -> None:
-    """For each hint of the chapter, an example answer quotes a text from it."""
+    """For each hint of the chapter, an example answer quotes a text from the hint."""
     hints = hints_of(chapter)
     assert hints
     assert not _lines(not_shown(hints, read_answers(folder_of(chapter) / "answers.py")))
 
 
 def test_every_common_hint_has_an_example_answer() -> None:
-    """For each hint that several chapters use, an example answer quotes a text from it."""
+    """For each hint that several chapters use, an example answer quotes a text from the hint."""
     hints = hints_in(Path(course_pkg.checking.common_hints.__file__))
     assert hints
     assert not _lines(not_shown(hints, every_answer()))

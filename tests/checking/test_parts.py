@@ -29,7 +29,7 @@ def test_an_unknown_id_gets_the_closest_ones() -> None:
 
 
 def test_ids_are_unique_and_belong_to_their_chapter() -> None:
-    """Each id belongs to exactly one part, and the chapter of this part declares it."""
+    """Each id belongs to exactly one part and is declared in the right chapter."""
     ids = [part.check for part in every_part()]
     assert len(ids) == len(set(ids))
     assert all(part.check.startswith("05.") for part in parts_of("05"))

@@ -1,4 +1,4 @@
-"""A stage causes a fault and then undoes it."""
+"""A stage causes a fault, and later undoes the fault."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def test_names_and_groups_are_found() -> None:
 
 
 def test_the_texts_of_each_fault_are_unique() -> None:
-    """The names, diagnoses and reasons of all faults are unique. Each text is a sentence."""
+    """The names, diagnoses and reasons of all faults are unique. Each text ends with a full stop."""
     faults = every_fault()
     for texts in (
         [each.name for each in faults],

@@ -88,10 +88,7 @@ def _two() -> list[Grade]:
 
 
 def test_the_table(tmp_path: Path) -> None:
-    """The table has a row for each student and a column for each part.
-
-    Late days reduce the totals.
-    """
+    """The table has a row for each student and a column for each part."""
     write_reports(_two(), tmp_path)
     head, first, second = _rows(tmp_path / "grades.csv")
     five = ["05.1", "05.2", "05.3", "05.4", "05.5", "05 days late", "05 total"]

@@ -198,7 +198,7 @@ def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
 
 
 def test_a_packed_module_is_the_same_module(tmp_path: Path) -> None:
-    """A packed module has the same names and docstring, but its source cannot be found by a text search."""
+    """A packed module has the same names, but a text search does not find its source."""
     source = '"""Text."""\n\nfrom __future__ import annotations\n\nANSWER = "lock order"\n'
     module: dict[str, object] = {"__file__": "x.py", "__name__": "x"}
     exec(compile(pack(source), "x.py", "exec"), module)  # noqa: S102 -- it is the text above

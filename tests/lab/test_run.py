@@ -104,7 +104,7 @@ def test_nothing_outlives_a_killed_run() -> None:
 )
 def test_the_background_ends_with_the_command(script: str, tmp_path: Path) -> None:
     """When a command exits, its background processes are killed."""
-    tag = str(tmp_path)  # The environment of only these processes contains this text.
+    tag = str(tmp_path)  # Only the processes of this test have this text in their environment.
     answer = course_run("bash", "-c", f"{script}\nexit 5", TAG=tag)
     assert answer.returncode == 5, answer.stderr
     assert [pid for pid in tagged(tag) if alive(pid)] == []

@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 SOLUTIONS = sorted((ROOT / "solutions").glob("*.ipynb"))
 NAMES = "|".join([*panels.__all__, "predictions"])
 OF_A_PANEL = re.compile(rf"(?:{NAMES})\(.*\)|What really happened: [\s\S]*")
-LIMIT = 1_000_000  # GitHub does not show notebooks with more bytes than this limit.
+LIMIT = 1_000_000  # GitHub does not show a notebook that has more bytes than this limit.
 
 
 def outputs(path: Path) -> Iterator[tuple[str, Output]]:

@@ -96,7 +96,7 @@ def test_a_topic_without_new_messages_has_a_rate_of_zero() -> None:
 
 
 def test_nodes_that_are_not_connected() -> None:
-    """If a publisher and a subscriber have different types, the details contain this fact."""
+    """If a publisher and a subscriber have different types, the details say that the types differ."""
     wall = Wall()
     wall.model.count(Activity(0.0))
     assert wall.now["notes"]["topic /chatter"] == "unconnected"

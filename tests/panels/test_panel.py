@@ -79,7 +79,7 @@ def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaste
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda path: path.stem)
 def test_each_panel_is_framed(entry: Path) -> None:
-    """The script of each panel uses the common frame, and declares no name twice."""
+    """The script of each panel calls the common function for frames, and declares no name twice."""
     joined = module(entry, PANELS / "explained.js")
     assert joined.count("export default { render: framed(render) };") == 1
     assert joined.count("export ") == 1

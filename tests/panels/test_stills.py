@@ -175,7 +175,7 @@ def _own_records(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_each_kind_of_panel_has_a_picture() -> None:
-    """The tests in this file use every kind of panel."""
+    """The list of pictures in this file contains every kind of panel."""
     folders = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(STILLS) == folders == {panel for panel, _ in STATES.values()}
 

@@ -59,7 +59,7 @@ def test_a_call_has_two_arrows() -> None:
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """If one of two connected events was not recorded, there is no arrow."""
+    """If one of two connected events was not recorded, no arrow is drawn."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]

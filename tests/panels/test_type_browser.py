@@ -25,7 +25,7 @@ from tests.types.conftest import build, package
 
 
 class Wall:
-    """A model and the messages that it sends as keyword arguments."""
+    """A model, and the keyword arguments of its messages."""
 
     def __init__(self) -> None:
         self.said: list[dict[str, Plain]] = []

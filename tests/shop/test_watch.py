@@ -18,7 +18,7 @@ FOR_EVER = 60.0  # This time in s is longer than any test.
 
 
 def test_a_new_customer_is_returned_once() -> None:
-    """A customer is returned only for the first message with this customer."""
+    """The same customer is not returned twice."""
     ticks = count(1)
     watch = Watch(lambda: next(ticks))
     assert watch.see([]) == []

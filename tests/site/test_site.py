@@ -126,7 +126,7 @@ def write(path: Path, *names: str) -> None:
 
 
 def names(path: Path) -> set[str]:
-    """Return the paths of the site's files, except the file that lists them."""
+    """Return the paths of all files of the site, except the list of files."""
     return {str(file.relative_to(path)) for file in path.rglob("*") if file.is_file() and file.suffix} - {""}
 
 

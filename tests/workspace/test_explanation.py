@@ -286,7 +286,7 @@ def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourc
 
 
 def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None:
-    """For a script without a shebang, the explanation works even if ImageMagick's `import` is installed."""
+    """A script without a shebang is explained even if ImageMagick's program `import` is installed."""
     fault = explain(
         "import-im6.q16: unable to open X server `' @ error/import.c/ImportImageCommand/346.\n"
         "shell.py: line 2: syntax error near unexpected token `('"
@@ -298,7 +298,7 @@ def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None
 
 
 def test_types_that_were_not_generated_are_explained(tmp_path: Path) -> None:
-    """If generate_messages is missing, the explanation contains this reason."""
+    """If generate_messages is missing, the explanation says how to add generate_messages."""
     write(tmp_path, spoilt(C, (GENERATE, f"# {GENERATE}")))
     status, printed = build(tmp_path)
     assert (status, explain(printed)) == (0, None)
@@ -347,7 +347,7 @@ CONDITION = MANIFEST.replace("<exec_depend", '<exec_depend condition="$A == b"')
     ],
 )
 def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None:
-    """`depend` means both build and run."""
+    """The tag `depend` means both build and run."""
     assert (dependencies(text, "build"), dependencies(text, "run")) == (build, run)
 
 

@@ -41,7 +41,7 @@ def shown(text: str) -> str:
 
 
 def answer(lab: Locator, fault: Fault) -> None:
-    """Select the right diagnosis and remedy of a fault, and click Check."""
+    """Select the right diagnosis and the right remedy of a fault, and click Check."""
     lab.get_by_label(shown(fault.diagnosis)).check()
     lab.get_by_label(shown(fault.remedy)).check()
     lab.get_by_role("button", name="Check").click()

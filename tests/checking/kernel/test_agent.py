@@ -135,7 +135,7 @@ def test_a_file_can_be_a_stub(tmp_path: Path) -> None:
 
 
 def test_missing_file_comes_with_a_similar_name(tmp_path: Path) -> None:
-    """If a file is missing, the reply contains a file name that differs only in upper and lower case."""
+    """If the name of a file differs only in upper and lower case, the reply contains the right name."""
     (tmp_path / "lamp.srv").write_text("---\n")
     assert ask({}, tmp_path, do="look", name="file:Lamp.srv") == {
         "answer": 1,

@@ -19,7 +19,7 @@ def solutions(chapter: str) -> Mapping[str, str]:
 
 
 def submission(student: str, answers: Mapping[str, str], chapter: str = "05", origin: str = "") -> Submission:
-    """Return a submission with these answers; the other exercises are blank."""
+    """Return a submission with these answers, and with blank cells for all other exercises."""
     notebook = reference(chapter)
     for cell in code_cells(notebook):
         if part := exercise_of(cell):

@@ -240,7 +240,7 @@ def test_a_helper_elsewhere_is_named(shift: int) -> None:
 
 
 def test_an_import_in_a_given_cell_is_named() -> None:
-    """A student's change in a cell of the course has no effect, and a note says this."""
+    """A student's change in a cell of the course has no effect, and the student gets a note."""
     answer = ANSWER.replace("x + x", "numpy.add(x, math.floor(x))")
 
     def change(cells: Cells) -> None:
@@ -321,7 +321,7 @@ def test_checks_and_given_cells_do_not_change() -> None:
     "content", [b"", b"{", b"[]", b"\xff", b'{"cells": 1}', b'{"cells": ' + b"[" * 100_000]
 )
 def test_what_is_no_notebook(content: bytes) -> None:
-    """For a file that is not a notebook, each part gets a reason, and the result contains no solution."""
+    """For a file that is not a notebook, each part gets a reason."""
     made = _rebuilt(content)
     assert made.problem
     assert set(made.missing.values()) == {made.problem}

@@ -50,7 +50,10 @@ def test_other_encodings_and_columns(tmp_path: Path) -> None:
 
 
 def test_a_part_that_a_spreadsheet_may_have_changed(tmp_path: Path) -> None:
-    """If both 15.1 and 15.10 exist, 15.1 is refused. A spreadsheet changes 15.10 to 15.1."""
+    """If the parts 15.1 and 15.10 both exist, a row for 15.1 is refused.
+
+    A spreadsheet changes the text 15.10 to 15.1.
+    """
     (tmp_path / FILE).write_text(f"{HEAD}s01,05,5.1,1,,\n")
     grade = class_of_four()[0]
     read_overrides(tmp_path).require_parts([grade])

@@ -24,7 +24,7 @@ from tests.support import eventually
 def opened(
     browser: Browser, url: str, width: int = 1280, colours: Literal["light", "dark"] = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page, and yield it with the console messages and the script errors."""
+    """Open the page, and yield the page, the console messages and the script errors."""
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
     page, words = context.new_page(), list[str]()
     page.on("console", lambda message: words.append(message.text))
@@ -140,8 +140,8 @@ def test_the_page_is_accessible_and_fits(
                     assert page.evaluate("document.documentElement.scrollWidth") <= width
                     picture(page, f"review-{width}-{colours}-{shown}")
                     page.keyboard.press("n")
-                # The page's policy would allow a script from its own origin, so the test injects axe-core
-                # with the debugger.
+                # The page's policy allows scripts from the page's own origin, so the test adds axe-core with
+                # the debugger.
                 page.evaluate(AXE)
                 assert violations(page) == []
                 assert words == []

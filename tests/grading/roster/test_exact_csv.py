@@ -30,7 +30,7 @@ def test_unchanged_is_unchanged(text: str) -> None:
 
 
 def test_it_reads_as_the_csv_module_does() -> None:
-    """For a file in the format of RFC 4180, the values are equal to those from Python's csv module."""
+    """If a file follows RFC 4180, the values are equal to the values from Python's csv module."""
     draw = random.Random(4)  # noqa: S311 -- the files are the same each time
     for _ in range(300):
         rows = [

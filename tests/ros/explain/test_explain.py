@@ -97,7 +97,7 @@ def test_an_exception_is_explained_by_its_own_message_first() -> None:
 
 
 def test_errors_of_the_course_are_explained() -> None:
-    """The errors of the course have an explanation."""
+    """explain() has an explanation for each error of the course."""
     with pytest.raises(Exception, match="No ROS master") as raised:
         MasterClient("http://localhost:1").pid()
     assert "No master answers" in explain(raised.value).cause

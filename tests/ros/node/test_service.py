@@ -131,7 +131,7 @@ def test_traceback_shows_the_handler(joined: Kernel) -> None:
 
 
 def test_printed_text_of_a_handler_is_stored(joined: Kernel) -> None:
-    """`output` contains the printed text of the handler, and the cell does not print this text."""
+    """`output` contains the text that the handler printed, and the cell does not show this text."""
     output = joined.run("""
         def chatty(request):
             print("from the handler")

@@ -172,7 +172,7 @@ def test_an_empty_graph() -> None:
     ],
 )
 def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
-    """If a response contains unreadable data, the poll ignores these data."""
+    """If a node's response has an unknown format, the unreadable data are ignored."""
     server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
     server.register_function(lambda _: answer, "getBusStats")
     server.register_function(lambda _: [1, "", [[1, "/listener", "o", "TCPROS", "/words"]]], "getBusInfo")

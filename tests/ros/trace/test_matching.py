@@ -95,7 +95,7 @@ def test_contradictory_times() -> None:
 
 
 def test_calls_of_two_processes_with_one_number() -> None:
-    """Calls of two processes with the same number are different calls."""
+    """Calls of two processes are different calls, even if their numbers are equal."""
     first, second = ([span("lookup", start, start + 0.1, call=1, transfers=[])] for start in (1.0, 2.0))
     records = [NodeRecord("/n", 10, first), NodeRecord("/n", 11, second)]
     assert [event.key for event in match_events(records, 0, 100)] == ["call 1", "call 2"]
