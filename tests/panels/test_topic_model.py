@@ -55,7 +55,7 @@ def test_a_measurement_is_drawn_first() -> None:
 
 @pytest.mark.parametrize("name", ["speed", "/", "/a//b", "/my speed", "~speed", "/1", "/a\nb", ""])
 def test_an_invalid_name_is_refused(name: str) -> None:
-    """The error message for an invalid topic name describes valid names."""
+    """For an invalid topic name, the error message describes valid names."""
     with pytest.raises(NotATopic, match="Give a full name"):
         FakeProcess(topic=name)
 

@@ -26,7 +26,8 @@ def handle_geometry(request):
 geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
 """
 WRONG = RIGHT.replace("request.width * request.length", "1.0")
-# Each line is an expression. Except for the first line, the expression must raise an error or be false.
+# Each line of PROBES is a Python expression. Except for the first line, the expression must raise an error or
+# be false.
 PROBES = """
 os.getuid() == UID
 open(SECRET[0]).read()

@@ -198,7 +198,7 @@ def test_the_publishing_line_is_the_one_to_type(
 
 
 def test_a_publisher_is_written_as_a_person_would() -> None:
-    """The Python code contains the imports, the publisher, and one message or a loop with a rate."""
+    """The Python code contains the imports and the publisher, and publishes one message or repeats it."""
     kind = message_type("std_msgs/Float64")
     once = publisher_lines("/x", kind, {"data": -1.0}, queue_size=1, latch=True)
     assert once == (

@@ -18,7 +18,7 @@ def ask(namespace: dict[str, Value], folder: Path | None = None, **question: Val
 
 
 def call(namespace: dict[str, Value], *args: Value, within: float = 1.0) -> Reply:
-    """Return the reply to a call of `f`."""
+    """Return the reply to a request that calls the function `f`."""
     return ask(namespace, do="call", name="f", args=list(args), kwargs={}, within=within)
 
 

@@ -75,7 +75,7 @@ def test_a_review_with_the_keyboard_only(browser: Browser, tmp_path: Path) -> No
         expect(page.locator("#part")).to_have_value("05.2")
         keys.press("g")
         keys.press("2")
-        keys.press("n")  # In the field for points, a letter key is a command.
+        keys.press("n")  # A letter is a keyboard command, even in the field for points.
         expect(answer.get_by_role("heading", name="s02")).to_be_visible()
         expect(page.locator("#points")).to_be_focused()
         eventually(lambda: _rows(out).get(("s01", "Part 05.2")) == ("2", ""))

@@ -91,7 +91,7 @@ def test_the_last_line_and_the_status(grades: list[Grade], line: str, status: in
 
 
 def test_empty_folders_are_named() -> None:
-    """The line lists at most ten students with an empty folder."""
+    """The message lists at most ten students with an empty folder."""
     empty = [refused(f"s{number:02}", "", f"{NOTHING}: the folder is empty.") for number in range(12)]
     (line,) = about_empty([FULL, *empty])
     assert "s00, s01, " in line

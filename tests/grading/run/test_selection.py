@@ -85,7 +85,7 @@ def _grade(*verdicts: Verdict, **more: object) -> Grade:
 
 
 def test_the_other_parts_keep_their_results() -> None:
-    """Only the selected parts get a new result, and a new part is inserted in the right order."""
+    """Only the selected parts get a new result."""
     base = _grade(Verdict.PASSED, Verdict.FAILED, notes=(f"{IN_PACKAGES}: 05.1.", "old"), absent=True)
     again = replace(base, reports=(report("05.3"), report("05.2")), notes=("new",), late=1.0)
     both = merged(base, again)

@@ -1,4 +1,4 @@
-"""Tests of running a cell with a publisher again, and of the message counts."""
+"""Tests of publishers whose cell runs again, and of the message counts."""
 
 from __future__ import annotations
 

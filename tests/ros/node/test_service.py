@@ -1,4 +1,4 @@
-"""Tests of running a cell with a service again, and of the stored calls."""
+"""Tests of services whose cell runs again, and of the stored calls."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests of running cells with plain rospy again."""
+"""Tests of cells with plain rospy that run again."""
 
 from __future__ import annotations
 
