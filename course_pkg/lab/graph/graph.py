@@ -1,4 +1,4 @@
-"""A command's part of a graph: it joins the graph that is running, or starts one, and leaves it at the end."""
+"""A command's part of a graph: it joins the running graph, or starts one, and leaves it at the end."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from pathlib import Path
 
 from course_pkg.errors import GraphError
 from course_pkg.lab.graph import network
+from course_pkg.lab.graph.holder import LAST
 from course_pkg.ros.process.master import OTHER_ADDRESSES
-from course_pkg.setup import Places
-from course_pkg.state import locked
+from course_pkg.state import locked, state_folder
 
 PROGRAM = Path(__file__).with_name("holder.py")
 ANSWER = 60.0  # s; the holder answers within this time, even on a busy machine
@@ -41,8 +41,8 @@ class Graph:
     tells, after wait_for_master(), whether programs in a private network can connect to other computers.
     """
 
-    def __init__(self, connection: socket.socket) -> None:
-        self._connection = connection
+    def __init__(self, connection: socket.socket, holder: subprocess.Popen[bytes] | None = None) -> None:
+        self._connection, self._holder = connection, holder
         connection.settimeout(ANSWER)
         greeting, self.files, _, _ = socket.recv_fds(connection, 1 << 16, 2)
         if not greeting:
@@ -56,7 +56,7 @@ class Graph:
             os.set_inheritable(file, False)
 
     def wait_for_master(self) -> None:
-        """Return as soon as the master answers; raises GraphError, with the reason, if it cannot be started."""
+        """Return as soon as the master answers; raises GraphError if the master cannot be started."""
         while not self._rest.endswith(b"\n"):
             received = self._connection.recv(1 << 16)
             if not received:
@@ -69,10 +69,15 @@ class Graph:
 
     def leave(self) -> None:
         """Leave the graph; if no other command uses it, return when its processes have ended."""
+        received = b""
         with self._connection, suppress(OSError):
             self._connection.shutdown(socket.SHUT_WR)
-            while self._connection.recv(1 << 16):
-                pass
+            while part := self._connection.recv(1 << 16):
+                received = part
+        if self._holder and received.endswith(LAST):
+            self._holder.wait()
+        elif self._holder:
+            self._holder.returncode = 0  # It continues for other commands, so this process does not wait.
         for file in self.files:
             os.close(file)
         self.files = []
@@ -88,7 +93,7 @@ def graph_of_this_command(which: Which) -> Iterator[Graph | None]:
     if os.environ.get("ROS_MASTER_URI") and which is Which.RUNNING:
         yield None
         return
-    graph = join_or_start(which, Places.of().cache / "graphs")
+    graph = join_or_start(which, state_folder() / "graphs")
     kept = {name: os.environ.pop(name, None) for name in ("ROS_MASTER_URI", "ROS_HOSTNAME", *OTHER_ADDRESSES)}
     os.environ.update(ROS_MASTER_URI=graph.uri, ROS_HOSTNAME="localhost")
     try:
@@ -138,7 +143,7 @@ def _start(which: Which, folder: Path) -> Graph:
         listener.listen()
         kind = "shared" if which is Which.SHARED else "private"
         command = [sys.executable, "-I", "-S", str(PROGRAM), str(listener.fileno()), str(path), kind]
-        subprocess.Popen(
+        holder = subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
@@ -149,7 +154,7 @@ def _start(which: Which, folder: Path) -> Graph:
         connection.connect(name)
     if which is Which.ALONE:
         path.unlink()
-    return Graph(connection)
+    return Graph(connection, holder)
 
 
 @contextmanager

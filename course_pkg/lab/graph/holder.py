@@ -1,17 +1,16 @@
 """The process that owns a graph: its private network, its master, and the node /rosout.
 
-usage: holder.py LISTENER SOCKET KIND, where LISTENER is the descriptor of a listening Unix socket, SOCKET is its
-path, and KIND is "private" or "shared".
+usage: holder.py LISTENER SOCKET KIND
 
+LISTENER is the descriptor of a listening Unix socket, SOCKET is its path, and KIND is "private" or "shared".
 `graph.py` runs this file as a script. Each command that uses the graph has a connection to the socket, until
 the command leaves the graph or ends, even by SIGKILL. When the last connection is closed, the holder ends the
 graph. No process id has to be checked: the operating system closes the connections of a process that has
 ended, and it refuses new connections to a holder that has ended.
 
-The holder sends to each command a line of JSON with the open files of the namespaces, and as soon as the master
-answers, or cannot be started, a second line of JSON. When a command has
-left, the holder closes its connection: at once if other commands use the graph, otherwise when the holder
-itself has ended.
+The holder sends a line of JSON with the open files of the namespaces to each command. It sends a second line
+when the master answers, or cannot be started. When a command has left, the holder closes its connection: at
+once if other commands use the graph, otherwise when it has ended the graph and sent LAST.
 """
 
 from __future__ import annotations
@@ -25,10 +24,11 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from course_pkg.ros.process.roscore import Roscore
     from course_pkg.lab.graph.outgoing import Outgoing
+    from course_pkg.ros.process.roscore import Roscore
 
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+LAST = b"ended"  # the last command receives this when the graph has ended
 PORT = 11311  # the usual port of a master
 FIRST = 30.0  # s; the command that started this holder connects within this time
 
@@ -62,14 +62,16 @@ class Holder:
         self._ready = _line(failure=failure, outgoing=bool(self._outgoing and self._outgoing.works()))
         with suppress(OSError):
             first.sendall(self._ready)
-        last = self._serve(first)
+        self._last = self._serve(first)
         with suppress(OSError):
             os.unlink(self._path)
         self._listener.close()
         self._master.stop()
         if self._outgoing:
             self._outgoing.end()
-        last.close()
+        with suppress(OSError):
+            self._last.sendall(LAST)
+        # This connection closes when this process has ended.
 
     def _enter_network(self) -> str:
         """Enter a new private network; return the reason if this machine does not allow one."""
@@ -90,7 +92,7 @@ class Holder:
         return command
 
     def _serve(self, first: socket.socket) -> socket.socket:
-        """Accept commands, and close their connections when they leave; return the connection of the last one."""
+        """Accept commands, and close the connections of those that leave; return the last connection."""
         with selectors.DefaultSelector() as selector:
             selector.register(self._listener, selectors.EVENT_READ)
             selector.register(first, selectors.EVENT_READ)

@@ -1,39 +1,43 @@
-"""A private network: network_namespaces(7) and user_namespaces(7), as open files that other processes can enter.
+"""A private network, as open files of Linux namespaces that other processes can enter.
 
 Programs in a private network can connect only to each other. Their ports and abstract sockets do not exist
 for other users, or for other networks of the same user. root needs only a network namespace. Other users also
 need a user namespace; in it, each user keeps the own name and the rights on files, but has no other user's
-rights, so `sudo` does not work there.
+rights, so `sudo` does not work there. See network_namespaces(7) and user_namespaces(7).
 """
 
 from __future__ import annotations
 
 import os
+import shutil
 import socket
 from collections.abc import Sequence
 from typing import NoReturn
 
 from course_pkg.sandbox import namespaces
 
-KINDS = {1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}  # by the number of files
+ENTER = "nsenter"  # a program of util-linux
+KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}  # by the number of files
 
 
 def create() -> list[int]:
-    """Return open files of new namespaces: of a user namespace if one is necessary, and of a network namespace.
+    """Return open files of a new user namespace, if one is necessary, and of a new network namespace.
 
     The namespaces exist as long as a process uses them or has one of the files open. Raises OSError, with the
     reason, if this machine does not allow them.
     """
+    if not shutil.which(ENTER):
+        raise OSError(f"{ENTER} is not installed")
     if os.geteuid() == 0:
         try:
             return _create(namespaces.NETWORK)
-        except OSError:  # root of a container may lack the right, but may still create a user namespace
-            pass
+        except OSError:
+            pass  # root of a container may lack this right, but may still create a user namespace
     return _create(namespaces.USER | namespaces.NETWORK)
 
 
 def enter(files: Sequence[int]) -> None:
-    """Enter the namespaces of these open files; the calling process must have only one thread."""
+    """Enter the namespaces of these open files, if any; the calling process must have only one thread."""
     for file, kind in zip(files, KINDS[len(files)], strict=True):
         namespaces.enter(file, kind)
     # A change of the user namespace makes a process unreadable; other programs of the course read /proc/PID.
@@ -47,7 +51,7 @@ def entering(files: Sequence[int]) -> list[str]:
     """
     paths = [f"/proc/{os.getpid()}/fd/{file}" for file in files]
     user = [f"--user={paths[0]}"] if len(paths) > 1 else []
-    return ["nsenter", *user, f"--net={paths[-1]}", "--preserve-credentials", "--"]
+    return [ENTER, *user, f"--net={paths[-1]}", "--preserve-credentials", "--"]
 
 
 def _create(kinds: int) -> list[int]:
