@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import shlex
 import signal
 import socket
 import sys
@@ -20,8 +19,9 @@ from typing import NamedTuple, NoReturn
 from urllib.parse import SplitResult, quote, urlsplit
 
 from course_pkg.errors import CourseError, PortBusy, SetupError
-from course_pkg.lab.graph.graph import Graph, Which, enter, graph_of_this_command
+from course_pkg.lab.graph.graph import Which, graph_of_this_command
 from course_pkg.lab.graph.notes import notes
+from course_pkg.lab.graph.settings import settings_for
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
@@ -30,7 +30,6 @@ HERE = Path(__file__).parent
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ones, and 0 means any free port
 READY = 60.0  # time limit for the start in s; it takes 2 s, or much longer with an empty disk cache
 LOOK = 0.01  # s between two checks whether the server answers
-SHELL = ["bash", "--rcfile", str(HERE / "bashrc")]
 KEPT_LINES = 12  # number of lines of the server's log in an error message
 # The file name of jupyterlab_server's workspace "default": the name, and the first digits of its SHA-256.
 WORKSPACE = "default-37a8.jupyterlab-workspace"
@@ -58,7 +57,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     ):
         scratch = Path(folder)
         _write_workspace(scratch / "workspaces", notebook)
-        settings = _settings(places, ip, chosen, scratch) | _in_network(graph)
+        settings = _settings(places, ip, chosen, scratch) | settings_for(graph)
         # An author opens a notebook in solutions/, and needs to see all files of the checkout.
         settings["CourseContents.everything"] = bool(notebook) and not notebook.startswith("notebooks/")
         if port is not None:
@@ -170,7 +169,6 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
         "ServerApp.jpserver_extensions": {"course_pkg.lab.extension": True},
-        "ServerApp.terminado_settings": {"shell_command": SHELL},
         "ServerApp.contents_manager_class": "course_pkg.lab.extension.CourseContents",
         "ContentsManager.checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints",
         "CachedCheckpoints.folder": places.cache / "jupyter" / "checkpoints",
@@ -179,22 +177,6 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
         "LabApp.workspaces_dir": scratch / "workspaces",
         "LabApp.cache_files": True,  # The names of the front end's files change when their content changes.
         "LabApp.extension_manager": "readonly",
-    }
-
-
-def _in_network(graph: Graph | None) -> dict[str, object]:
-    """Return the settings with which kernels and terminals start in the graph's private network.
-
-    The server, which is outside, can reach a kernel only by sockets that are files (transport "ipc").
-    """
-    command = enter(graph)
-    if not command:
-        return {}
-    return {
-        "AsyncMappingKernelManager.kernel_manager_class": "course_pkg.lab.graph.kernels.GraphKernelManager",
-        "GraphKernelManager.enter": shlex.join(command),
-        "GraphKernelManager.transport": "ipc",
-        "ServerApp.terminado_settings": {"shell_command": [*command, *SHELL]},
     }
 
 

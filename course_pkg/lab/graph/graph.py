@@ -15,7 +15,6 @@ from enum import Enum
 from pathlib import Path
 
 from course_pkg.errors import GraphError
-from course_pkg.lab.graph import network
 from course_pkg.lab.graph.holder import LAST
 from course_pkg.ros.process.master import OTHER_ADDRESSES
 from course_pkg.state import locked, state_folder
@@ -165,8 +164,3 @@ def _short(path: Path) -> Iterator[str]:
         yield f"/proc/self/fd/{folder}/{path.name}"
     finally:
         os.close(folder)
-
-
-def enter(graph: Graph | None) -> list[str]:
-    """Return the start of a command that runs in the network of `graph`."""
-    return network.entering(graph.files) if graph and graph.files else []

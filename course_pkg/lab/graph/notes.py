@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 from course_pkg.lab.graph.graph import Graph, Which
-from course_pkg.lab.graph.outgoing import WITHOUT, problem
+from course_pkg.setup.network import FORWARDER, outgoing_problem
 
 EXPOSED = (
     "The graph uses the network of this computer: everybody who can log in here can call, replace and stop "
     "your nodes."
 )
+ADVICE = "`./course doctor` says what to do."
+UNREACHABLE = (
+    "Programs on this graph, such as `git push` and `pip`, cannot reach other computers ({problem}). "
+    f"{ADVICE} With `--shared-graph`, the graph uses the network of this computer."
+)
 
 
 def notes(graph: Graph, which: Which) -> str:
-    """Return sentences about the limits of the graph, each on its own line, or an empty string."""
+    """Return a line about the limits of the graph, or an empty string."""
     if which is Which.SHARED:
         return f"{EXPOSED}\n"
     if graph.reason:
-        return f"This computer does not allow a private network ({graph.reason}). {EXPOSED}\n"
-    return (
-        ""
-        if graph.outgoing or not graph.files
-        else WITHOUT.format(problem=problem() or "slirp4netns has failed") + "\n"
-    )
+        return f"This computer allows no private network ({graph.reason}). {EXPOSED} {ADVICE}\n"
+    if graph.files and not graph.outgoing:
+        problem, _ = outgoing_problem()
+        return UNREACHABLE.format(problem=problem or f"{FORWARDER} failed") + "\n"
+    return ""

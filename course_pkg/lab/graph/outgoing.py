@@ -12,9 +12,8 @@ import shutil
 from collections.abc import Sequence
 
 from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.setup.network import FORWARDER
 
-PROGRAM = "slirp4netns"
-DEVICE = "/dev/net/tun"
 OPTIONS = ("--configure", "--mtu=65520", "--disable-host-loopback", "--netns-type=path")
 
 
@@ -27,13 +26,13 @@ class Outgoing:
     @classmethod
     def start(cls, files: Sequence[int]) -> Outgoing | None:
         """Connect the network of these open files; return None if the program is not installed."""
-        if not shutil.which(PROGRAM):
+        if not shutil.which(FORWARDER):
             return None
         *user, network = (f"/proc/{os.getpid()}/fd/{file}" for file in files)
         kept = [f"--userns-path={path}" for path in user]
         reading, writing = os.pipe()
         try:
-            command = [PROGRAM, *OPTIONS, *kept, f"--ready-fd={writing}", network, "tap0"]
+            command = [FORWARDER, *OPTIONS, *kept, f"--ready-fd={writing}", network, "tap0"]
             return cls(SupervisedProcess(command, inherit=[writing]), reading)
         finally:
             os.close(writing)
@@ -45,16 +44,3 @@ class Outgoing:
     def end(self) -> None:
         """End the connections."""
         self._process.end(grace=0)
-
-
-def problem() -> str:
-    """Return what prevents connections to other computers on this computer, or an empty string."""
-    if not shutil.which(PROGRAM):
-        return f"{PROGRAM} is not installed"
-    return "" if os.access(DEVICE, os.R_OK | os.W_OK) else f"{DEVICE} cannot be opened"
-
-
-WITHOUT = (
-    "Programs on this graph, such as `git push` and `pip`, cannot reach other computers ({problem}). "
-    "`./course doctor` says what to do; `--shared-graph` uses the network of this computer."
-)

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from course_pkg.errors import GraphError
-from course_pkg.lab.graph.graph import Graph, Which, enter, join_or_start
+from course_pkg.lab.graph.graph import Graph, Which, join_or_start
+from course_pkg.lab.graph.network import entering
 from course_pkg.lab.graph.notes import EXPOSED, notes
 from course_pkg.ros.process.supervisor import descendants
 from tests.lab.commands import all_gone, having, own_namespace
@@ -36,7 +37,7 @@ def graph(tmp_path: Path) -> Iterator[Graph]:
 
 def nodes(graph: Graph) -> list[str]:
     """Return the nodes of a graph."""
-    return terminal(*enter(graph), "rosnode", "list", ROS_MASTER_URI=graph.uri).stdout.split()
+    return terminal(*entering(graph.files), "rosnode", "list", ROS_MASTER_URI=graph.uri).stdout.split()
 
 
 def sockets(folder: Path) -> list[str]:
@@ -50,10 +51,11 @@ def test_the_master_has_the_usual_port_on_each_graph(graph: Graph, tmp_path: Pat
     other.wait_for_master()
     assert graph.uri == other.uri == URI
     assert nodes(graph) == nodes(other) == ["/rosout"]
-    command = [*enter(other), "env", f"ROS_MASTER_URI={URI}", "rosparam", "set", "/here", "1"]
+    command = [*entering(other.files), "env", f"ROS_MASTER_URI={URI}", "rosparam", "set", "/here", "1"]
     assert terminal(*command).returncode == 0
     listed = [
-        terminal(*enter(each), "rosparam", "list", ROS_MASTER_URI=URI).stdout for each in (graph, other)
+        terminal(*entering(each.files), "rosparam", "list", ROS_MASTER_URI=URI).stdout
+        for each in (graph, other)
     ]
     assert ["/here" in text for text in listed] == [False, True]
     other.leave()
@@ -103,7 +105,7 @@ def test_without_namespaces_the_graph_is_in_the_machines_network(tmp_path: Path)
         patch.setenv("PATH", str(tmp_path))  # no program nsenter
         graph = join_or_start(Which.RUNNING, tmp_path)
     assert "nsenter" in graph.reason
-    assert enter(graph) == []
+    assert graph.files == []
     assert graph.uri != URI
     with pytest.raises(GraphError):  # PATH does not contain the programs of ROS either
         graph.wait_for_master()

@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 
 from course_pkg.lab.graph import network
-from course_pkg.lab.graph.outgoing import Outgoing, problem
+from course_pkg.lab.graph.outgoing import Outgoing
+from course_pkg.setup.network import outgoing_problem
 from tests.lab.commands import ROOT, can_connect
 
 LISTEN = """
@@ -86,7 +87,8 @@ def test_two_networks_have_separate_ports(files: list[int]) -> None:
 
 def test_other_computers_can_be_reached_but_not_this_ones_loopback(files: list[int]) -> None:
     """slirp4netns adds a route to other computers, but no way to a server at 127.0.0.1 of this computer."""
-    if reason := problem():
+    reason, _ = outgoing_problem()
+    if reason:
         pytest.skip(reason)
     outgoing = Outgoing.start(files)
     assert outgoing
