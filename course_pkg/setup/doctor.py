@@ -116,7 +116,9 @@ def _private_network() -> Iterator[Finding]:
     problem, advice = network_problem()
     if problem:
         exposed = "Until then, everybody who can log in can call, replace and stop your nodes."
-        yield Finding("private network for a graph", f"not possible: {problem}", f"{advice}. {exposed}", optional=True)
+        yield Finding(
+            "private network for a graph", f"not possible: {problem}", f"{advice}. {exposed}", optional=True
+        )
         return
     yield Finding("private network for a graph", "possible")
     problem, advice = outgoing_problem()

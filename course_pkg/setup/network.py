@@ -9,6 +9,7 @@ from pathlib import Path
 
 FORWARDER = "slirp4netns"  # connects a private network with other computers
 DEVICE = "/dev/net/tun"  # used by the forwarder
+RESOLVER = Path("/etc/resolv.conf")
 KERNEL = Path("/proc/sys")
 # A kernel setting, its value that forbids namespaces for ordinary users, and the value that allows them.
 SETTINGS = (
@@ -49,4 +50,12 @@ def outgoing_problem() -> tuple[str, str]:
         return f"{FORWARDER} is not installed", f"As an administrator, type: apt-get install {FORWARDER}"
     if not os.access(DEVICE, os.R_OK | os.W_OK):
         return f"{DEVICE} cannot be opened", f"As an administrator, type: chmod 666 {DEVICE}"
+    servers = [line.split()[1] for line in _lines(RESOLVER) if line.startswith("nameserver ")]
+    if servers and all(server.startswith("127.") for server in servers):
+        problem = f"{RESOLVER} names only {servers[0]}, so names of computers are unknown"
+        return problem, f"With systemd-resolved: ln -sf /run/systemd/resolve/resolv.conf {RESOLVER}"
     return "", ""
+
+
+def _lines(file: Path) -> list[str]:
+    return file.read_text(errors="replace").splitlines() if file.is_file() else []

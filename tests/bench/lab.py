@@ -6,7 +6,9 @@ usage: ./course run python tests/bench/lab.py start [RUNS [NOTEBOOK]]
 
 - `start` prints the time from the command to a page with a rendered notebook and an idle kernel.
 - `click` prints the time from a click to Python and back to the page.
-- `kill` kills `course lab`, its master or its kernel by SIGKILL, and prints how many processes were left.
+- `kill` kills `course lab`, its master, its kernel or the holder of its graph by SIGKILL, and prints how many
+  processes were left.
+- `isolation` compares `course lab` with `course lab --shared-graph`: the start, a click, and a check.
 
 `start` and `click` alternate between the two servers, so that other load on the machine affects both.
 `./course test` installs the browser.
@@ -195,6 +197,7 @@ SERVERS: dict[str, Server] = {"stock": stock, "course": course}
 def kill(times: int = 20) -> bool:
     """Kill `course lab`, the master and the kernel several times; return whether nothing was left behind."""
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
+    victims["the holder of the graph"] = b"graph/holder.py\0"
     left = 0
     for name, pattern in victims.items():
         port = free_port()  # the same port for each start; a start fails if its port is still in use

@@ -22,7 +22,7 @@ def notes(graph: Graph, which: Which) -> str:
         return f"{EXPOSED}\n"
     if graph.reason:
         return f"This computer allows no private network ({graph.reason}). {EXPOSED} {ADVICE}\n"
-    if graph.files and not graph.outgoing:
-        problem, _ = outgoing_problem()
+    problem, _ = outgoing_problem()
+    if graph.files and (problem or not graph.outgoing):
         return UNREACHABLE.format(problem=problem or f"{FORWARDER} failed") + "\n"
     return ""
