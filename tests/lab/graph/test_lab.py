@@ -15,7 +15,7 @@ from jupyter_client.blocking import BlockingKernelClient
 from course_pkg.setup.network import network_problem
 from tests.lab.commands import ROOT, alive, all_gone, below, having, lab, listening, own_namespace, running
 from tests.lab.test_jupyterlab import Service
-from tests.lab.test_run import course_run
+from tests.lab.test_run import course_run, names
 from tests.support import eventually
 
 KERNEL = b"ipykernel_launcher"
@@ -130,7 +130,7 @@ def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
 def killed(victim: bytes, state: Path) -> list[int]:
     """Start a command, kill the process `victim` (if empty, `course run` itself), and return what is left."""
     with running("run", "sleep", "1000", XDG_STATE_HOME=str(state)) as process:
-        eventually(lambda: having(b"sleep\x001000", below(process)), timeout=60)
+        eventually(lambda: "sleep" in names(below(process)), timeout=60)
         family = [process.pid, *below(process)]
         os.kill(having(victim, family)[-1] if victim else process.pid, signal.SIGKILL)
         process.kill()
