@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 
 from course_pkg.errors import SetupError
 from course_pkg.setup import packages
+from course_pkg.setup.network import network_problem, outgoing_problem
 from course_pkg.setup.places import Places
 from course_pkg.setup.steps import Step, steps_of
 from course_pkg.waiting import wait_until
@@ -23,22 +24,24 @@ NEEDED = 1 << 30  # A complete set-up needs a little less than this number of by
 class Finding(NamedTuple):
     """The result of one examination.
 
-    `advice` says what the user can do, and is empty if there is no problem.
+    `advice` says what the user can do, and is empty if there is no problem. The course also works with an
+    `optional` problem.
     """
 
     what: str
     seen: str
     advice: str = ""
+    optional: bool = False
 
 
 def examine() -> int:
     """Print the findings; return 0 if there is no problem, otherwise 1."""
     findings = list(_findings(Places.of()))
-    for what, seen, advice in findings:
-        sys.stdout.write(f"{'to do' if advice else 'ok':6}{what}: {seen}\n")
+    for what, seen, advice, optional in findings:
+        sys.stdout.write(f"{'ok' if not advice else 'note' if optional else 'to do':6}{what}: {seen}\n")
         if advice:
             sys.stdout.write(f"{'':6}-> {advice}\n")
-    return int(any(finding.advice for finding in findings))
+    return int(any(finding.advice and not finding.optional for finding in findings))
 
 
 def _findings(places: Places) -> Iterator[Finding]:
@@ -46,6 +49,7 @@ def _findings(places: Places) -> Iterator[Finding]:
     yield from _installed(places)
     yield _disk(places)
     yield _master()
+    yield from _private_network()
     yield from _leftovers(places)
 
 
@@ -97,7 +101,7 @@ def _disk(places: Places) -> Finding:
 def _master() -> Finding:
     given = os.environ.get("ROS_MASTER_URI")
     if not given:
-        return Finding("ROS_MASTER_URI", "not set: every command starts its own master")
+        return Finding("ROS_MASTER_URI", "not set: a command starts a master, or joins a running graph")
     try:
         parts = urlsplit(given)
         well_formed = parts.scheme == "http" and bool(parts.hostname) and bool(parts.port)
@@ -106,6 +110,19 @@ def _master() -> Finding:
     if not well_formed:
         return Finding("ROS_MASTER_URI", given, "Change it to the form http://localhost:11311, or unset it.")
     return _answering(given, str(parts.hostname), parts.port or 0)
+
+
+def _private_network() -> Iterator[Finding]:
+    problem, advice = network_problem()
+    if problem:
+        exposed = "Until then, everybody who can log in can call, replace and stop your nodes."
+        yield Finding(
+            "private network for a graph", f"not possible: {problem}", f"{advice}. {exposed}", optional=True
+        )
+        return
+    yield Finding("private network for a graph", "possible")
+    problem, advice = outgoing_problem()
+    yield Finding("connections from it to other computers", problem or "possible", advice, optional=True)
 
 
 def _answering(uri: str, host: str, port: int) -> Finding:

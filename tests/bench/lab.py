@@ -3,10 +3,13 @@
 usage: ./course run python tests/bench/lab.py start [RUNS [NOTEBOOK]]
        ./course run python tests/bench/lab.py click [CLICKS]
        ./course run python tests/bench/lab.py kill [TIMES]
+       ./course run python tests/bench/lab.py isolation [RUNS]
 
 - `start` prints the time from the command to a page with a rendered notebook and an idle kernel.
 - `click` prints the time from a click to Python and back to the page.
-- `kill` kills `course lab`, its master or its kernel by SIGKILL, and prints how many processes were left.
+- `kill` kills `course lab`, its master, its kernel or the holder of its graph by SIGKILL, and prints how many
+  processes were left.
+- `isolation` compares `course lab` with `course lab --shared-graph`: the start, a click, and a check.
 
 The measurements of `start` and `click` alternate between the two servers. `./course test` installs the
 browser.
@@ -57,6 +60,18 @@ button, label = ipywidgets.Button(description="click"), ipywidgets.Label("0")
 button.on_click(lambda _: setattr(label, "value", str(int(label.value) + 1)))
 ipywidgets.VBox([button, label])
 """
+COSTS = ("lab to page", "click", "check")
+ISOLATION_RATIO = 1.05  # maximum ratio of the durations with and without a private network
+CHECKS = """
+import time
+took = []
+for _ in range(6):
+    began = time.perf_counter()
+    check("05.1")
+    took.append(time.perf_counter() - began)
+print("seconds of checks:", *took[1:])
+"""
+# After the pause of 60 ms, the kernel is idle again, as it is between two clicks of a person.
 CLICK = """async () => {
     await new Promise(done => setTimeout(done, 60))
     const label = document.querySelector(".widget-label")
@@ -165,9 +180,9 @@ def reported(medians: dict[str, float], ratio_bar: float, bar: float, unit: str)
 
 
 @contextmanager
-def course(notebook: Path, _state: Path) -> Iterator[str]:
-    """Run `./course lab`; yield the address of the notebook."""
-    command = [ROOT / "course", "lab", "--no-browser", notebook]
+def course(notebook: Path, _state: Path, *options: str) -> Iterator[str]:
+    """Run `./course lab` with these options; yield the address of the notebook."""
+    command = [ROOT / "course", "lab", "--no-browser", *options, notebook]
     with subprocess.Popen(command, stdout=subprocess.PIPE, env=user_environment(), text=True) as process:
         assert process.stdout
         try:
@@ -193,12 +208,67 @@ def stock(notebook: Path, state: Path) -> Iterator[str]:
             process.terminate()
 
 
+@contextmanager
+def shared(notebook: Path, state: Path) -> Iterator[str]:
+    """Run `./course lab` without a private network; yield the address of the notebook."""
+    with course(notebook, state, "--shared-graph") as address:
+        yield address
+
+
 SERVERS: dict[str, Server] = {"stock": stock, "course": course}
+
+
+def isolation(runs: int = 10) -> bool:
+    """Measure a start, a click and a check with and without a private network; the two alternate."""
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    solved = nbformat.read(next((ROOT / "solutions").glob("05_*.ipynb")), as_version=4).cells
+    end = next(at for at, each in enumerate(solved) if each.metadata.get("course", {}).get("check") == "05.1")
+    cells = [*solved[:end], nbformat.v4.new_code_cell(CHECKS), nbformat.v4.new_code_cell(CELL)]
+    notebook = ROOT / "tests" / "bench" / f"isolation-{os.getpid()}.ipynb"
+    nbformat.write(nbformat.v4.new_notebook(cells=cells, metadata={"kernelspec": kernel}), notebook)
+    servers: dict[str, Server] = {"shared": shared, "private": course}
+    times: dict[str, dict[str, list[float]]] = {name: {what: [] for what in COSTS} for name in servers}
+    try:
+        for _ in range(runs):
+            for name, server in servers.items():
+                for what, values in zip(COSTS, costs(server, notebook), strict=True):
+                    times[name][what] += values
+    finally:
+        notebook.unlink()
+    met = True
+    for what in COSTS:
+        shared_s, private_s = (statistics.median(times[name][what]) for name in servers)
+        met = met and private_s / shared_s <= ISOLATION_RATIO
+        print(f"{what}: shared {shared_s:.3f} s, private {private_s:.3f} s, ratio {private_s / shared_s:.2f}")
+    return met
+
+
+def costs(server: Server, notebook: Path) -> tuple[list[float], list[float], list[float]]:
+    """Return the duration of a start, of clicks and of checks in s."""
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=FLAGS, headless=True
+        )
+        began = time.perf_counter()
+        with server(notebook, notebook.parent) as address:
+            page = browser.new_page()
+            page.goto(address)
+            start = until_usable(page)[-1] - began
+            page.get_by_role("menuitem", name="Run", exact=True).click()
+            page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+            page.wait_for_selector(".jupyter-button", timeout=120_000)
+            page.wait_for_timeout(1000)
+            clicks = [float(page.evaluate(CLICK)) / 1000 for _ in range(WARM_UP + 20)][WARM_UP:]
+            text = page.get_by_text("seconds of checks:").last.inner_text()
+            checks = [float(word) for word in text.partition(":")[2].split()]
+        browser.close()
+    return [start], clicks, checks
 
 
 def kill(times: int = 20) -> bool:
     """Kill `course lab`, the master and the kernel several times. Return whether all processes ended."""
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
+    victims["the holder of the graph"] = b"graph/holder.py\0"
     left = 0
     for name, pattern in victims.items():
         port = free_port()  # Each start uses this port, so a start fails if the port is still in use.
@@ -239,6 +309,6 @@ def complete_family(process: subprocess.Popen[str]) -> list[int]:
 
 
 if __name__ == "__main__":
-    measure = {"start": start, "click": click, "kill": kill}[sys.argv[1]]
+    measure = {"start": start, "click": click, "kill": kill, "isolation": isolation}[sys.argv[1]]
     count = [int(number) for number in sys.argv[2:3]]
     sys.exit(not measure(*count, *sys.argv[3:]))

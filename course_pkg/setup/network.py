@@ -1,0 +1,61 @@
+"""What a private network for a graph needs from this computer."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+FORWARDER = "slirp4netns"  # connects a private network with other computers
+DEVICE = "/dev/net/tun"  # used by the forwarder
+RESOLVER = Path("/etc/resolv.conf")
+KERNEL = Path("/proc/sys")
+# A kernel setting, its value that forbids namespaces for ordinary users, and the value that allows them.
+SETTINGS = (
+    ("kernel.unprivileged_userns_clone", "0", "1"),
+    ("kernel.apparmor_restrict_unprivileged_userns", "1", "0"),
+    ("user.max_user_namespaces", "0", "15000"),
+    ("user.max_net_namespaces", "0", "15000"),
+)
+
+
+def network_problem() -> tuple[str, str]:
+    """Return why this computer allows no private network, and what to do.
+
+    Both strings are empty if it allows one.
+    """
+    if not shutil.which("unshare") or not shutil.which("nsenter"):
+        return "unshare or nsenter is missing", "As an administrator, type: apt-get install util-linux"
+    user = [] if os.geteuid() == 0 else ["--user"]
+    answer = subprocess.run(
+        ["unshare", *user, "--net", "true"], capture_output=True, text=True, timeout=10, check=False
+    )
+    if answer.returncode == 0:
+        return "", ""
+    reason = answer.stderr.strip() or f"unshare ended with status {answer.returncode}"
+    for name, forbids, allows in SETTINGS:
+        setting = KERNEL / name.replace(".", "/")
+        if setting.is_file() and setting.read_text().strip() == forbids:
+            return f"{name} is {forbids} ({reason})", f"As an administrator, type: sysctl -w {name}={allows}"
+    return reason, "Ask the administrator to allow user namespaces; a container needs them from its host"
+
+
+def outgoing_problem() -> tuple[str, str]:
+    """Return why a private network cannot reach other computers, and what to do.
+
+    Both strings are empty if it can.
+    """
+    if not shutil.which(FORWARDER):
+        return f"{FORWARDER} is not installed", f"As an administrator, type: apt-get install {FORWARDER}"
+    if not os.access(DEVICE, os.R_OK | os.W_OK):
+        return f"{DEVICE} cannot be opened", f"As an administrator, type: chmod 666 {DEVICE}"
+    servers = [line.split()[1] for line in _lines(RESOLVER) if line.startswith("nameserver ")]
+    if servers and all(server.startswith("127.") for server in servers):
+        problem = f"{RESOLVER} names only {servers[0]}, so names of computers are unknown"
+        return problem, f"With systemd-resolved: ln -sf /run/systemd/resolve/resolv.conf {RESOLVER}"
+    return "", ""
+
+
+def _lines(file: Path) -> list[str]:
+    return file.read_text(errors="replace").splitlines() if file.is_file() else []

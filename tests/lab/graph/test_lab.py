@@ -1,0 +1,139 @@
+"""A running `course lab`: its kernels and terminals are in a private network, and its server is outside."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from jupyter_client.blocking import BlockingKernelClient
+
+from course_pkg.setup.network import network_problem
+from tests.lab.commands import ROOT, alive, all_gone, below, having, lab, listening, own_namespace, running
+from tests.lab.test_jupyterlab import Service
+from tests.lab.test_run import course_run, names
+from tests.support import eventually
+
+KERNEL = b"ipykernel_launcher"
+HOLDER = b"graph/holder.py\0"
+WHERE = "import os; print(os.environ['ROS_MASTER_URI'], os.readlink('/proc/self/ns/net'), os.getpid())"
+SLEEP = "import time; print('begun', flush=True); time.sleep(1000)"
+
+
+class Messages:
+    """A client that sends cells to the kernel of a server, through the kernel's sockets."""
+
+    def __init__(self, service: Service) -> None:
+        [server] = having(b"-m\0course_pkg.lab\0", below(service.process))[1:]
+        self._folder = Path(variable(server, "JUPYTER_RUNTIME_DIR"))
+
+    def run(self, code: str, until: str) -> str:
+        """Run a cell, and return what it prints up to a message of the type `until`, or its error's name."""
+        [file] = eventually(lambda: list(self._folder.glob("kernel-*.json")))
+        client = BlockingKernelClient(connection_file=str(file))
+        client.load_connection_file()
+        client.start_channels()
+        try:
+            client.wait_for_ready(timeout=30)
+            client.execute(code)
+            printed = ""
+            while True:
+                message = client.get_iopub_msg(timeout=30)
+                content = message["content"]
+                printed += content.get("text", "") + content.get("ename", "")
+                if message["msg_type"] == until and content.get("execution_state", "idle") == "idle":
+                    return printed
+        finally:
+            client.stop_channels()
+
+
+def variable(pid: int, name: str) -> str:
+    """Return an environment variable of a process."""
+    words = Path(f"/proc/{pid}/environ").read_bytes().decode().split("\0")
+    return dict(word.split("=", 1) for word in words if "=" in word)[name]
+
+
+@pytest.fixture
+def served() -> Iterator[Service]:
+    """Start `course lab` with an empty notebook, or skip the test if there are no private networks."""
+    problem, _ = network_problem()
+    if problem:
+        pytest.skip(problem)
+    with tempfile.NamedTemporaryFile("w", suffix=".ipynb", dir=ROOT / "tests" / "lab") as file:
+        file.write(json.dumps({"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}))
+        file.flush()
+        with lab(file.name) as (process, address):
+            service = Service(process, address)
+            eventually(service.kernels)
+            yield service
+
+
+def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
+    """Only the page's port is outside; a kernel, a terminal and `course run` use one master at port 11311.
+
+    Interrupt and Restart work.
+    """
+    messages = Messages(served)
+    uri, network, pid = messages.run(WHERE, "status").split()
+    assert uri == "http://localhost:11311"
+    assert network != own_namespace("net")
+    assert having(KERNEL, [int(pid)])  # the process that the server interrupts is the kernel itself
+    served.post("/api/terminals")
+    [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(served.process)))
+    assert eventually(lambda: os.readlink(f"/proc/{shell}/ns/net") == network)  # nsenter becomes the shell
+    assert course_run("sh", "-c", "readlink /proc/self/ns/net; rosnode list").stdout.split() == [
+        network,
+        "/rosout",
+    ]
+    outside = [each for each in below(served.process) if os.readlink(f"/proc/{each}/ns/net") != network]
+    assert listening(outside) == {("127.0.0.1", served.port)}
+
+    [kernel] = served.kernels()
+    assert "begun" in messages.run(SLEEP, "stream")
+    served.post(f"/api/kernels/{kernel['id']}/interrupt")
+    assert messages.run("1 / 0", "error").endswith("ZeroDivisionError")
+    served.post(f"/api/kernels/{kernel['id']}/restart")
+    again = messages.run(WHERE, "status").split()
+    assert again[:2] == [uri, network]
+    assert again[2] != pid
+
+
+@pytest.mark.parametrize("victim", [HOLDER, KERNEL, b"rosmaster\0--core"])
+def test_nothing_is_left_after_a_kill_and_the_end(served: Service, victim: bytes) -> None:
+    """After SIGKILL of any process of the graph, and Ctrl-C, no process of the lab is left."""
+    eventually(lambda: having(victim, below(served.process)))
+    family = below(served.process)
+    os.kill(having(victim, family)[-1], signal.SIGKILL)
+    family += below(served.process)
+    served.process.send_signal(signal.SIGINT)
+    served.process.communicate(timeout=20)
+    assert all_gone(family)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1800)
+def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
+    """After SIGKILL of `course run`, its master or its holder, 100 times, nothing is left."""
+    victims = [b"", b"rosmaster\0--core", HOLDER]
+    left = []
+    for number in range(100):
+        left += killed(victims[number % len(victims)], tmp_path)
+    assert left == []
+    assert course_run("true", XDG_STATE_HOME=str(tmp_path)).returncode == 0
+    assert [path for path in tmp_path.rglob("*") if path.is_socket()] == []
+
+
+def killed(victim: bytes, state: Path) -> list[int]:
+    """Start a command, kill the process `victim` (if empty, `course run` itself), and return what is left."""
+    with running("run", "sleep", "1000", XDG_STATE_HOME=str(state)) as process:
+        eventually(lambda: "sleep" in names(below(process)), timeout=60)
+        family = [process.pid, *below(process)]
+        os.kill(having(victim, family)[-1] if victim else process.pid, signal.SIGKILL)
+        process.kill()
+        process.wait()
+        all_gone(family)
+    return [pid for pid in family if alive(pid)]
