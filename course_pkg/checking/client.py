@@ -21,6 +21,7 @@ from course_pkg.checking.plain_values import Value
 from course_pkg.checking.report import Report, Verdict, report_from
 from course_pkg.errors import ChannelClosed, ChannelError, CheckError
 from course_pkg.ros.notebook.cells import Cells
+from course_pkg.sharing.notice import notice
 
 # time limit in s between two messages of the check runner. In grading, another process runs the commands of a
 # check, so the kernel may receive no message until the deadline, which is 600 s at most on a busy machine.
@@ -49,7 +50,8 @@ def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report
         return _undecided(check_id, str(error))
     finally:
         agent.close()
-    return replace(report, printed=printed.text)
+    note = " ".join(filter(None, (report.note, notice())))
+    return replace(report, printed=printed.text, note=note)
 
 
 def _serve(channel: Channel, check_id: str, agent: KernelAgent) -> Report:

@@ -1,6 +1,6 @@
 """The process of a check runner that a notebook has started.
 
-It stores the result in the student's own record.
+It stores the result in the student's own record, and, if sharing is on, in the outbox for the class view.
 """
 
 from __future__ import annotations
@@ -11,12 +11,15 @@ import signal
 import socket
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 
 from course_pkg.checking.channel import Channel
 from course_pkg.checking.record import StudentRecord
 from course_pkg.checking.runner import run_check
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.sharing.notice import address
+from course_pkg.sharing.outbox import Outbox
 
 
 class RunnerStopped(BaseException):
@@ -27,9 +30,15 @@ def main() -> None:
     """Run one check over the socket whose descriptor is the first argument, and exit at once."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     with suppress(RunnerStopped), _stopped_by(channel):
-        run_check(channel, StudentRecord().store)
+        run_check(channel, _store)
     sys.stderr.flush()
     os._exit(0)  # skips rospy's shutdown, which sleeps for 0.6 s; nothing is registered any more
+
+
+def _store(check: str, result: Mapping[str, Json]) -> str:
+    """Store a result; return a message about problems, or ""."""
+    messages = [StudentRecord().store(check, result), Outbox().put(result) if address() else ""]
+    return " ".join(filter(None, messages))
 
 
 @contextmanager
