@@ -105,7 +105,7 @@ async def _serve(
         raise ClassViewError(
             f"{ip}:{port} cannot be used ({reason}). Give another --port or --ip."
         ) from error
-    server = HTTPServer(application(service, prefix, secret, _chapters()), max_body_size=2 * LARGEST)
+    server = HTTPServer(application(service, prefix, secret, every_chapter()), max_body_size=2 * LARGEST)
     server.add_sockets(listening)
     if hub is None:
         host = f"[{ip}]" if ":" in ip else ip
@@ -151,7 +151,8 @@ def _secret(data: Path) -> str:
     return path.read_text("utf-8").strip()
 
 
-def _chapters() -> list[Chapter]:
+def every_chapter() -> list[Chapter]:
+    """Return the chapters of the course with their parts."""
     return [
         Chapter(number, title_of(number), [(part.check, part.goal) for part in parts_of(number)])
         for number in all_chapters()

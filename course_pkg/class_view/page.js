@@ -1,7 +1,7 @@
 // The class view: asks the service for changes without end, and shows them.
 "use strict";
 
-const SHOWN = 30; // most entries of each list
+const SHOWN = 10; // most entries of each list
 const AGAIN = 1000; // ms until the next request after a failed one
 const TICK = 10_000; // ms between two updates of the times
 const find = (id) => document.getElementById(id);
@@ -21,6 +21,7 @@ let layout = ""; // the students and parts that the table shows
 
 const keyOf = (student, part) => `${part} ${student}`;
 const now = () => Date.now() / 1000 + offset;
+const triesOf = (cell) => (cell.tries === 1 ? "1 try" : `${cell.tries} tries`);
 const hidden = () => hide.getAttribute("aria-pressed") === "true";
 const inChapter = (part) => !chapter.value || part.startsWith(`${chapter.value}.`);
 const parts = () => [...chapter.options].filter((each) => each.value && (!chapter.value || each.selected))
@@ -53,7 +54,7 @@ function fill(field, cell) {
   field.className = passed ? "passed" : open ? "open" : "";
   const mark = element("span", shown);
   mark.setAttribute("aria-hidden", "true");
-  field.replaceChildren(mark, element("span", open ? `${words}, ${cell.tries} tries` : words, "unseen"));
+  field.replaceChildren(mark, element("span", open ? `${words}, ${triesOf(cell)}` : words, "unseen"));
 }
 
 function drawTable() {
@@ -106,7 +107,7 @@ function drawLists() {
   list("stuck", "nobody", stuck, (cell) => [
     duration(now() - cell.stuck),
     cell.part,
-    `${nameOf(byName.get(cell.student))}, ${cell.tries === 1 ? "1 try" : `${cell.tries} tries`}, last check ${duration(now() - cell.last)} ago`,
+    `${nameOf(byName.get(cell.student))}, ${triesOf(cell)}, last check ${duration(now() - cell.last)} ago`,
   ]);
   list("hints", "nothing", seen, (hint) => [
     `${hint.students === 1 ? "1 student" : `${hint.students} students`}, ${hint.count} ×`,

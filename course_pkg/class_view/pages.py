@@ -224,7 +224,6 @@ class Callback(TeacherHandler):
         try:
             token = await identity.token_for(self.get_query_argument("code", ""))
             if token and await identity.is_teacher(token):
-                self.clear_cookie(STATE, path=self.shared.prefix)
                 self.enter(token)
                 return
         except HubUnreachable as error:

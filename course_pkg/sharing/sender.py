@@ -89,13 +89,14 @@ class Sender:
         connect = HTTPSConnection if parts.scheme == "https" else HTTPConnection
         with closing(connect(parts.hostname, parts.port, timeout=TIMEOUT)) as connection:
             headers = {"Authorization": f"token {self._token}", "Content-Type": "application/json"}
-            connection.request(method, parts.path + path, data and json.dumps(data), headers)
+            body = None if data is None else json.dumps(data)
+            connection.request(method, parts.path + path, body, headers)
             response = connection.getresponse()
-            body = response.read(LONGEST)
+            received = response.read(LONGEST)
         if response.status != 200:
-            reason = body[:300].decode("utf-8", "replace").strip()
+            reason = received[:300].decode("utf-8", "replace").strip()
             raise NotAccepted(f"status {response.status}: {reason}")
-        answer = json.loads(body)
+        answer = json.loads(received)
         if not isinstance(answer, dict):
             raise NotAccepted("its answer is not the answer of a class service")
         return answer
