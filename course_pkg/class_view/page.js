@@ -137,7 +137,7 @@ function draw() {
 }
 
 function take(sent) {
-  const first = epoch === "";
+  const first = cells.size === 0;
   if (sent.epoch !== epoch) {
     [cells, hints, layout] = [new Map(), new Map(), ""];
   }

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
+from pathlib import Path
 from urllib.parse import urlsplit
 
 from course_pkg.state import state_folder, write_json
@@ -19,10 +20,10 @@ def address() -> str:
     return os.environ.get(ADDRESS, "").strip().rstrip("/")
 
 
-def keep_about(url: str, about: Mapping[str, object]) -> None:
-    """Store what the service at `url` says about itself, for the notice. Raises OSError."""
+def keep_about(folder: Path, url: str, about: Mapping[str, object]) -> None:
+    """Store what the service at `url` says about itself in `folder`, for the notice. Raises OSError."""
     teacher, days = about.get("teacher"), about.get("days")
-    write_json(state_folder() / FILE, {"url": url, "teacher": str(teacher)[:100], "days": days})
+    write_json(folder / FILE, {"url": url, "teacher": str(teacher)[:100], "days": days})
 
 
 def notice() -> str:

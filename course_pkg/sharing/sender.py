@@ -72,7 +72,7 @@ class Sender:
         Raises NotAccepted, OSError, HTTPException or ValueError if the service cannot store them.
         """
         if not self._knows_service:
-            keep_about(self._url, self._ask("GET", "/about"))
+            keep_about(self._outbox.folder.parent, self._url, self._ask("GET", "/about"))
             self._knows_service = True
         while results := self._outbox.first(BATCH):
             answer = self._ask("POST", "/results", {"results": results})

@@ -5,7 +5,6 @@ usage: ./course run python tests/bench/class_view.py live
 
 from __future__ import annotations
 
-import os
 import random
 import statistics
 import subprocess
@@ -18,7 +17,7 @@ from pathlib import Path
 from commands import run_command
 
 from course_pkg.lab.jupyterlab import free_port
-from course_pkg.sharing.outbox import Outbox
+from course_pkg.sharing.outbox import FOLDER, Outbox
 from course_pkg.sharing.sender import Sender
 from tests.browser.chromium import chromium
 from tests.class_view.classes import tokens_in
@@ -54,16 +53,15 @@ def live() -> None:
             page.goto(service.stdout.readline().split()[-1])
             page.wait_for_function("document.body.dataset.version !== undefined")
             page.evaluate(WATCH)
-            os.environ["COURSE_STATE"] = folder  # for the notice
             senders = [
-                Sender(f"http://127.0.0.1:{port}", token, Outbox(Path(folder, student)), print)
+                Sender(f"http://127.0.0.1:{port}", token, Outbox(Path(folder, student, FOLDER)), print)
                 for student, token in tokens_in(data).items()
             ]
             threads = [threading.Thread(target=sender.run) for sender in senders]
             for thread in threads:
                 thread.start()
             written: list[float] = []
-            outboxes = [Outbox(Path(folder, student)) for student in tokens_in(data)]
+            outboxes = [Outbox(Path(folder, student, FOLDER)) for student in tokens_in(data)]
             began = time.monotonic()
             while (now := time.monotonic()) < began + SECONDS:
                 report = {"check": choice.choice(PARTS), "verdict": choice.choice(VERDICTS)}
