@@ -32,7 +32,7 @@ def main() -> None:
     with suppress(RunnerStopped), _stopped_by(channel):
         run_check(channel, _store)
     sys.stderr.flush()
-    os._exit(0)  # skips rospy's shutdown, which sleeps for 0.6 s; nothing is registered any more
+    os._exit(0)  # This call skips rospy's shutdown, which sleeps for 0.6 s; no registrations exist any more.
 
 
 def _store(check: str, result: Mapping[str, Json]) -> str:
