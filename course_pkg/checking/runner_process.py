@@ -46,7 +46,7 @@ def _stopped_by(channel: Channel) -> Iterator[None]:
     """Raise RunnerStopped in the main thread when the kernel closes `channel`, or after SIGTERM."""
 
     def stop(*_: object) -> None:
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second signal would interrupt the clean-up
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # A second signal would interrupt the clean-up.
         raise RunnerStopped
 
     signal.signal(signal.SIGTERM, stop)

@@ -28,7 +28,7 @@ class Identity(Protocol):
     """Decides whose token a token is."""
 
     async def student(self, token: str) -> str | None:
-        """Return the student to whom a token belongs, or None. Raises HubUnreachable."""
+        """Return the student who owns a token, or None. Raises HubUnreachable."""
 
     async def is_teacher(self, token: str) -> bool:
         """Return whether a token allows the page. Raises HubUnreachable."""
@@ -41,7 +41,7 @@ class LocalIdentity:
         self._tokens, self._teacher = tokens, teacher
 
     async def student(self, token: str) -> str | None:
-        """Return the student to whom a token belongs, or None."""
+        """Return the student who owns a token, or None."""
         return self._tokens.student_of(token)
 
     async def is_teacher(self, token: str) -> bool:
@@ -83,7 +83,7 @@ class HubIdentity:
         self._users: dict[str, tuple[float, dict[str, Plain]]] = {}
 
     async def student(self, token: str) -> str | None:
-        """Return the name of the user to whom a token belongs, or None."""
+        """Return the name of the user who owns a token, or None."""
         user = await self._user(token)
         return str(user["name"]) if user.get("kind") == "user" and user.get("name") else None
 

@@ -64,7 +64,7 @@ class Tokens:
         return True
 
     def student_of(self, token: str) -> str | None:
-        """Return the student to whom a token belongs, or None."""
+        """Return the student who owns a token, or None."""
         self.refresh()
         given = token.encode()
         found = [each for known, each in self._students.items() if hmac.compare_digest(known.encode(), given)]

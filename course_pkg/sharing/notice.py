@@ -1,4 +1,4 @@
-"""The notice in the notebook: the results of checks are shared, and with whom."""
+"""The notice in the notebook: the teacher receives the results of checks."""
 
 from __future__ import annotations
 
