@@ -14,6 +14,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, NoReturn
 
 from course_pkg.authoring import commands as authoring
+from course_pkg.class_view import commands as class_view
 from course_pkg.errors import CourseError
 from course_pkg.grading import commands as grading
 from course_pkg.handout import commands as handout
@@ -33,6 +34,7 @@ COMMANDS: dict[str, Command] = {
     **authoring.COMMANDS,
     **grading.COMMANDS,
     **handout.COMMANDS,
+    **class_view.COMMANDS,
     **site.COMMANDS,
     **setup.COMMANDS,
 }

@@ -32,6 +32,7 @@ CourseError
 ├── GradingError: submissions cannot be graded
 │   ├── SandboxUnavailable: this machine cannot isolate a submission
 │   └── WorkerFailed: the process that runs submissions ended, or did not start
+├── ClassViewError: the class view cannot start, or its data cannot be used
 ├── HandoutError: an edition for students cannot be made, or work cannot be collected
 ├── PanelError: a panel cannot do what a cell asks for
 │   ├── NoServiceSelected: no service is selected, or the selected service has no form
@@ -233,6 +234,10 @@ class AuthoringError(CourseError):
 
 class GradingError(CourseError):
     """Submissions cannot be graded."""
+
+
+class ClassViewError(CourseError):
+    """The class view cannot start, or its data cannot be used."""
 
 
 class SandboxUnavailable(GradingError):

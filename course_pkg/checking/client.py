@@ -24,6 +24,7 @@ from course_pkg.checking.plain_values import Value
 from course_pkg.checking.report import Report, Verdict, report_from
 from course_pkg.errors import ChannelClosed, ChannelError, CheckError
 from course_pkg.ros.notebook.cells import Cells
+from course_pkg.sharing.notice import notice
 
 # The check runner has to send its next message within this time in s. In grading, a check can take up to 600
 # s on a busy machine, and the kernel may receive no message during this time.
@@ -51,7 +52,8 @@ def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report
         return _undecided(check_id, str(error))
     finally:
         agent.close()
-    return replace(report, printed=printed.text)
+    note = " ".join(filter(None, (report.note, notice())))
+    return replace(report, printed=printed.text, note=note)
 
 
 def _serve(channel: Channel, check_id: str, agent: KernelAgent) -> Report:

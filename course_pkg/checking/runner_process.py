@@ -1,4 +1,7 @@
-"""The process of a check runner that a notebook has started; it stores the result in the student's record."""
+"""The process of a check runner that a notebook has started.
+
+It stores the result in the student's own record, and, if sharing is on, in the outbox for the class view.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +11,15 @@ import signal
 import socket
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 
 from course_pkg.checking.channel import Channel
 from course_pkg.checking.record import StudentRecord
 from course_pkg.checking.runner import run_check
+from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.sharing.notice import address
+from course_pkg.sharing.outbox import Outbox
 
 
 class RunnerStopped(BaseException):
@@ -24,9 +30,15 @@ def main() -> None:
     """Run one check over the socket whose descriptor is the first argument, and exit at once."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     with suppress(RunnerStopped), _stopped_by(channel):
-        run_check(channel, StudentRecord().store)
+        run_check(channel, _store)
     sys.stderr.flush()
     os._exit(0)  # This call skips rospy's shutdown, which sleeps for 0.6 s; no registrations exist any more.
+
+
+def _store(check: str, result: Mapping[str, Json]) -> str:
+    """Store a result; return a message about problems, or ""."""
+    messages = [StudentRecord().store(check, result), Outbox().put(result) if address() else ""]
+    return " ".join(filter(None, messages))
 
 
 @contextmanager

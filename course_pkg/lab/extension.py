@@ -13,6 +13,8 @@ from jupyter_server.services.contents.largefilemanager import AsyncLargeFileMana
 from tornado.websocket import WebSocketHandler
 from traitlets import Bool, Unicode
 
+from course_pkg.sharing.sender import start_sender
+
 # The file browser hides these files of the repository, because students do not need them. The file browser
 # shows all other files, such as a student's own files and `workspace`.
 HIDDEN = (
@@ -52,6 +54,12 @@ def _jupyter_server_extension_points() -> list[dict[str, str]]:
 
 
 def _load_jupyter_server_extension(server: Server) -> None:
+    """Send the results of checks to the class view, if sharing is on. Make clicks in panels faster."""
+    start_sender(lambda message: server.log.warning("class view: %s", message))
+    set_nodelay(server)
+
+
+def set_nodelay(server: Server) -> None:
     """Set TCP_NODELAY on every kernel websocket: a click then takes 10 ms instead of 46 ms.
 
     The server writes a message to the websocket in small pieces. Nagle's algorithm (RFC 896) delays a piece

@@ -1,0 +1,149 @@
+"""Whose token it is: the student who sends results, and the teacher who opens the page."""
+
+from __future__ import annotations
+
+import hmac
+import json
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Protocol
+from urllib.parse import urlencode
+
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
+
+from course_pkg.class_view.tokens import Tokens
+from course_pkg.types.fields import Plain
+
+TIMEOUT = 10.0  # s
+KEPT = 60.0  # s for which the answer of the hub is used again
+MOST = 1_000  # answers of the hub that are kept
+
+
+class HubUnreachable(Exception):
+    """The hub does not answer; the request can be sent again later."""
+
+
+class Identity(Protocol):
+    """Decides whose token a token is."""
+
+    async def student(self, token: str) -> str | None:
+        """Return the student who owns a token, or None. Raises HubUnreachable."""
+
+    async def is_teacher(self, token: str) -> bool:
+        """Return whether a token allows the page. Raises HubUnreachable."""
+
+
+class LocalIdentity:
+    """The tokens of a file, and one token for the teacher."""
+
+    def __init__(self, tokens: Tokens, teacher: str) -> None:
+        self._tokens, self._teacher = tokens, teacher
+
+    async def student(self, token: str) -> str | None:
+        """Return the student who owns a token, or None."""
+        return self._tokens.student_of(token)
+
+    async def is_teacher(self, token: str) -> bool:
+        """Return whether it is the teacher's token."""
+        return hmac.compare_digest(token.encode(), self._teacher.encode())
+
+
+@dataclass(frozen=True)
+class HubService:
+    """What JupyterHub tells a service by environment variables."""
+
+    api: str  # the address of the hub's API
+    token: str  # the service's own token
+    client: str  # the service's id for OAuth
+    prefix: str  # the path of the service, with a slash at both ends
+    base: str  # the path of the hub, with a slash at both ends
+    scopes: tuple[str, ...]  # one of these scopes allows a user to open the page
+
+    @classmethod
+    def of(cls, environment: Mapping[str, str]) -> HubService | None:
+        """Return the data in the environment; None if this process is not a service of a hub."""
+        if not (prefix := environment.get("JUPYTERHUB_SERVICE_PREFIX")):
+            return None
+        return cls(
+            environment["JUPYTERHUB_API_URL"].rstrip("/"),
+            environment["JUPYTERHUB_API_TOKEN"],
+            environment.get("JUPYTERHUB_CLIENT_ID", ""),
+            prefix,
+            environment.get("JUPYTERHUB_BASE_URL", "/"),
+            tuple(json.loads(environment.get("JUPYTERHUB_OAUTH_ACCESS_SCOPES") or "[]")),
+        )
+
+
+class HubIdentity:
+    """Asks a JupyterHub. An answer is kept for 60 s."""
+
+    def __init__(self, service: HubService) -> None:
+        self.service = service
+        self._users: dict[str, tuple[float, dict[str, Plain]]] = {}
+
+    async def student(self, token: str) -> str | None:
+        """Return the name of the user who owns a token, or None."""
+        user = await self._user(token)
+        return str(user["name"]) if user.get("kind") == "user" and user.get("name") else None
+
+    async def is_teacher(self, token: str) -> bool:
+        """Return whether the hub allows the owner of a token to use this service."""
+        user = await self._user(token)
+        scopes = user.get("scopes")
+        held = set(map(str, scopes)) if isinstance(scopes, list) else set()
+        return user.get("kind") == "user" and bool(held & {*self.service.scopes, "access:services"})
+
+    def login_url(self, state: str) -> str:
+        """Return the hub's address at which a user logs in and comes back to the page."""
+        query = {"client_id": self.service.client, "redirect_uri": self._redirect, "response_type": "code"}
+        return f"{self.service.base}hub/api/oauth2/authorize?{urlencode({**query, 'state': state})}"
+
+    async def token_for(self, code: str) -> str:
+        """Return the token for the code with which the hub has sent a user back; "" if it is not valid."""
+        form = {
+            "client_id": self.service.client,
+            "client_secret": self.service.token,
+            "grant_type": "authorization_code",
+            "code": code,
+            "redirect_uri": self._redirect,
+        }
+        answer = await self._ask("/oauth2/token", body=urlencode(form))
+        return str(answer.get("access_token") or "")
+
+    @property
+    def _redirect(self) -> str:
+        return f"{self.service.prefix}oauth_callback"
+
+    async def _user(self, token: str) -> dict[str, Plain]:
+        """Return what the hub knows about a token; nothing if it does not know the token."""
+        now = time.monotonic()
+        kept = self._users.get(token)
+        if kept and now - kept[0] < KEPT:
+            return kept[1]
+        user = await self._ask("/user", token) if token else {}
+        if len(self._users) >= MOST:
+            self._users.clear()
+        self._users[token] = (now, user)
+        return user
+
+    async def _ask(self, path: str, token: str = "", body: str | None = None) -> dict[str, Plain]:
+        """Return the JSON that the hub answers; nothing if it refuses the request."""
+        request = HTTPRequest(
+            self.service.api + path,
+            method="GET" if body is None else "POST",
+            headers={"Authorization": f"token {token}"} if token else {},
+            body=body,
+            connect_timeout=TIMEOUT,
+            request_timeout=TIMEOUT,
+            follow_redirects=False,
+        )
+        try:
+            answer = json.loads((await AsyncHTTPClient().fetch(request)).body)
+        except HTTPClientError as error:
+            if error.code < 500 and error.code != 429:
+                return {}
+            raise HubUnreachable(f"JupyterHub answers with status {error.code}.") from error
+        except (OSError, ValueError) as error:
+            raise HubUnreachable(f"JupyterHub does not answer ({error}).") from error
+        return answer if isinstance(answer, dict) else {}

@@ -1,0 +1,98 @@
+"""What the page shows: the state of each part of each student, and the most frequent hints."""
+
+from __future__ import annotations
+
+import hashlib
+import secrets
+import time
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from course_pkg.class_view.results import NOT_ATTEMPTED, PASSED, Result
+from course_pkg.types.fields import Plain
+
+
+@dataclass
+class Cell:
+    """One part of one student. Times are in s since 1970; 0 means that there is none."""
+
+    tries: int = 0  # checks until the first pass, without those of blank answers
+    passed: float = 0.0  # the time of the first pass
+    stuck: float = 0.0  # the time of the first check that did not pass
+    last: float = 0.0  # the time of the last check
+    version: int = 0
+
+
+@dataclass
+class Hint:
+    """How often a hint appeared, and for which students."""
+
+    count: int = 0
+    students: set[str] = field(default_factory=set)
+    version: int = 0
+
+
+class ClassModel:
+    """The state of a class. `version` grows with each result; `epoch` changes if results were deleted."""
+
+    def __init__(self, names: Mapping[str, str], results: Iterable[Result] = ()) -> None:
+        self.epoch = secrets.token_hex(8)
+        self.version = 0
+        self._names = dict(names)
+        self._cells: dict[tuple[str, str], Cell] = {}
+        self._hints: dict[tuple[str, str], Hint] = {}
+        self.add(results)
+
+    def add(self, results: Iterable[Result]) -> None:
+        """Add results in the order in which they arrived."""
+        for result in results:
+            self.version += 1
+            self._names.setdefault(result.student, result.student)
+            self._add_to_cell(self._cells.setdefault((result.student, result.check), Cell()), result)
+            if result.hint:
+                hint = self._hints.setdefault((result.check, result.hint), Hint())
+                hint.count += 1
+                hint.students.add(result.student)
+                hint.version = self.version
+
+    def _add_to_cell(self, cell: Cell, result: Result) -> None:
+        cell.version = self.version
+        cell.last = max(cell.last, result.time)
+        if cell.passed:
+            return
+        cell.tries += result.verdict != NOT_ATTEMPTED
+        if result.verdict == PASSED:
+            cell.passed = result.time
+        elif result.verdict != NOT_ATTEMPTED and not cell.stuck:
+            cell.stuck = result.time
+
+    def changes(self, epoch: str, since: int) -> dict[str, Plain]:
+        """Return what has changed since the version `since`; everything if `epoch` is not the present one.
+
+        A cell is [student, part, tries, passed, stuck, last]. A hint is [part, hint, count, students].
+        """
+        if epoch != self.epoch:
+            since = -1
+        return {
+            "epoch": self.epoch,
+            "version": self.version,
+            "now": time.time(),
+            "students": [[each, name, number] for number, (each, name) in enumerate(self._shuffled(), 1)],
+            "cells": [
+                [student, part, cell.tries, cell.passed, cell.stuck, cell.last]
+                for (student, part), cell in self._cells.items()
+                if cell.version > since
+            ],
+            "hints": [
+                [part, text, hint.count, len(hint.students)]
+                for (part, text), hint in self._hints.items()
+                if hint.version > since
+            ],
+        }
+
+    def _shuffled(self) -> list[tuple[str, str]]:
+        """Return the students in an order that does not follow from their names.
+
+        A number on the page then does not reveal a place in the alphabet.
+        """
+        return sorted(self._names.items(), key=lambda each: hashlib.sha256(each[0].encode()).digest())

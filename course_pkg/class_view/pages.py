@@ -1,0 +1,263 @@
+"""The HTTP interface: students' servers send results with their token, and a teacher opens the page."""
+
+from __future__ import annotations
+
+import hmac
+import json
+import secrets
+import sqlite3
+from collections.abc import Sequence
+from dataclasses import dataclass
+from http import HTTPStatus
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader
+from tornado.web import Application, RequestHandler
+
+from course_pkg.class_view.identity import HubIdentity, HubUnreachable
+from course_pkg.class_view.service import ClassService
+from course_pkg.class_view.storage import MOST, TooMany
+from course_pkg.types.fields import Plain
+
+HERE = Path(__file__).parent
+ASSETS = {"page.js": "text/javascript", "page.css": "text/css"}
+HEADERS = {
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; "
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cache-Control": "no-store",
+}
+LARGEST = 500_000  # bytes of a request
+WAIT = 20.0  # s for which a request for changes waits
+SESSION, STATE = "course-class", "course-class-state"  # cookies
+DAYS = 1.0  # a teacher's session ends after this number of days
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A chapter and its parts, each with its goal."""
+
+    number: str
+    title: str
+    parts: Sequence[tuple[str, str]]
+
+
+@dataclass(frozen=True)
+class Shared:
+    """What all handlers share."""
+
+    service: ClassService
+    prefix: str  # the path of the service, with a slash at both ends
+    chapters: Sequence[Chapter]
+    templates: Environment
+
+
+def application(service: ClassService, prefix: str, secret: str, chapters: Sequence[Chapter]) -> Application:
+    """Return the application; `secret` signs the cookies of teachers."""
+    templates = Environment(
+        loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True
+    )
+    shared = {"shared": Shared(service, prefix, chapters, templates)}
+    return Application(
+        [
+            (prefix, Page, shared),
+            (prefix + r"(page\.js|page\.css)", Asset, shared),
+            (prefix + "changes", Changes, shared),
+            (prefix + "about", About, shared),
+            (prefix + "results", Results, shared),
+            (prefix + "oauth_callback", Callback, shared),
+        ],
+        default_handler_class=Unknown,
+        default_handler_args=shared,
+        cookie_secret=secret,
+        log_function=lambda _handler: None,  # the page and the sender show what is refused
+    )
+
+
+class Handler(RequestHandler):
+    """Adds the policies to each response."""
+
+    def initialize(self, shared: Shared) -> None:
+        """Keep what all handlers share."""
+        self.shared, self.service = shared, shared.service
+
+    def set_default_headers(self) -> None:
+        """Add the policies, also to errors."""
+        self.clear_header("Server")
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+
+    def refuse(self, status: int, reason: str) -> None:
+        """Send an error as one sentence."""
+        self.set_status(status)
+        self.set_header("Content-Type", "text/plain; charset=utf-8")
+        self.finish(f"{reason}\n")
+
+    def write_error(self, status_code: int, **_: object) -> None:
+        """Send an error without details."""
+        self.refuse(status_code, f"{status_code}: {self._reason}.")
+
+    def answer(self, data: dict[str, Plain]) -> None:
+        """Send plain data as JSON."""
+        self.set_header("Content-Type", "application/json")
+        self.finish(json.dumps(data))
+
+    async def student(self) -> str | None:
+        """Return the student whose token the request has; else refuse the request and return None."""
+        token = self.request.headers.get("Authorization", "").removeprefix("token ")
+        try:
+            # No page of a browser sends results.
+            student = None if "Origin" in self.request.headers else await self.service.identity.student(token)
+        except HubUnreachable as error:
+            self.refuse(HTTPStatus.SERVICE_UNAVAILABLE, str(error))
+            return None
+        if student is None:
+            self.refuse(HTTPStatus.FORBIDDEN, "The token is wrong. Ask your teacher for a new one.")
+        return student
+
+
+class Unknown(Handler):
+    """Answers all other addresses."""
+
+    def get(self) -> None:
+        """Send 404."""
+        self.refuse(HTTPStatus.NOT_FOUND, "There is no such page.")
+
+
+class TeacherHandler(Handler):
+    """Refuses requests that are not a teacher's, or that come from another page."""
+
+    async def prepare(self) -> None:
+        """Refuse the request, or lead to the login of the hub."""
+        if (
+            self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
+            and self.request.path != self.shared.prefix
+        ):
+            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from another page.")
+            return
+        given = self.get_query_argument("token", "")
+        kept = (self.get_signed_cookie(SESSION, max_age_days=DAYS) or b"").decode()
+        identity = self.service.identity
+        try:
+            if kept and await identity.is_teacher(kept):
+                return
+            if given and not isinstance(identity, HubIdentity) and await identity.is_teacher(given):
+                self.enter(given)
+                return
+        except HubUnreachable as error:
+            self.refuse(HTTPStatus.SERVICE_UNAVAILABLE, str(error))
+            return
+        if isinstance(identity, HubIdentity) and self.request.path == self.shared.prefix:
+            state = secrets.token_urlsafe(24)
+            self.keep(STATE, state)
+            self.redirect(identity.login_url(state))
+            return
+        self.refuse(HTTPStatus.FORBIDDEN, "Open the address that `course class` printed, with its token.")
+
+    def enter(self, token: str) -> None:
+        """Keep a teacher's token in a cookie, and open the page without a token in its address."""
+        self.keep(SESSION, token)
+        self.redirect(self.shared.prefix)
+
+    def keep(self, name: str, value: str) -> None:
+        """Set a signed cookie, which scripts cannot read."""
+        secure = self.request.headers.get("X-Forwarded-Proto", self.request.protocol) == "https"
+        self.set_signed_cookie(
+            name,
+            value,
+            expires_days=None,
+            path=self.shared.prefix,
+            httponly=True,
+            samesite="Lax",
+            secure=secure,
+        )
+
+
+class Page(TeacherHandler):
+    """The page."""
+
+    async def get(self) -> None:
+        """Send the page."""
+        template = self.shared.templates.get_template("page.html")
+        settings = self.service.settings
+        self.finish(template.render(chapters=self.shared.chapters, days=f"{settings.days:g}"))
+
+
+class Asset(TeacherHandler):
+    """The page's script and style sheet."""
+
+    def get(self, name: str) -> None:
+        """Send a file."""
+        self.set_header("Content-Type", f"{ASSETS[name]}; charset=utf-8")
+        self.finish((HERE / name).read_bytes())
+
+
+class Changes(TeacherHandler):
+    """What has changed on the page."""
+
+    async def get(self) -> None:
+        """Wait for a change, and send it."""
+        since = self.get_query_argument("since", "-1")
+        number = int(since) if since.isdecimal() and len(since) < 12 else -1
+        self.answer(await self.service.changes(self.get_query_argument("epoch", ""), number, WAIT))
+
+
+class Callback(TeacherHandler):
+    """The end of a login at the hub."""
+
+    async def prepare(self) -> None:
+        """Refuse nothing: the code in the request is the proof."""
+
+    async def get(self) -> None:
+        """Exchange the code for a token, and open the page."""
+        identity = self.service.identity
+        expected = self.get_signed_cookie(STATE, max_age_days=DAYS) or b""
+        state = self.get_query_argument("state", "").encode()
+        if not isinstance(identity, HubIdentity) or not expected or not hmac.compare_digest(expected, state):
+            self.refuse(HTTPStatus.FORBIDDEN, "The login has expired. Open the page again.")
+            return
+        try:
+            token = await identity.token_for(self.get_query_argument("code", ""))
+            if token and await identity.is_teacher(token):
+                self.enter(token)
+                return
+        except HubUnreachable as error:
+            self.refuse(HTTPStatus.SERVICE_UNAVAILABLE, str(error))
+            return
+        self.refuse(HTTPStatus.FORBIDDEN, "Only a teacher may open this page.")
+
+
+class About(Handler):
+    """What students may know about the service."""
+
+    async def get(self) -> None:
+        """Send the teacher's name, and after how many days results are deleted."""
+        if await self.student() is not None:
+            settings = self.service.settings
+            self.answer({"teacher": settings.teacher, "days": settings.days})
+
+
+class Results(Handler):
+    """Receives the results of a student."""
+
+    async def post(self) -> None:
+        """Store results; answer with the ids that need not be sent again."""
+        if len(self.request.body) > LARGEST:
+            self.refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"A request has at most {LARGEST} bytes.")
+            return
+        if (student := await self.student()) is None:
+            return
+        try:
+            self.answer({"done": list(await self.service.store(student, json.loads(self.request.body)))})
+        except (ValueError, RecursionError) as error:
+            self.refuse(HTTPStatus.BAD_REQUEST, f"The request is not valid: {error}")
+        except TooMany:
+            reason = f"There are {MOST} results of this student already. Ask your teacher to delete them."
+            self.refuse(HTTPStatus.TOO_MANY_REQUESTS, reason)
+        except sqlite3.Error as error:
+            self.refuse(HTTPStatus.INSUFFICIENT_STORAGE, f"The results cannot be stored: {error}.")

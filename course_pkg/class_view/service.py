@@ -1,0 +1,89 @@
+"""The running service: the results, their model, and the teachers and students who may use it."""
+
+from __future__ import annotations
+
+import asyncio
+import sqlite3
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from course_pkg.class_view.identity import Identity
+from course_pkg.class_view.model import ClassModel
+from course_pkg.class_view.results import received
+from course_pkg.class_view.storage import DAY, Storage
+from course_pkg.types.fields import Plain
+
+LOOK = 0.5  # s between two looks for changes by `course class --delete`
+CLEANING = 3600.0  # s between two deletions of old results
+GATHER = 0.1  # s; results that arrive within this time reach the page together
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What a teacher has chosen."""
+
+    teacher: str  # the name that students see
+    days: float  # the results of a student are deleted this many days after the last one
+    names: Mapping[str, str]  # the students' names by their usernames
+
+
+class ClassService:
+    """Stores results, and tells pages when there are new ones."""
+
+    def __init__(self, storage: Storage, identity: Identity, settings: Settings) -> None:
+        self.identity, self.settings = identity, settings
+        self._storage = storage
+        self._cleaned = time.monotonic()
+        self._changed = asyncio.Condition()
+        storage.delete_old(settings.days)
+        self._seen = storage.changes_by_others()
+        self.model = ClassModel(settings.names, storage.read())
+
+    async def store(self, student: str, data: object) -> list[str]:
+        """Store the results in `data`; return the ids of the results that need not be sent again.
+
+        Raises ValueError, TooMany, or sqlite3.Error if they cannot be stored.
+        """
+        now = time.time()
+        results, ids = received(student, data, now, now - self.settings.days * DAY)
+        self.model.add(self._storage.add(results))
+        await self._tell()
+        return ids
+
+    async def changes(self, epoch: str, since: int, timeout: float) -> dict[str, Plain]:
+        """Wait at most `timeout` s for a change since version `since`, and return the changes."""
+        async with self._changed:
+            try:
+                await asyncio.wait_for(self._changed.wait_for(lambda: self._is_new(epoch, since)), timeout)
+            except asyncio.TimeoutError:
+                return self.model.changes(epoch, since)
+        await asyncio.sleep(GATHER)
+        return self.model.changes(epoch, since)
+
+    async def watch(self) -> None:
+        """Delete old results, and read the database again when another process has changed it."""
+        while True:
+            await asyncio.sleep(LOOK)
+            try:
+                await self._refresh()
+            except sqlite3.Error:
+                continue  # the database is busy, or the disk is full; the next look tries again
+
+    async def _refresh(self) -> None:
+        deleted = 0
+        if time.monotonic() - self._cleaned > CLEANING:
+            deleted = self._storage.delete_old(self.settings.days)
+            self._cleaned = time.monotonic()
+        seen = self._storage.changes_by_others()
+        if deleted or seen != self._seen:
+            self._seen = seen
+            self.model = ClassModel(self.settings.names, self._storage.read())
+            await self._tell()
+
+    def _is_new(self, epoch: str, since: int) -> bool:
+        return epoch != self.model.epoch or since < self.model.version
+
+    async def _tell(self) -> None:
+        async with self._changed:
+            self._changed.notify_all()

@@ -1,0 +1,94 @@
+"""The outbox: one file for each result of a check that the class service has not stored yet."""
+
+from __future__ import annotations
+
+import json
+import os
+import secrets
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from course_pkg.state import state_folder, write_json
+
+FOLDER = "class-outbox"
+LONGEST_HINT = 500  # characters
+LARGEST = 20_000  # bytes of a file; `put` writes less
+KEPT = 30 * 86_400  # s; older results are deleted without being sent
+
+
+class Outbox:
+    """The results that are not stored by the service yet. The name of a file is the id of its result."""
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self.folder = folder or state_folder() / FOLDER
+
+    def put(self, report: Mapping[str, object]) -> str:
+        """Add the result of a check; return a message if the disk cannot be written, or "".
+
+        The result contains the part, the verdict, the time and the hint. It contains neither the student's
+        code nor its values.
+        """
+        name = f"{time.time_ns():020}-{secrets.token_hex(4)}"
+        shared = {
+            "id": name,
+            "check": report.get("check"),
+            "verdict": report.get("verdict"),
+            "time": time.time(),
+            "hint": _hint(report),
+        }
+        try:
+            write_json(self.folder / f"{name}.json", shared)
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or error
+            return (
+                f"This result is not shared with your teacher, because {self.folder} cannot be written "
+                f"({reason})."
+            )
+        return ""
+
+    def first(self, most: int) -> list[dict[str, object]]:
+        """Return the oldest results, at most `most`; delete files that `put` has not written.
+
+        Raises OSError if the folder cannot be read.
+        """
+        try:
+            names = sorted(entry.name for entry in os.scandir(self.folder) if entry.name[0] != ".")
+        except FileNotFoundError:
+            return []
+        found: list[dict[str, object]] = []
+        for name in names:
+            if len(found) == most:
+                break
+            path = self.folder / name
+            if (data := _read(path)) is None:
+                path.unlink(missing_ok=True)
+            else:
+                found.append(data)
+        return found
+
+    def remove(self, ids: Sequence[str]) -> None:
+        """Delete results that the service has stored. Raises OSError."""
+        for each in ids:
+            (self.folder / f"{each}.json").unlink(missing_ok=True)
+
+
+def _hint(report: Mapping[str, object]) -> str:
+    """Return the hint of the first assertion that does not hold, or this assertion's text; "" if all hold."""
+    assertions = report.get("assertions")
+    for each in assertions if isinstance(assertions, Sequence) else ():
+        if not each["holds"]:
+            return str(each.get("hint") or each.get("text"))[:LONGEST_HINT]
+    return ""
+
+
+def _read(path: Path) -> dict[str, object] | None:
+    """Return the result in a file; None if the file is too old or contains no result."""
+    try:
+        status = path.stat()
+        if status.st_size > LARGEST or time.time() - status.st_mtime > KEPT:
+            return None
+        data = json.loads(path.read_text("utf-8"))
+    except (ValueError, RecursionError):
+        return None
+    return data if isinstance(data, dict) and f"{data.get('id')}.json" == path.name else None

@@ -1,0 +1,90 @@
+"""Measures how long a result takes from a student's outbox to the teacher's page, in a browser.
+
+usage: ./course run python tests/bench/class_view.py live
+"""
+
+from __future__ import annotations
+
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from pathlib import Path
+
+from commands import run_command
+
+from course_pkg.lab.jupyterlab import free_port
+from course_pkg.sharing.outbox import FOLDER, Outbox
+from course_pkg.sharing.sender import Sender
+from tests.browser.chromium import chromium
+from tests.class_view.classes import tokens_in
+from tests.support import eventually
+
+STUDENTS = 60
+RATE = 10  # results per second
+SECONDS = 30
+PARTS = ("05.1", "05.2", "05.3", "05.4")
+VERDICTS = ("passed", "not yet", "not yet")
+# Notes the time, in ms since 1970, of the frame after each new version of the page.
+WATCH = """
+() => {
+  window.shown = [];
+  new MutationObserver(() => {
+    const version = Number(document.body.dataset.version);
+    requestAnimationFrame(() => setTimeout(() => window.shown.push([version, Date.now()])));
+  }).observe(document.body, { attributes: true, attributeFilter: ["data-version"] });
+}
+"""
+
+
+def live() -> None:
+    """Print the median, the 95th percentile and the maximum: 60 senders, 10 results per second."""
+    choice = random.Random(60)  # noqa: S311 -- a class, not secrets
+    with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
+        data, port = Path(folder, "data"), free_port()
+        command = [sys.executable, "-m", "course_pkg.cli", "class", "--data", data]
+        command += ["--students", str(STUDENTS), "--port", str(port)]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as service, chromium() as browser:
+            assert service.stdout
+            page = browser.new_page()
+            page.goto(service.stdout.readline().split()[-1])
+            page.wait_for_function("document.body.dataset.version !== undefined")
+            page.evaluate(WATCH)
+            senders = [
+                Sender(f"http://127.0.0.1:{port}", token, Outbox(Path(folder, student, FOLDER)), print)
+                for student, token in tokens_in(data).items()
+            ]
+            threads = [threading.Thread(target=sender.run) for sender in senders]
+            for thread in threads:
+                thread.start()
+            written: list[float] = []
+            outboxes = [Outbox(Path(folder, student, FOLDER)) for student in tokens_in(data)]
+            began = time.monotonic()
+            while (now := time.monotonic()) < began + SECONDS:
+                report = {"check": choice.choice(PARTS), "verdict": choice.choice(VERDICTS)}
+                assertions = [{"text": "area", "holds": False, "hint": choice.choice("ABCDEFG") * 40}]
+                choice.choice(outboxes).put({**report, "assertions": assertions})
+                written.append(time.time() * 1000)
+                time.sleep(max(0.0, began + len(written) / RATE - now))
+            eventually(lambda: page.evaluate("Number(document.body.dataset.version)") == len(written))
+            shown = page.evaluate("window.shown")
+            for sender in senders:
+                sender.stopped.set()
+            for thread in threads:
+                thread.join(20)
+            service.kill()
+    # Results may overtake each other, so the n-th result counts as shown when n results are shown.
+    times = sorted(
+        next(when for version, when in shown if version > number) - put for number, put in enumerate(written)
+    )
+    print(
+        f"{len(times)} results of {STUDENTS} students to the page: median {statistics.median(times):.0f} ms, "
+        f"95 % {times[int(0.95 * len(times))]:.0f} ms, maximum {times[-1]:.0f} ms"
+    )
+
+
+if __name__ == "__main__":
+    run_command({"live": live})

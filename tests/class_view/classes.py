@@ -1,0 +1,115 @@
+"""A running class view with a class, and the requests of students and teachers."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import threading
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from tornado.httpserver import HTTPServer
+from tornado.ioloop import IOLoop
+from tornado.netutil import bind_sockets
+
+from course_pkg.class_view.command import every_chapter
+from course_pkg.class_view.identity import Identity, LocalIdentity
+from course_pkg.class_view.pages import application
+from course_pkg.class_view.service import ClassService, Settings
+from course_pkg.class_view.storage import Storage
+from course_pkg.class_view.tokens import FILE, Tokens
+
+TEACHER = "secret"  # the teacher's token, which only this test's server knows
+NASTY = "</span><img src=x onerror=alert(1)>"
+
+
+def tokens_in(folder: Path) -> dict[str, str]:
+    """Return the token of each student by the username."""
+    lines = (folder / FILE).read_text().splitlines()[1:]
+    return {line.split(",")[0]: line.split(",")[-1] for line in lines}
+
+
+def result(name: str, check: str = "05.1", verdict: str = "not yet", **more: object) -> dict[str, object]:
+    """Return a result as a student's server sends it."""
+    return {"id": name, "check": check, "verdict": verdict, "time": time.time(), "hint": "", **more}
+
+
+@contextmanager
+def serving(folder: Path, students: int = 3, identity: Identity | None = None) -> Iterator[str]:
+    """Run a class view in a thread; yield its address without the token and without a slash at its end."""
+    tokens = Tokens(folder / FILE)
+    tokens.complete({f"s{number:02}": f"Student {number:02} {NASTY}" for number in range(1, students + 1)})
+    (listening,) = bind_sockets(0, "127.0.0.1")
+    ready, loops = threading.Event(), list[IOLoop]()
+
+    def serve() -> None:
+        loop = IOLoop(make_current=True)
+        storage = Storage(folder)
+        settings = Settings("Dr. Ada", 30.0, tokens.names)
+        service = ClassService(storage, identity or LocalIdentity(tokens, TEACHER), settings)
+        server = HTTPServer(application(service, "/", "signs cookies", every_chapter()))
+        server.add_socket(listening)
+        loops.append(loop)
+        watching = loop.asyncio_loop.create_task(service.watch())  # type: ignore[attr-defined]
+        loop.add_callback(ready.set)
+        loop.start()
+        watching.cancel()
+        loop.run_sync(lambda: asyncio.wait([watching]))
+        server.stop()
+        storage.close()
+        loop.close(all_fds=True)
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    assert ready.wait(20)
+    try:
+        yield f"http://127.0.0.1:{listening.getsockname()[1]}"
+    finally:
+        loops[0].add_callback(loops[0].stop)
+        thread.join(10)
+
+
+class Kept(urllib.request.HTTPRedirectHandler):
+    """Follows no redirect."""
+
+    def redirect_request(self, *_: object) -> None:
+        """Return no new request."""
+
+
+def ask(url: str, data: object = None, **headers: str) -> tuple[int, str, dict[str, str]]:
+    """Send a request; return the status, the text and the headers of the response."""
+    body = None if data is None else data if isinstance(data, bytes) else json.dumps(data).encode()
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    request = urllib.request.Request(url, body, named)  # noqa: S310 -- our own server
+    try:
+        with urllib.request.build_opener(Kept).open(request, timeout=30) as response:
+            return response.status, response.read().decode(), dict(response.headers)
+    except urllib.error.HTTPError as error:
+        with error:
+            return error.code, error.read().decode(), dict(error.headers)
+
+
+def send(url: str, token: str, *results: dict[str, object]) -> tuple[int, str]:
+    """Send results as a student's server does; return the status and the text of the response."""
+    return ask(f"{url}/results", {"results": results}, Authorization=f"token {token}")[:2]
+
+
+def enter(url: str, token: str = TEACHER) -> str:
+    """Open the page as a teacher; return the cookie."""
+    status, _, headers = ask(f"{url}/?token={token}")
+    assert (status, headers["Location"]) == (302, "/")
+    assert "HttpOnly" in headers["Set-Cookie"]
+    return headers["Set-Cookie"].partition(";")[0]
+
+
+def changes(url: str, cookie: str, epoch: str = "", since: int = -1) -> dict[str, object]:
+    """Return what the page gets."""
+    status, text, _ = ask(f"{url}/changes?epoch={epoch}&since={since}", Cookie=cookie)
+    assert status == 200, text
+    found = json.loads(text)
+    assert isinstance(found, dict)
+    return found
