@@ -17,6 +17,7 @@ from course_pkg.authoring import commands as authoring
 from course_pkg.errors import CourseError
 from course_pkg.grading import commands as grading
 from course_pkg.handout import commands as handout
+from course_pkg.hub import commands as hub
 from course_pkg.lab import commands as lab
 from course_pkg.overview import commands as overview
 from course_pkg.setup import commands as setup
@@ -33,6 +34,7 @@ COMMANDS: dict[str, Command] = {
     **authoring.COMMANDS,
     **grading.COMMANDS,
     **handout.COMMANDS,
+    **hub.COMMANDS,
     **site.COMMANDS,
     **setup.COMMANDS,
 }
@@ -104,7 +106,7 @@ def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
     if os.environ.get(INSIDE) == str(places.python):
         return
     sandbox = "grade" in command.needs and UNSAFE not in arguments
-    ensure(places, grade=sandbox, test="test" in command.needs)
+    ensure(places, grade=sandbox, hub="hub" in command.needs, test="test" in command.needs)
     environment.apply(places)
     if "libraries" in command.needs:
         os.environ[INSIDE] = str(places.python)

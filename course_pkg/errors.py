@@ -33,6 +33,7 @@ CourseError
 │   ├── SandboxUnavailable: this machine cannot isolate a submission
 │   └── WorkerFailed: the process that runs submissions ended, or did not start
 ├── HandoutError: an edition for students cannot be made, or work cannot be collected
+├── HubError: a JupyterHub for a class cannot be set up
 ├── PanelError: a panel cannot do what a cell asks for
 │   ├── NoServiceSelected: no service is selected, or the selected service has no form
 │   ├── CallInProgress: the panel is already making a call
@@ -242,6 +243,10 @@ class WorkerFailed(GradingError):
 
 class HandoutError(CourseError):
     """An edition for students cannot be made, or students' work cannot be collected."""
+
+
+class HubError(CourseError):
+    """A JupyterHub for a class cannot be set up, or a student's server cannot start."""
 
 
 class PanelError(CourseError):
