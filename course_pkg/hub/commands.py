@@ -17,7 +17,7 @@ def _hub(options: SimpleNamespace) -> int:
 
     given = {name: value for name, value in vars(options).items() if name not in ("command", "new_password")}
     if options.new_password:
-        return renew_password(options.new_password)
+        return renew_password(options.new_password, options.data)
     return serve_hub(Options(**given))
 
 
@@ -52,6 +52,9 @@ def _hub_arguments(parser: ArgumentParser) -> None:
         default=500,
         metavar="N",
         help="the limit of processes and threads for each student (500)",
+    )
+    parser.add_argument(
+        "--data", type=Path, metavar="DIR", help="the folder of the hub's passwords, database and log"
     )
 
 

@@ -42,6 +42,7 @@ class Options:
     without_accounts: Path | None
     memory: int  # MiB
     processes: int
+    data: Path | None = None
 
 
 def serve_hub(options: Options) -> int:
@@ -50,7 +51,8 @@ def serve_hub(options: Options) -> int:
     Raises HubError or HandoutError, before anything is started, if an option or the machine does not fit.
     """
     places = Places.of()
-    state = _state(places)
+    base = data_folder(places, options.data)
+    state = _private(base)
     students = read_students(options.users)
     everybody = [*dict.fromkeys([*students, *filter(None, [options.teacher])])]
     check_names(everybody)
@@ -63,7 +65,7 @@ def serve_hub(options: Options) -> int:
         cert, key = _certificate(options, state)
         port = free_port(options.ip, PORTS if options.port is None else [options.port])
         url = f"http{'s' if cert else ''}://{_in_url(options.ip)}:{port}"
-        repository = places.cache / "released" / "ros-course"
+        repository = base / "released" / "ros-course"
         write_repository(places, repository)
         settings = Settings(
             state=str(state),
@@ -96,18 +98,24 @@ def serve_hub(options: Options) -> int:
         return _run(places, settings)
 
 
-def renew_password(user: str) -> int:
+def renew_password(user: str, data: Path | None) -> int:
     """Print a new one-time password for `user`, which a running hub accepts at once, and return 0."""
     check_names([user])
-    state = _state(Places.of())
+    state = _private(data_folder(Places.of(), data))
     issued = Passwords(state / "passwords.json").issue([user], again=True)
     add_to_table(state / "passwords.csv", issued)
     sys.stdout.write(f"{issued[user]}\n")
     return 0
 
 
-def _state(places: Places) -> Path:
-    folder = places.cache / "hub"
+def data_folder(places: Places, given: Path | None) -> Path:
+    """Return the folder of the hub's data. Students can read it, except for `private`."""
+    return (given or places.cache / "hub").absolute()
+
+
+def _private(data: Path) -> Path:
+    """Return the folder for passwords, keys and the database, which only the hub can read."""
+    folder = data / "private"
     try:
         folder.mkdir(parents=True, exist_ok=True)
         folder.chmod(0o700)
