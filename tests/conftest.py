@@ -53,6 +53,14 @@ def _place(item: pytest.Item) -> int:
     return 1 if item.path.match(NOTEBOOKS) else 2 if item.path.match("tests/site/*") else 3
 
 
+@pytest.fixture(scope="session", autouse=True)
+def state_home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Keep the state and the graphs of this worker's commands separate from all others."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
+        yield
+
+
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
     """Start one browser for all tests of a worker."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import signal
 import socket
 import sys
@@ -19,7 +20,8 @@ from typing import NamedTuple, NoReturn
 from urllib.parse import SplitResult, quote, urlsplit
 
 from course_pkg.errors import CourseError, PortBusy, SetupError
-from course_pkg.lab.master import starting_master
+from course_pkg.lab.graph.graph import Graph, Which, enter, graph_of_this_command
+from course_pkg.lab.graph.notes import notes
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
@@ -28,13 +30,17 @@ HERE = Path(__file__).parent
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ones, and 0 means any free port
 READY = 60.0  # time limit for the start in s; it takes 2 s, or much longer with an empty disk cache
 LOOK = 0.01  # s between two checks whether the server answers
+SHELL = ["bash", "--rcfile", str(HERE / "bashrc")]
 KEPT_LINES = 12  # number of lines of the server's log in an error message
 # The file name of jupyterlab_server's workspace "default": the name, and the first digits of its SHA-256.
 WORKSPACE = "default-37a8.jupyterlab-workspace"
 
 
-def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) -> int:
+def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, shared: bool = False) -> int:
     """Run JupyterLab until Ctrl-C or SIGTERM; open the notebook at `asked`, or the first chapter.
+
+    The kernels and terminals are on a graph in a private network, or in the network of this computer if
+    `shared` is true. The server is always in the network of this computer.
 
     Returns 0, or the server's exit status if the server ends by itself. Raises SetupError if JupyterLab
     cannot open the notebook, PortBusy if it cannot listen at the address, and CourseError if the server does
@@ -44,23 +50,28 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) ->
     notebook = _notebook(places.checkout, asked)
     _make_workspace()
     chosen = free_port(ip, PORTS if port is None else [port])
-    with _stopping_on_signals(), tempfile.TemporaryDirectory(prefix="course-lab-") as folder:
+    which = Which.SHARED if shared else Which.RUNNING if os.environ.get("ROS_MASTER_URI") else Which.NEW
+    with (
+        _stopping_on_signals(),
+        tempfile.TemporaryDirectory(prefix="course-lab-", dir=_short_folder()) as folder,
+        graph_of_this_command(which) as graph,
+    ):
         scratch = Path(folder)
         _write_workspace(scratch / "workspaces", notebook)
-        settings = _settings(places, ip, chosen, scratch)
+        settings = _settings(places, ip, chosen, scratch) | _in_network(graph)
         # An author opens a notebook in solutions/, and needs to see all files of the checkout.
         settings["CourseContents.everything"] = bool(notebook) and not notebook.startswith("notebooks/")
         if port is not None:
             settings["ServerApp.port_retries"] = 0
-        with (
-            starting_master(free_port()) as wait_for_master,
-            _server(places, settings, scratch) as server,
-        ):
+        with _server(places, settings, scratch) as server:
             try:
                 address = _await_server(server, scratch)
                 _start_kernel(address, notebook)
                 _announce(address, notebook, places.checkout, browser)
-                wait_for_master()
+                if graph:
+                    graph.wait_for_master()
+                    sys.stdout.write(notes(graph, which))
+                    sys.stdout.flush()
                 while not server.wait(3600):
                     pass
             except _Stop:
@@ -168,7 +179,7 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
         "ServerApp.jpserver_extensions": {"course_pkg.lab.extension": True},
-        "ServerApp.terminado_settings": {"shell_command": ["bash", "--rcfile", str(HERE / "bashrc")]},
+        "ServerApp.terminado_settings": {"shell_command": SHELL},
         "ServerApp.contents_manager_class": "course_pkg.lab.extension.CourseContents",
         "ContentsManager.checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints",
         "CachedCheckpoints.folder": checkpoints,
@@ -178,6 +189,30 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
         "LabApp.cache_files": True,  # The names of the front end's files change when their content changes.
         "LabApp.extension_manager": "readonly",
     }
+
+
+def _in_network(graph: Graph | None) -> dict[str, object]:
+    """Return the settings with which kernels and terminals start in the graph's private network.
+
+    The server, which is outside, can reach a kernel only by sockets that are files (transport "ipc").
+    """
+    command = enter(graph)
+    if not command:
+        return {}
+    return {
+        "AsyncMappingKernelManager.kernel_manager_class": "course_pkg.lab.graph.kernels.GraphKernelManager",
+        "GraphKernelManager.enter": shlex.join(command),
+        "GraphKernelManager.transport": "ipc",
+        "ServerApp.terminado_settings": {"shell_command": [*command, *SHELL]},
+    }
+
+
+def _short_folder() -> str | None:
+    """Return a folder for temporary files whose name is short enough for the names of a kernel's sockets.
+
+    The name of such a socket has 80 more bytes, and may have at most 107. None means the usual folder.
+    """
+    return None if len(os.fsencode(tempfile.gettempdir())) <= 27 else "/tmp"  # noqa: S108 -- a folder of mode 700 in it
 
 
 def _user_settings() -> Path:

@@ -1,13 +1,16 @@
-"""`course run`: runs a command in the course's environment, with a private master."""
+"""`course run`: runs a command in the course's environment, on the graph that is running or on a new one."""
 
 from __future__ import annotations
 
 import signal
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from course_pkg.lab.master import master_of_this_command
+from course_pkg.lab.graph import network
+from course_pkg.lab.graph.graph import Which, graph_of_this_command
+from course_pkg.lab.graph.notes import notes
 from course_pkg.ros.process.supervised import SupervisedProcess
 
 BASHRC = Path(__file__).with_name("bashrc")
@@ -22,15 +25,21 @@ SANITIZE = Path(__file__).parents[1] / "authoring" / "nbval_sanitize.cfg"
 AWAITED = {signal.SIGCHLD, signal.SIGINT, signal.SIGTERM, signal.SIGHUP}
 
 
-def run_command(command: Sequence[str]) -> int:
-    """Run `command`, end its background processes, and return its exit status.
+def run_command(command: Sequence[str], which: Which = Which.RUNNING) -> int:
+    """Run `command` on a graph, end its background processes, and return its exit status.
 
-    The status is 128 + n if signal n ended the command. Raises GraphError if the command cannot be started.
+    The status is 128 + n if signal n ended the command. Raises GraphError if the graph or the command cannot
+    be started.
     """
     if list(command) == ["bash"]:
         command = ["bash", "--rcfile", str(BASHRC)]
     command = _with_plugins(command)
-    with master_of_this_command(), _signals_held_back():
+    with graph_of_this_command(which) as graph, _signals_held_back():
+        if graph:
+            graph.wait_for_master()
+            network.enter(graph.files)
+            if sys.stderr.isatty():
+                sys.stderr.write(notes(graph, which))
         process = SupervisedProcess(command, foreground=True)
         status = _wait(process)
     return 128 - status if status < 0 else status

@@ -135,6 +135,11 @@ def be_unreadable() -> None:
     _done(_libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0), "prctl")
 
 
+def be_readable() -> None:
+    """Allow other processes of this user to read this process in /proc again."""
+    _done(_libc.prctl(PR_SET_DUMPABLE, 1, 0, 0, 0), "prctl")
+
+
 def give_up_privileges() -> None:
     """Drop all capabilities; programs that this process executes cannot get them back."""
     for number in range(CAPABILITIES):

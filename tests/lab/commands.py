@@ -89,6 +89,31 @@ def having(pattern: bytes, pids: list[int]) -> list[int]:
     return found
 
 
+def network_of(pid: int) -> list[str]:
+    """Return the start of a command that runs in the network of a process."""
+    other = [kind for kind in ("user", "net") if os.readlink(f"/proc/{pid}/ns/{kind}") != own_namespace(kind)]
+    return ["nsenter", "-t", str(pid), *(f"--{kind}" for kind in other), "--preserve-credentials", "--"]
+
+
+def own_namespace(kind: str) -> str:
+    """Return the name of this process's namespace of a kind, such as net."""
+    return os.readlink(f"/proc/self/ns/{kind}")
+
+
+def listening(pids: list[int]) -> set[tuple[str, int]]:
+    """Return the IPv4 addresses and ports on which processes listen, in whichever network they are."""
+    found = set()
+    for pid in pids:
+        with suppress(OSError):  # the process may have ended
+            files = {os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()}
+            for line in Path(f"/proc/{pid}/net/tcp").read_text().splitlines()[1:]:
+                words = line.split()
+                if words[3] == "0A" and f"socket:[{words[9]}]" in files:
+                    host, port = words[1].split(":")
+                    found.add((socket.inet_ntoa(bytes.fromhex(host)[::-1]), int(port, 16)))
+    return found
+
+
 def can_connect(port: int) -> bool:
     """Return whether a program listens on a port of this host."""
     with socket.socket() as client:

@@ -9,18 +9,16 @@ import socket
 import subprocess
 import time
 from collections.abc import Iterator
-from contextlib import suppress
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 from urllib.request import Request, urlopen
 
-import psutil
 import pytest
 
 from course_pkg.lab.jupyterlab import free_port
 from course_pkg.ros.process.supervised import listening_ports
 from course_pkg.types.fields import Plain
-from tests.lab.commands import ROOT, address_of, all_gone, below, can_connect, having, lab, running
+from tests.lab.commands import ROOT, address_of, all_gone, below, can_connect, having, lab, listening, running
 from tests.support import eventually
 
 
@@ -115,17 +113,7 @@ def test_nothing_listens_beyond_this_host(served: Service) -> None:
     eventually(served.kernels)
     family = [served.process.pid, *below(served.process)]
     assert served.port in listening_ports(served.process.pid)
-    assert foreign_sockets(family) == []
-
-
-def foreign_sockets(pids: list[int]) -> list[tuple[str, int]]:
-    """Return the addresses other than 127.0.0.1 on which the processes listen."""
-    found = []
-    for pid in pids:
-        with suppress(psutil.Error):  # the process may have ended
-            sockets = psutil.Process(pid).net_connections("inet")
-            found += [sock.laddr for sock in sockets if sock.status == psutil.CONN_LISTEN]
-    return [address for address in found if address.ip != "127.0.0.1"]
+    assert {host for host, _ in listening(family)} == {"127.0.0.1"}
 
 
 def test_a_checkpoint_is_kept_outside_of_the_checkout(served: Service, notebook: str) -> None:

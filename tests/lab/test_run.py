@@ -49,14 +49,6 @@ def test_an_unknown_command_is_refused() -> None:
     )
 
 
-def test_each_command_has_a_master_of_its_own_on_this_host_only() -> None:
-    """Two commands have masters at different addresses, and ROS_HOSTNAME is localhost."""
-    script = "rosnode list; echo $ROS_MASTER_URI $ROS_HOSTNAME"
-    first, second = (course_run("sh", "-c", script).stdout.split() for _ in range(2))
-    assert first[::2] == second[::2] == ["/rosout", "localhost"]
-    assert first[1] != second[1]
-
-
 def test_a_master_that_the_user_names_is_used() -> None:
     """If ROS_MASTER_URI is set, no master is started, and the variable does not change."""
     assert (

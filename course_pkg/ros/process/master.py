@@ -69,7 +69,7 @@ class PrivateMaster:
         ports.
         """
         for _ in range(1 if self._port_wanted else ATTEMPTS):
-            self.port = _free_port(self._port_wanted)
+            self.port = free_port(self._port_wanted)
             if self._try():
                 return self
         if self._port_wanted:
@@ -139,7 +139,8 @@ def _pid(client: MasterClient) -> int:
     return 0
 
 
-def _free_port(asked: int | None) -> int:
+def free_port(asked: int | None = None) -> int:
+    """Return `asked`, or any free port of 127.0.0.1; raises PortBusy if `asked` is in use."""
     with socket.socket() as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:

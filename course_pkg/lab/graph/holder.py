@@ -1,0 +1,120 @@
+"""The process that owns a graph: its private network, its master, and the node /rosout.
+
+usage: holder.py LISTENER SOCKET KIND
+
+LISTENER is the descriptor of a listening Unix socket, SOCKET is its path, and KIND is "private" or "shared".
+`graph.py` runs this file as a script. Each command that uses the graph has a connection to the socket, until
+the command leaves the graph or ends, even by SIGKILL. When the last connection is closed, the holder ends the
+graph. No process id has to be checked: the operating system closes the connections of a process that has
+ended, and it refuses new connections to a holder that has ended.
+
+The holder sends a line of JSON with the open files of the namespaces to each command. It sends a second line
+when the master answers, or cannot be started. When a command has left, the holder closes its connection: at
+once if other commands use the graph, otherwise when it has ended the graph and sent LAST.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import selectors
+import socket
+import sys
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from course_pkg.lab.graph.outgoing import Outgoing
+    from course_pkg.ros.process.roscore import Roscore
+
+COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
+LAST = b"ended"  # the last command receives this when the graph has ended
+PORT = 11311  # the usual port of a master
+FIRST = 30.0  # s; the command that started this holder connects within this time
+
+
+class Holder:
+    """Owns the network and the master of one graph."""
+
+    def __init__(self, listener: socket.socket, path: str, *, private: bool) -> None:
+        from course_pkg.ros.process.master import free_port
+        from course_pkg.ros.process.roscore import Roscore
+
+        self._listener, self._path = listener, path
+        self._files: list[int] = []
+        self._outgoing: Outgoing | None = None
+        self._ready = b""
+        reason = self._enter_network() if private else ""
+        self._master: Roscore = Roscore(PORT if self._files else free_port())
+        self._greeting = _line(uri=self._master.uri, reason=reason)
+
+    def run(self) -> None:
+        """Serve commands until the last one has left; then end the graph."""
+        from course_pkg.errors import CourseError
+
+        self._listener.settimeout(FIRST)
+        first = self._accept()
+        failure = ""
+        try:
+            self._master.start()
+        except CourseError as error:
+            failure = str(error)
+        self._ready = _line(failure=failure, outgoing=bool(self._outgoing and self._outgoing.works()))
+        with suppress(OSError):
+            first.sendall(self._ready)
+        self._last = self._serve(first)
+        with suppress(OSError):
+            os.unlink(self._path)
+        self._listener.close()
+        self._master.stop()
+        if self._outgoing:
+            self._outgoing.end()
+        with suppress(OSError):
+            self._last.sendall(LAST)
+        # This connection closes when this process has ended.
+
+    def _enter_network(self) -> str:
+        """Enter a new private network; return the reason if this machine does not allow one."""
+        from course_pkg.lab.graph import network, outgoing
+
+        try:
+            self._files = network.create()
+            self._outgoing = outgoing.Outgoing.start(self._files)
+            network.enter(self._files)
+        except OSError as error:
+            return str(error)
+        return ""
+
+    def _accept(self) -> socket.socket:
+        command, _ = self._listener.accept()
+        with suppress(OSError):  # the command may have ended
+            socket.send_fds(command, [self._greeting + self._ready], self._files)
+        return command
+
+    def _serve(self, first: socket.socket) -> socket.socket:
+        """Accept commands, and close the connections of those that leave; return the last connection."""
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._listener, selectors.EVENT_READ)
+            selector.register(first, selectors.EVENT_READ)
+            while True:
+                for key, _ in selector.select():
+                    ready = key.fileobj
+                    assert isinstance(ready, socket.socket)
+                    if ready is self._listener:
+                        selector.register(self._accept(), selectors.EVENT_READ)
+                        continue
+                    selector.unregister(ready)
+                    if len(selector.get_map()) == 1:
+                        return ready
+                    ready.close()
+
+
+def _line(**facts: object) -> bytes:
+    return json.dumps(facts).encode() + b"\n"
+
+
+if __name__ == "__main__":
+    sys.path.insert(0, COURSE)
+    with socket.socket(fileno=int(sys.argv[1])) as given:
+        given.set_inheritable(False)
+        Holder(given, sys.argv[2], private=sys.argv[3] == "private").run()

@@ -1,0 +1,89 @@
+"""A private network, as open files of Linux namespaces that other processes can enter.
+
+Programs in a private network can connect only to each other. Their ports and abstract sockets do not exist
+for other users, or for other networks of the same user. root needs only a network namespace. Other users also
+need a user namespace; in it, each user keeps the own name and the rights on files, but has no other user's
+rights, so `sudo` does not work there. See network_namespaces(7) and user_namespaces(7).
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+from collections.abc import Sequence
+from typing import NoReturn
+
+from course_pkg.sandbox import namespaces
+
+ENTER = "nsenter"  # a program of util-linux
+KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}  # by the number of files
+
+
+def create() -> list[int]:
+    """Return open files of a new user namespace, if one is necessary, and of a new network namespace.
+
+    The namespaces exist as long as a process uses them or has one of the files open. Raises OSError, with the
+    reason, if this machine does not allow them.
+    """
+    if not shutil.which(ENTER):
+        raise OSError(f"{ENTER} is not installed")
+    if os.geteuid() == 0:
+        try:
+            return _create(namespaces.NETWORK)
+        except OSError:
+            pass  # root of a container may lack this right, but may still create a user namespace
+    return _create(namespaces.USER | namespaces.NETWORK)
+
+
+def enter(files: Sequence[int]) -> None:
+    """Enter the namespaces of these open files, if any; the calling process must have only one thread."""
+    for file, kind in zip(files, KINDS[len(files)], strict=True):
+        namespaces.enter(file, kind)
+    # A change of the user namespace makes a process unreadable; other programs of the course read /proc/PID.
+    namespaces.be_readable()
+
+
+def entering(files: Sequence[int]) -> list[str]:
+    """Return the start of a command that runs in the namespaces of these open files of the calling process.
+
+    The command works as long as this process has the files open.
+    """
+    paths = [f"/proc/{os.getpid()}/fd/{file}" for file in files]
+    user = [f"--user={paths[0]}"] if len(paths) > 1 else []
+    return [ENTER, *user, f"--net={paths[-1]}", "--preserve-credentials", "--"]
+
+
+def _create(kinds: int) -> list[int]:
+    """Create namespaces in a child process, which sends their files and ends."""
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        child = os.fork()
+        if child == 0:
+            _send(theirs, kinds)
+        theirs.close()
+        reason, files, _, _ = socket.recv_fds(ours, 4096, 2)
+        os.waitpid(child, 0)
+    if not files:
+        raise OSError(reason.decode() or "the reason is unknown")
+    for file in files:
+        os.set_inheritable(file, False)
+    return list(files)
+
+
+def _send(connection: socket.socket, kinds: int) -> NoReturn:
+    try:
+        outside = os.getuid(), os.getgid()
+        namespaces.unshare(kinds)
+        names = ["net"]
+        if kinds & namespaces.USER:
+            namespaces.become(*outside, outside=outside)
+            names = ["user", "net"]
+        namespaces.start_loopback()
+        socket.send_fds(
+            connection, [b"created"], [os.open(f"/proc/self/ns/{name}", os.O_RDONLY) for name in names]
+        )
+    except OSError as error:
+        connection.sendall(str(error.strerror or error).encode())
+    finally:
+        os._exit(0)

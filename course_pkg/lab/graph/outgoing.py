@@ -1,0 +1,60 @@
+"""Connections from a private network to other computers, through slirp4netns.
+
+slirp4netns copies what the network sends to ordinary connections of the user. It accepts no connection from
+outside, and it does not forward to the loopback addresses of this computer, on which other users' servers
+listen. pasta does the same job, but pasta of Debian 12 cannot open a namespace by a descriptor in /proc.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Sequence
+
+from course_pkg.ros.process.supervised import SupervisedProcess
+
+PROGRAM = "slirp4netns"
+DEVICE = "/dev/net/tun"
+OPTIONS = ("--configure", "--mtu=65520", "--disable-host-loopback", "--netns-type=path")
+
+
+class Outgoing:
+    """A running slirp4netns; it ends when this process ends, or earlier."""
+
+    def __init__(self, process: SupervisedProcess, ready: int) -> None:
+        self._process, self._ready = process, ready
+
+    @classmethod
+    def start(cls, files: Sequence[int]) -> Outgoing | None:
+        """Connect the network of these open files; return None if the program is not installed."""
+        if not shutil.which(PROGRAM):
+            return None
+        *user, network = (f"/proc/{os.getpid()}/fd/{file}" for file in files)
+        kept = [f"--userns-path={path}" for path in user]
+        reading, writing = os.pipe()
+        try:
+            command = [PROGRAM, *OPTIONS, *kept, f"--ready-fd={writing}", network, "tap0"]
+            return cls(SupervisedProcess(command, inherit=[writing]), reading)
+        finally:
+            os.close(writing)
+
+    def works(self) -> bool:
+        """Wait until the network is connected, or until slirp4netns has failed; return whether it works."""
+        return os.read(self._ready, 1) == b"1"
+
+    def end(self) -> None:
+        """End the connections."""
+        self._process.end(grace=0)
+
+
+def problem() -> str:
+    """Return what prevents connections to other computers on this computer, or an empty string."""
+    if not shutil.which(PROGRAM):
+        return f"{PROGRAM} is not installed"
+    return "" if os.access(DEVICE, os.R_OK | os.W_OK) else f"{DEVICE} cannot be opened"
+
+
+WITHOUT = (
+    "Programs on this graph, such as `git push` and `pip`, cannot reach other computers ({problem}). "
+    "`./course doctor` says what to do; `--shared-graph` uses the network of this computer."
+)

@@ -1,0 +1,133 @@
+"""Commands start, join and leave graphs."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from course_pkg.errors import GraphError
+from course_pkg.lab.graph.graph import Graph, Which, enter, join_or_start
+from course_pkg.lab.graph.notes import EXPOSED, notes
+from course_pkg.ros.process.supervisor import descendants
+from tests.lab.commands import all_gone, having, own_namespace
+from tests.lab.test_run import course_run
+from tests.support import eventually, terminal
+
+URI = "http://localhost:11311"
+SHOW = "echo $ROS_MASTER_URI; readlink /proc/self/ns/net; rosnode list"
+
+
+@pytest.fixture
+def graph(tmp_path: Path) -> Iterator[Graph]:
+    """Start a graph in a private network, or skip the test if this machine does not allow one."""
+    started = join_or_start(Which.RUNNING, tmp_path)
+    try:
+        if started.reason:
+            pytest.skip(started.reason)
+        started.wait_for_master()
+        yield started
+    finally:
+        started.leave()
+
+
+def nodes(graph: Graph) -> list[str]:
+    """Return the nodes of a graph."""
+    return terminal(*enter(graph), "rosnode", "list", ROS_MASTER_URI=graph.uri).stdout.split()
+
+
+def sockets(folder: Path) -> list[str]:
+    """Return the sockets of graphs that can be joined."""
+    return [path.name for path in folder.iterdir() if path.is_socket()]
+
+
+def test_the_master_has_the_usual_port_on_each_graph(graph: Graph, tmp_path: Path) -> None:
+    """Two graphs at the same time both have a master at port 11311, and each has only its own nodes."""
+    other = join_or_start(Which.ALONE, tmp_path)
+    other.wait_for_master()
+    assert graph.uri == other.uri == URI
+    assert nodes(graph) == nodes(other) == ["/rosout"]
+    command = [*enter(other), "env", f"ROS_MASTER_URI={URI}", "rosparam", "set", "/here", "1"]
+    assert terminal(*command).returncode == 0
+    listed = [
+        terminal(*enter(each), "rosparam", "list", ROS_MASTER_URI=URI).stdout for each in (graph, other)
+    ]
+    assert ["/here" in text for text in listed] == [False, True]
+    other.leave()
+
+
+def test_a_graph_ends_with_its_last_command(graph: Graph, tmp_path: Path) -> None:
+    """A second command joins; the graph continues without the first one, and ends with the last one."""
+    second = join_or_start(Which.RUNNING, tmp_path)
+    second.wait_for_master()
+    processes = of_graphs(tmp_path)
+    assert processes
+    graph.leave()
+    assert nodes(second) == ["/rosout"]
+    second.leave()
+    assert all_gone(processes)
+    assert sockets(tmp_path) == []
+
+
+def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
+    """A later command joins the graph that is running, and not a newer one of --new-graph."""
+    alone = join_or_start(Which.ALONE, tmp_path)
+    later = join_or_start(Which.RUNNING, tmp_path)
+    names = [os.fstat(each.files[-1]).st_ino for each in (graph, alone, later)]
+    assert names[0] == names[2] != names[1]
+    alone.leave()
+    later.leave()
+
+
+def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
+    """After SIGKILL of the holder, the master ends, and the next command starts a new graph."""
+    processes = of_graphs(tmp_path)
+    os.kill(processes[0], signal.SIGKILL)
+    assert all_gone(processes)
+    assert len(sockets(tmp_path)) == 1  # the socket of the killed holder, to which nobody can connect
+    later = join_or_start(Which.RUNNING, tmp_path)
+    later.wait_for_master()
+    assert nodes(later) == ["/rosout"]
+    later.leave()
+    assert sockets(tmp_path) == []
+
+
+def test_without_namespaces_the_graph_is_in_the_machines_network(tmp_path: Path) -> None:
+    """If the machine forbids namespaces, the master has a free port of this machine, and a note says why."""
+    with pytest.MonkeyPatch.context() as patch:
+        (tmp_path / "rosmaster").write_text('#!/bin/sh\nexec /usr/bin/rosmaster "$@"\n')
+        (tmp_path / "rosmaster").chmod(0o755)
+        patch.setenv("PATH", str(tmp_path))  # no program nsenter
+        graph = join_or_start(Which.RUNNING, tmp_path)
+    assert "nsenter" in graph.reason
+    assert enter(graph) == []
+    assert graph.uri != URI
+    with pytest.raises(GraphError):  # PATH does not contain the programs of ROS either
+        graph.wait_for_master()
+    assert EXPOSED in notes(graph, Which.RUNNING)
+    graph.leave()
+
+
+def test_a_shared_graph_is_in_the_machines_network() -> None:
+    """With --shared-graph, the command runs in the network of this machine, and the port is free there."""
+    uri, network, node = course_run("--shared-graph", "sh", "-c", SHOW).stdout.split()
+    assert (network, node) == (own_namespace("net"), "/rosout")
+    assert uri != URI
+
+
+def test_a_command_in_a_graph_stays_in_it(graph: Graph) -> None:
+    """`course run` in `course run bash` uses the same network and master; --new-graph uses others."""
+    script = f"{SHOW}; ./course run sh -c '{SHOW}'; ./course run --new-graph sh -c '{SHOW}'"
+    seen = course_run("sh", "-c", script).stdout.split()
+    assert seen[::3] == [URI] * 3
+    assert seen[1] == seen[4] != seen[7]
+    assert own_namespace("net") not in seen
+
+
+def of_graphs(folder: Path) -> list[int]:
+    """Return the holder of the graph in `folder`, and its descendants."""
+    [holder] = eventually(lambda: having(b"holder.py\0", descendants(os.getpid())))[:1]
+    return [holder, *descendants(holder)]
