@@ -13,8 +13,8 @@ from pathlib import Path
 
 from course_pkg.hub.delivery import BRANCH, GIT_SETTINGS
 from course_pkg.hub.settings import FOLDER
-from course_pkg.lab.jupyterlab import free_port, server_settings
-from course_pkg.ros.process.roscore import Roscore
+from course_pkg.lab.graph.graph import Which, join_or_start
+from course_pkg.lab.jupyterlab import in_network, server_settings
 from course_pkg.workspace import make_own_workspace
 
 PULL_TIMEOUT = 60.0  # s
@@ -28,13 +28,21 @@ def main() -> None:
     os.environ["ROS_LOG_DIR"] = str(Path.home() / ".ros" / "log")
     make_own_workspace()
     os.chdir(folder)
-    with tempfile.TemporaryDirectory(prefix="course-hub-") as scratch, Roscore(free_port()) as master:
-        os.environ["ROS_MASTER_URI"] = master.uri
-        os.environ["JUPYTER_RUNTIME_DIR"] = str(Path(scratch, "runtime"))
-        cache = Path.home() / ".cache" / "ros-services-course"
-        settings = server_settings(folder, cache / "checkpoints", Path(scratch, "workspaces"))
-        sys.argv[1:] = [f"--{name}={value}" for name, value in settings.items()]
-        _serve()
+    cache = Path.home() / ".cache" / "ros-services-course"
+    with tempfile.TemporaryDirectory(prefix="course-hub-") as scratch:
+        graph = join_or_start(Which.NEW, cache / "graphs")
+        try:
+            if graph.reason:
+                sys.stderr.write(f"The graph is not private: {graph.reason}\n")
+            os.environ.update(ROS_MASTER_URI=graph.uri, ROS_HOSTNAME="localhost")
+            os.environ["JUPYTER_RUNTIME_DIR"] = str(Path(scratch, "runtime"))
+            settings = server_settings(folder, cache / "checkpoints", Path(scratch, "workspaces"))
+            settings |= in_network(graph)
+            sys.argv[1:] = [f"--{name}={value}" for name, value in settings.items()]
+            graph.wait_for_master()
+            _serve()
+        finally:
+            graph.leave()
 
 
 def pull(repository: str, folder: Path) -> None:

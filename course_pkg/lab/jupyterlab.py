@@ -58,7 +58,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     ):
         scratch = Path(folder)
         _write_workspace(scratch / "workspaces", notebook)
-        settings = _settings(places, ip, chosen, scratch) | _in_network(graph)
+        settings = _settings(places, ip, chosen, scratch) | in_network(graph)
         # An author opens a notebook in solutions/, and needs to see all files of the checkout.
         settings["CourseContents.everything"] = bool(notebook) and not notebook.startswith("notebooks/")
         if port is not None:
@@ -191,7 +191,7 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
     }
 
 
-def _in_network(graph: Graph | None) -> dict[str, object]:
+def in_network(graph: Graph | None) -> dict[str, object]:
     """Return the settings with which kernels and terminals start in the graph's private network.
 
     The server, which is outside, can reach a kernel only by sockets that are files (transport "ipc").
