@@ -112,9 +112,8 @@ def _print(works: Sequence[Work], hub: float, working: float, idle: float, proce
     print(f"check: median {statistics.median(checks):.2f} s, 95th percentile {high:.2f} s (bar 3 s)")
     print(f"login to a ready kernel: median {statistics.median(started):.1f} s, slowest {started[-1]:.1f} s")
     print(f"memory (PSS): hub {hub:.0f} MiB; for each student {working:.0f} MiB at the end of the work")
-    print(
-        f"              {idle:.0f} MiB after the students have left; client used {time.process_time() - processor:.0f} s"
-    )
+    print(f"              {idle:.0f} MiB after the students have left")
+    print(f"processor time of the simulation: {time.process_time() - processor:.0f} s")
 
 
 def main() -> None:
