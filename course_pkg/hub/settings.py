@@ -28,6 +28,7 @@ class Settings:
     homes: str  # the folder of the home folders if the students have no accounts, otherwise ""
     memory: int  # MiB
     processes: int
+    class_port: int  # of the class view; 0 without it
     cert: str = ""
     key: str = ""
     environment: dict[str, str] = field(default_factory=dict)  # of the students' servers

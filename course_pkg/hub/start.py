@@ -11,6 +11,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 from course_pkg.errors import HubError
@@ -79,6 +80,7 @@ def serve_hub(options: Options) -> int:
             homes=homes,
             memory=options.memory,
             processes=options.processes,
+            class_port=free_port() if find_spec("course_pkg.class_view") else 0,
             cert=cert,
             key=key,
             environment=_student_environment(places, repository),

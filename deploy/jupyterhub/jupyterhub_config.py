@@ -4,6 +4,8 @@
 here.
 """
 
+import sys
+
 from course_pkg.hub.settings import Settings
 
 c = get_config()  # noqa: F821 -- JupyterHub defines this function
@@ -38,3 +40,18 @@ c.Spawner.default_url = "/lab"
 c.Spawner.start_timeout = 120
 c.Spawner.http_timeout = 120
 c.JupyterHub.concurrent_spawn_limit = 8  # further students wait in a queue
+
+# The class view: only the teacher can open its page, and the students' servers send the results of checks.
+if settings.class_port:
+    c.JupyterHub.services = [
+        {
+            "name": "class",
+            "url": f"http://127.0.0.1:{settings.class_port}",
+            "command": [sys.executable, "-m", "course_pkg.cli", "class", "--data", f"{settings.state}/class"],
+            "oauth_no_confirm": True,
+        }
+    ]
+    teacher = {"name": "teacher", "scopes": ["self", "access:services!service=class"]}
+    c.JupyterHub.load_roles = [{**teacher, "users": [settings.teacher]}] if settings.teacher else []
+    address = f"http://127.0.0.1:{settings.class_port}/services/class/"
+    c.Spawner.environment = {**settings.environment, "COURSE_CLASS_URL": address}
