@@ -37,9 +37,9 @@ c.CourseSpawner.processes = settings.processes
 c.Spawner.environment = settings.environment
 c.Spawner.env_keep = ["LANG", "LC_ALL", "TZ"]
 c.Spawner.default_url = "/lab"
-c.Spawner.start_timeout = 120
-c.Spawner.http_timeout = 120
-c.JupyterHub.concurrent_spawn_limit = 8  # further students wait in a queue
+# When a class starts at once, a server on a small machine takes minutes instead of 3 s.
+c.Spawner.start_timeout = 300
+c.Spawner.http_timeout = 300
 
 # The class view: only the teacher can open its page, and the students' servers send the results of checks.
 if settings.class_port:

@@ -12,7 +12,7 @@ import websocket
 
 from tests.support import eventually
 
-TIMEOUT = 120.0  # s
+TIMEOUT = 300.0  # s
 
 
 class Student:

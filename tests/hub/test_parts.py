@@ -9,6 +9,8 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
+from traitlets.config import Config
 
 from course_pkg.errors import HubError
 from course_pkg.hub import accounts, limits
@@ -100,3 +102,15 @@ def test_the_proxy_is_pinned() -> None:
     lock = Path(__file__).parents[2] / "deploy" / "jupyterhub" / "package-lock.json"
     assert "configurable-http-proxy" in lock.read_text()
     assert "resolved" not in lock.read_text()
+
+
+def test_the_files_for_containers_can_be_read() -> None:
+    """Both files limit memory and start JupyterLab; nothing has run with them."""
+    deploy = Path(__file__).parents[2] / "deploy"
+    values = yaml.safe_load((deploy / "kubernetes" / "values.yaml").read_text())
+    assert values["singleuser"]["memory"]["limit"] == "1G"
+    config = Config()
+    source = (deploy / "docker" / "jupyterhub_config.py").read_text()
+    exec(compile(source, "jupyterhub_config.py", "exec"), {"get_config": lambda: config})  # noqa: S102
+    assert config.DockerSpawner.mem_limit == "1G"
+    assert config.Spawner.default_url == values["singleuser"]["defaultUrl"]
