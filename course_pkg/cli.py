@@ -18,6 +18,7 @@ from course_pkg.class_view import commands as class_view
 from course_pkg.errors import CourseError
 from course_pkg.grading import commands as grading
 from course_pkg.handout import commands as handout
+from course_pkg.hub import commands as hub
 from course_pkg.lab import commands as lab
 from course_pkg.overview import commands as overview
 from course_pkg.setup import commands as setup
@@ -35,6 +36,7 @@ COMMANDS: dict[str, Command] = {
     **grading.COMMANDS,
     **handout.COMMANDS,
     **class_view.COMMANDS,
+    **hub.COMMANDS,
     **site.COMMANDS,
     **setup.COMMANDS,
 }
@@ -105,7 +107,7 @@ def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
     if os.environ.get(INSIDE) == str(places.python):
         return
     sandbox = "grade" in command.needs and UNSAFE not in arguments
-    ensure(places, grade=sandbox, test="test" in command.needs)
+    ensure(places, grade=sandbox, hub="hub" in command.needs, test="test" in command.needs)
     environment.apply(places)
     if "libraries" in command.needs:
         os.environ[INSIDE] = str(places.python)

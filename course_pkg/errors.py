@@ -34,6 +34,7 @@ CourseError
 │   └── WorkerFailed: the process that runs submissions ended, or did not start
 ├── ClassViewError: the class view cannot start, or its data cannot be used
 ├── HandoutError: an edition for students cannot be made, or work cannot be collected
+├── HubError: a JupyterHub for a class cannot be set up
 ├── PanelError: a panel cannot do what a cell asks for
 │   ├── NoServiceSelected: no service is selected, or the selected service has no form
 │   ├── CallInProgress: the panel is already making a call
@@ -250,6 +251,10 @@ class WorkerFailed(GradingError):
 
 class HandoutError(CourseError):
     """An edition for students cannot be made, or students' work cannot be collected."""
+
+
+class HubError(CourseError):
+    """A JupyterHub for a class cannot be set up, or a student's server cannot start."""
 
 
 class PanelError(CourseError):

@@ -161,20 +161,29 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
 
 
 def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, object]:
-    """Return JupyterLab's settings, by the names of its traits. All installed extensions stay enabled."""
     return {
-        "ServerApp.root_dir": places.checkout,
+        **server_settings(places.checkout, places.cache / "jupyter" / "checkpoints", scratch / "workspaces"),
         "ServerApp.ip": ip,
         "ServerApp.port": port,
+    }
+
+
+def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str, object]:
+    """Return JupyterLab's settings, by the names of its traits. All installed extensions stay enabled.
+
+    The file browser shows the folder `root`; the other two are folders for checkpoints and workspaces.
+    """
+    return {
+        "ServerApp.root_dir": root,
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
         "ServerApp.jpserver_extensions": {"course_pkg.lab.extension": True},
         "ServerApp.contents_manager_class": "course_pkg.lab.extension.CourseContents",
         "ContentsManager.checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints",
-        "CachedCheckpoints.folder": places.cache / "jupyter" / "checkpoints",
+        "CachedCheckpoints.folder": checkpoints,
         "LabApp.app_settings_dir": HERE / "settings",
         "LabApp.user_settings_dir": _user_settings(),
-        "LabApp.workspaces_dir": scratch / "workspaces",
+        "LabApp.workspaces_dir": workspaces,
         "LabApp.cache_files": True,  # The names of the front end's files change when their content changes.
         "LabApp.extension_manager": "readonly",
     }

@@ -40,7 +40,7 @@ UV_SETTINGS = {
 
 
 def lock_file(extra: str) -> Path:
-    """Return the pinned requirements of `extra`: "course", "test" or "uv"."""
+    """Return the pinned requirements of `extra`: "course", "hub", "test" or "uv"."""
     return LOCKS / f"{extra}.txt"
 
 

@@ -27,8 +27,11 @@ def write_locks(places: Places) -> list[Path]:
     _compile(uv, checkout, ["-"], lock_file("uv"), UV)
     _compile(uv, checkout, ["pyproject.toml"], lock_file("course"))
     constraint = ["--constraint", str(lock_file("course"))]
-    _compile(uv, checkout, ["pyproject.toml", "--extra", "test", *constraint], lock_file("test"))
-    return [lock_file(name) for name in ("uv", "course", "test")]
+    _compile(uv, checkout, ["pyproject.toml", "--extra", "hub", *constraint], lock_file("hub"))
+    constraint += ["--constraint", str(lock_file("hub"))]
+    everything = ["--extra", "hub", "--extra", "test"]  # the tests start a hub
+    _compile(uv, checkout, ["pyproject.toml", *everything, *constraint], lock_file("test"))
+    return [lock_file(name) for name in ("uv", "course", "hub", "test")]
 
 
 def _compile(uv: Path, checkout: Path, what: list[str], target: Path, text: str = "") -> None:

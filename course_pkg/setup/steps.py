@@ -15,6 +15,9 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.progress import Progress
 from course_pkg.setup.stamps import Stamps, digest, locked
 
+# The lock files of libraries, and what the title of their step adds.
+EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
+
 
 class Step(NamedTuple):
     """One step of the set-up.
@@ -28,13 +31,13 @@ class Step(NamedTuple):
     makes: Path | None = None
 
 
-def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
+def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool = False) -> None:
     """Set up what is missing.
 
     If nothing is missing, this function takes a few milliseconds and prints nothing. Raises SetupError, with
     the next step for the user, if a step fails.
     """
-    stages = steps_of(places, grade=grade, test=test)
+    stages = steps_of(places, grade=grade, hub=hub, test=test)
     if all(step.is_done() for stage in stages for step in stage):
         return
     places.make_cache()
@@ -52,10 +55,12 @@ def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
         raise
 
 
-def steps_of(places: Places, *, grade: bool = False, test: bool = False) -> list[list[Step]]:
+def steps_of(
+    places: Places, *, grade: bool = False, hub: bool = False, test: bool = False
+) -> list[list[Step]]:
     """Return the steps in stages; all steps of one stage can run at the same time."""
     stamps = Stamps(places.stamps)
-    library_step = _library_step(places, stamps, "test" if test else "course")
+    library_step = _library_step(places, stamps, "test" if test else "hub" if hub else "course")
     catkin = _workspace_step(places, stamps)
     if places.conda:  # For conda, environment.yml lists the packages and the libraries.
         return [[catkin]]
@@ -100,8 +105,9 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
-        made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in (extra, "test"))
-        # The lock file of "test" contains all libraries of "course".
+        # Each lock file also contains all libraries of the lock files before it.
+        sufficient = list(EXTRAS)[list(EXTRAS).index(extra) :]
+        made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in sufficient)
         return libraries.environment_works(places) and any(made)
 
     def make(journal: Journal, _progress: Progress) -> None:
@@ -109,7 +115,7 @@ def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
         libraries.make_environment(places, extra, journal)
         stamps.write(f"python-{extra}", libraries.libraries_key(extra))
 
-    return Step("Python libraries" + (" of the tests" if extra == "test" else ""), is_done, make, places.venv)
+    return Step(f"Python libraries{EXTRAS[extra]}", is_done, make, places.venv)
 
 
 def _workspace_step(places: Places, stamps: Stamps) -> Step:

@@ -23,7 +23,7 @@ from course_pkg.handout.edition.readme import student_readme, unlinked
 from course_pkg.setup.edition import RECORD
 
 README = "README.md"
-FOLDERS = ("action", "course_pkg", "figures", "launch", "msg", "srv")
+FOLDERS = ("action", "course_pkg", "deploy", "figures", "launch", "msg", "srv")
 FILES = (
     *(".gitignore", "CMakeLists.txt", "LICENSE", "course", "environment.yml", "package.xml", "postBuild"),
     *("pyproject.toml", "setup.py", "start"),

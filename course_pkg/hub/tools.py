@@ -1,0 +1,61 @@
+"""Programs that the hub needs and that pip does not provide: its proxy, and a certificate for a trial."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from course_pkg.errors import HubError
+from course_pkg.setup.places import Places
+from course_pkg.setup.stamps import digest
+
+DEPLOY = Path("deploy", "jupyterhub")  # contains package.json and its lock
+NPM = ("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error")
+CERTIFICATE_DAYS = 30
+
+
+def installed_proxy(places: Places) -> Path:
+    """Return the program of configurable-http-proxy; if it is missing, npm installs it first.
+
+    Raises HubError if there is no npm, or if it fails.
+    """
+    sources = [places.checkout / DEPLOY / name for name in ("package.json", "package-lock.json")]
+    folder = places.tools / f"proxy-{digest(path.read_bytes() for path in sources)}"
+    program = folder / "node_modules" / ".bin" / "configurable-http-proxy"
+    if program.exists():
+        return program
+    if not shutil.which("npm"):
+        raise HubError(
+            "JupyterHub needs a proxy, and npm installs it. As an administrator, type\n"
+            "  apt-get install --no-install-recommends nodejs npm\nand start again."
+        )
+    folder.mkdir(parents=True, exist_ok=True)
+    for path in sources:
+        shutil.copy(path, folder)
+    _run([*NPM, "--prefix", str(folder)], "npm could not install the proxy")
+    return program
+
+
+def self_signed(folder: Path, address: str) -> tuple[Path, Path]:
+    """Return a certificate for `address` and its key, which openssl writes to `folder` if they are missing.
+
+    Raises HubError if openssl is missing or fails.
+    """
+    cert, key = folder / f"{digest([address])}.crt", folder / f"{digest([address])}.key"
+    if not (cert.exists() and key.exists()):
+        command = ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", f"/CN={address}"]
+        files = ["-days", str(CERTIFICATE_DAYS), "-keyout", str(key), "-out", str(cert)]
+        _run([*command, *files], "openssl could not make a certificate")
+        key.chmod(0o600)
+    return cert, key
+
+
+def _run(command: Sequence[str], failure: str) -> None:
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise HubError(f"{failure}: {error.strerror}. Install {command[0]}, and start again.") from error
+    if done.returncode:
+        raise HubError(f"{failure}:\n{done.stderr.strip()}")

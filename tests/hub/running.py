@@ -1,0 +1,49 @@
+"""A hub that runs as this user, for tests and measurements."""
+
+from __future__ import annotations
+
+import csv
+import subprocess
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+from tests.lab.commands import ROOT, address_of, running
+from tests.support import eventually, terminal
+
+
+def passwords(folder: Path) -> dict[str, str]:
+    """Return the one-time passwords of the hub in `folder`, by user."""
+    with (folder / "hub" / "private" / "passwords.csv").open(newline="") as file:
+        return {row["username"]: row["password"] for row in csv.DictReader(file)}
+
+
+def arguments(folder: Path, students: Sequence[str]) -> list[str]:
+    """Return the arguments of `course` for a hub whose data and home folders are in `folder`."""
+    roster = folder / "roster.csv"
+    roster.write_text("\n".join(["username", *students]))
+    homes = ["--without-accounts", str(folder / "homes")]
+    return ["hub", "--users", str(roster), *homes, "--data", str(folder / "hub")]
+
+
+@contextmanager
+def hub(folder: Path, students: Sequence[str]) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """Run a hub during the block; yield its process, and its address when it answers."""
+    with running(*arguments(folder, students)) as process:
+        address = address_of(process)
+        eventually(lambda: answers(address), 60, 0.1)
+        yield process, address
+
+
+def answers(address: str) -> bool:
+    """Return whether the hub's login page answers."""
+    return not terminal("curl", "-sfk", "-o", "/dev/null", f"{address}/hub/login").returncode
+
+
+def refusal(*options: str) -> str:
+    """Return the message with which `course hub` refuses the options."""
+    done = subprocess.run(
+        [ROOT / "course", "hub", *options], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert done.returncode == 1, done.stdout
+    return done.stderr
