@@ -22,6 +22,7 @@ from course_pkg.errors import CourseError, PortBusy, SetupError
 from course_pkg.lab.master import starting_master
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
+from course_pkg.setup.own_files import make_own_files
 from course_pkg.workspace import make_own_workspace
 
 HERE = Path(__file__).parent
@@ -41,7 +42,8 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) ->
     not start.
     """
     places = Places.of()
-    notebook = _notebook(places.checkout, asked)
+    make_own_files(places)
+    notebook = _notebook(places.own, asked)
     _make_workspace()
     chosen = free_port(ip, PORTS if port is None else [port])
     with _stopping_on_signals(), tempfile.TemporaryDirectory(prefix="course-lab-") as folder:
@@ -59,7 +61,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool) ->
             try:
                 address = _await_server(server, scratch)
                 _start_kernel(address, notebook)
-                _announce(address, notebook, places.checkout, browser)
+                _announce(address, notebook, places.own, browser)
                 wait_for_master()
                 while not server.wait(3600):
                     pass
@@ -131,8 +133,8 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
     """
     folders = {
         # With these folders, the server does not read the settings and files of the user's other Jupyter.
-        "JUPYTER_CONFIG_DIR": str(places.cache / "jupyter" / "config"),
-        "JUPYTER_DATA_DIR": str(places.cache / "jupyter" / "data"),
+        "JUPYTER_CONFIG_DIR": str(places.own_data / "jupyter" / "config"),
+        "JUPYTER_DATA_DIR": str(places.own_data / "jupyter" / "data"),
         "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
     }
     options = [f"--{name}={value}" for name, value in settings.items()]
@@ -141,7 +143,7 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
             [str(places.python), "-m", "course_pkg.lab", *options],
             output=output,
             env={**os.environ, **folders},
-            cwd=places.checkout,  # the folder in which terminals start
+            cwd=places.own,  # the folder in which terminals start
             remove=scratch,
         )
         try:
@@ -153,7 +155,7 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
 def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, object]:
     """Return JupyterLab's settings, by the names of its traits. All installed extensions stay enabled."""
     return {
-        "ServerApp.root_dir": places.checkout,
+        "ServerApp.root_dir": places.own,
         "ServerApp.ip": ip,
         "ServerApp.port": port,
         "ServerApp.open_browser": False,
@@ -162,7 +164,7 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
         "ServerApp.terminado_settings": {"shell_command": ["bash", "--rcfile", str(HERE / "bashrc")]},
         "ServerApp.contents_manager_class": "course_pkg.lab.extension.CourseContents",
         "ContentsManager.checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints",
-        "CachedCheckpoints.folder": places.cache / "jupyter" / "checkpoints",
+        "CachedCheckpoints.folder": places.own_data / "jupyter" / "checkpoints",
         "LabApp.app_settings_dir": HERE / "settings",
         "LabApp.user_settings_dir": _user_settings(),
         "LabApp.workspaces_dir": scratch / "workspaces",
@@ -181,23 +183,23 @@ def _user_settings() -> Path:
     return Path(given) if given else Path(config) / "lab" / "user-settings"
 
 
-def _notebook(checkout: Path, asked: str | None) -> str:
-    """Return the path of the notebook to open, relative to the checkout.
+def _notebook(root: Path, asked: str | None) -> str:
+    """Return the path of the notebook to open, relative to `root`, the folder with `notebooks`.
 
     This path is `asked`; it is the first chapter if `asked` is None, or "" if there are no chapters. Raises
-    SetupError if `asked` is not a file in the checkout.
+    SetupError if `asked` is not a file in `root`.
     """
     if asked is None:
-        chapters = sorted((checkout / "notebooks").glob("[0-9][0-9]_*.ipynb"))
-        return str(chapters[0].relative_to(checkout)) if chapters else ""
+        chapters = sorted((root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+        return str(chapters[0].relative_to(root)) if chapters else ""
     path = Path(asked).resolve()
     if not path.is_file():
-        raise SetupError(f"There is no notebook {asked}. The chapters are in {checkout / 'notebooks'}.")
-    if not path.is_relative_to(checkout):
+        raise SetupError(f"There is no notebook {asked}. The chapters are in {root / 'notebooks'}.")
+    if not path.is_relative_to(root):
         raise SetupError(
-            f"{path} is not in {checkout}, and JupyterLab serves only that folder. Copy the notebook there."
+            f"{path} is not in {root}, and JupyterLab serves only that folder. Copy the notebook there."
         )
-    return str(path.relative_to(checkout))
+    return str(path.relative_to(root))
 
 
 def _make_workspace() -> None:
@@ -270,12 +272,12 @@ def _start_kernel(address: _Address, notebook: str) -> None:
         server.getresponse().read()
 
 
-def _announce(address: _Address, notebook: str, checkout: Path, browser: bool) -> None:
+def _announce(address: _Address, notebook: str, root: Path, browser: bool) -> None:
     page = f"lab/tree/{quote(notebook)}" if notebook else "lab"
     url = f"{address.url}{page}?token={address.token}"
     opened = browser and webbrowser.open(url)
     sys.stdout.write(
-        f"JupyterLab serves {checkout} at\n\n    {url}\n\n"
+        f"JupyterLab serves {root} at\n\n    {url}\n\n"
         f"{'The page opens in your browser.' if opened else 'Open this address in your browser.'} "
         "Ctrl-C here ends JupyterLab, its kernels, and the ROS master.\n"
     )

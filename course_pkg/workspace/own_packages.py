@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 NAME = "workspace"
 REMEDY = "Move the course to a folder in which you can write, and whose path contains no space."
+INSTALLED_REMEDY = "Set COURSE_HOME to a folder in which you can write, and whose path contains no space."
 MANIFEST = "package.xml"
 # default folders for generated modules; used if the course's devel folder contains no such folder
 MODULES = ("lib/python3/dist-packages",)
@@ -33,7 +34,7 @@ KINDS = (".srv", ".msg")  # Python packages with these name endings contain only
 
 
 def own_workspace() -> Path:
-    """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` in the checkout.
+    """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` beside `notebooks`.
 
     When notebooks are validated or graded, COURSE_WORKSPACE or COURSE_STATE is set. If only COURSE_STATE is
     set, the workspace is the folder `workspace` in that folder. A run therefore does not find the packages of
@@ -41,7 +42,7 @@ def own_workspace() -> Path:
     """
     if given := os.environ.get("COURSE_WORKSPACE"):
         return Path(given).expanduser().resolve()
-    return Path(os.environ.get("COURSE_STATE") or Places.of().checkout).resolve() / NAME
+    return Path(os.environ.get("COURSE_STATE") or Places.of().own).resolve() / NAME
 
 
 def make_own_workspace() -> Path:
@@ -57,7 +58,8 @@ def make_own_workspace() -> Path:
         except OSError as error:
             problem = f"it cannot be made ({error.strerror})"
     if problem:
-        raise SetupError(f"{root} cannot be your catkin workspace: {problem}. {REMEDY}")
+        remedy = INSTALLED_REMEDY if Places.of().installed else REMEDY
+        raise SetupError(f"{root} cannot be your catkin workspace: {problem}. {remedy}")
     return root
 
 
