@@ -24,7 +24,7 @@ def students_edition(checkout: Path) -> Iterator[Path]:
         return
     with tempfile.TemporaryDirectory(prefix="course-edition-") as folder:
         edition = Path(folder) / "course"
-        command = [checkout / "course", "release", edition]
+        command = [str(checkout / "course"), "release", str(edition)]
         if subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode:
             raise SetupError("`course release` could not write the students' edition, see above.")
         yield edition
