@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, NoReturn
 
@@ -19,6 +19,7 @@ from course_pkg.errors import CourseError
 from course_pkg.grading import commands as grading
 from course_pkg.handout import commands as handout
 from course_pkg.hub import commands as hub
+from course_pkg.installation import commands as installation
 from course_pkg.lab import commands as lab
 from course_pkg.overview import commands as overview
 from course_pkg.setup import commands as setup
@@ -37,6 +38,7 @@ COMMANDS: dict[str, Command] = {
     **handout.COMMANDS,
     **class_view.COMMANDS,
     **hub.COMMANDS,
+    **installation.COMMANDS,
     **site.COMMANDS,
     **setup.COMMANDS,
 }
@@ -59,12 +61,13 @@ def parse(arguments: Sequence[str]) -> SimpleNamespace:
     if name in COMMANDS and COMMANDS[name].rest and arguments[1:2] not in (["-h"], ["--help"]):
         rest = list(arguments[1:])
         if not rest and not COMMANDS[name].rest.startswith("["):
-            _parser().parse_args([name, "--help"])
+            _parsers()[0].parse_args([name, "--help"])
         return SimpleNamespace(command=name, rest=rest)
-    return _parser().parse_args(arguments, SimpleNamespace())
+    return _parsers()[0].parse_args(arguments, SimpleNamespace())
 
 
-def _parser() -> ArgumentParser:
+def _parsers() -> tuple[ArgumentParser, Mapping[str, ArgumentParser]]:
+    """Return the parser of `course`, and the parser of each subcommand."""
     # The import takes 10 ms, and the command `run` does not need it.
     from argparse import ArgumentParser
 
@@ -80,7 +83,14 @@ def _parser() -> ArgumentParser:
         sub = commands.add_parser(name, help=command.summary, description=description, usage=usage)
         if command.add_arguments:
             command.add_arguments(sub)
-    return parser
+    return parser, commands.choices
+
+
+def _print_completion(_options: SimpleNamespace) -> int:
+    from course_pkg.setup.completion import bash_completion
+
+    sys.stdout.write(bash_completion(_parsers()[1]))
+    return 0
 
 
 def _dispatch(arguments: Sequence[str]) -> int:
@@ -113,6 +123,8 @@ def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
         os.environ[INSIDE] = str(places.python)
         os.execv(places.python, [str(places.python), "-m", "course_pkg.cli", *arguments])  # noqa: S606
 
+
+COMMANDS["completion"] = Command("print the completion for bash", _print_completion, frozenset())
 
 if __name__ == "__main__":
     main()

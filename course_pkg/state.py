@@ -1,6 +1,7 @@
 """The folder for a student's results and own packages.
 
-Each checkout has its own folder outside the checkout.
+Each checkout has its own folder outside the checkout. With a shared installation, the folder is in the user's
+own folder, so that it stays the same after an upgrade.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from course_pkg.files import write_atomically
+from course_pkg.installed import DATA, own_folder, version_folder
 from course_pkg.waiting import wait_until
 
 # A program waits at most this time in s for a lock; each program writes only one small file.
@@ -24,11 +26,16 @@ LOCK = 5.0
 
 
 def state_folder() -> Path:
-    """Return the folder of this checkout's state: COURSE_STATE, or a folder below XDG_STATE_HOME."""
+    """Return the folder of this user's state: COURSE_STATE, or a folder below XDG_STATE_HOME.
+
+    With a shared installation, it is a folder in the user's own folder.
+    """
     if given := os.environ.get("COURSE_STATE"):
         return Path(given)
-    home = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
     checkout = Path(__file__).resolve().parent.parent
+    if version_folder(checkout):
+        return own_folder(checkout) / DATA / "state"
+    home = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
     return Path(home) / "ros-services-course" / hashlib.sha256(str(checkout).encode()).hexdigest()[:12]
 
 

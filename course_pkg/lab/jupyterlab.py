@@ -24,6 +24,7 @@ from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.graph.settings import settings_for
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
+from course_pkg.setup.own_files import make_own_files
 from course_pkg.workspace import make_own_workspace
 
 HERE = Path(__file__).parent
@@ -46,7 +47,8 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     not start.
     """
     places = Places.of()
-    notebook = _notebook(places.checkout, asked)
+    make_own_files(places)
+    notebook = _notebook(places.own, asked)
     _make_workspace()
     chosen = free_port(ip, PORTS if port is None else [port])
     which = Which.SHARED if shared else Which.RUNNING if os.environ.get("ROS_MASTER_URI") else Which.NEW
@@ -66,7 +68,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
             try:
                 address = _await_server(server, scratch)
                 _start_kernel(address, notebook)
-                _announce(address, notebook, places.checkout, browser)
+                _announce(address, notebook, places.own, browser)
                 if graph:
                     graph.wait_for_master()
                     sys.stdout.write(notes(graph, which))
@@ -141,8 +143,8 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
     """
     folders = {
         # With these folders, the server does not read the settings and files of the user's other Jupyter.
-        "JUPYTER_CONFIG_DIR": str(places.cache / "jupyter" / "config"),
-        "JUPYTER_DATA_DIR": str(places.cache / "jupyter" / "data"),
+        "JUPYTER_CONFIG_DIR": str(places.own_data / "jupyter" / "config"),
+        "JUPYTER_DATA_DIR": str(places.own_data / "jupyter" / "data"),
         "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
     }
     options = [f"--{name}={value}" for name, value in settings.items()]
@@ -151,7 +153,7 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
             [str(places.python), "-m", "course_pkg.lab", *options],
             output=output,
             env={**os.environ, **folders},
-            cwd=places.checkout,  # the folder in which terminals start
+            cwd=places.own,  # the folder in which terminals start
             remove=scratch,
         )
         try:
@@ -162,7 +164,7 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
 
 def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, object]:
     return {
-        **server_settings(places.checkout, places.cache / "jupyter" / "checkpoints", scratch / "workspaces"),
+        **server_settings(places.own, places.own_data / "jupyter" / "checkpoints", scratch / "workspaces"),
         "ServerApp.ip": ip,
         "ServerApp.port": port,
     }
@@ -207,23 +209,23 @@ def _user_settings() -> Path:
     return Path(given) if given else Path(config) / "lab" / "user-settings"
 
 
-def _notebook(checkout: Path, asked: str | None) -> str:
-    """Return the path of the notebook to open, relative to the checkout.
+def _notebook(root: Path, asked: str | None) -> str:
+    """Return the path of the notebook to open, relative to `root`, the folder with `notebooks`.
 
     This path is `asked`; it is the first chapter if `asked` is None, or "" if there are no chapters. Raises
-    SetupError if `asked` is not a file in the checkout.
+    SetupError if `asked` is not a file in `root`.
     """
     if asked is None:
-        chapters = sorted((checkout / "notebooks").glob("[0-9][0-9]_*.ipynb"))
-        return str(chapters[0].relative_to(checkout)) if chapters else ""
+        chapters = sorted((root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+        return str(chapters[0].relative_to(root)) if chapters else ""
     path = Path(asked).resolve()
     if not path.is_file():
-        raise SetupError(f"There is no notebook {asked}. The chapters are in {checkout / 'notebooks'}.")
-    if not path.is_relative_to(checkout):
+        raise SetupError(f"There is no notebook {asked}. The chapters are in {root / 'notebooks'}.")
+    if not path.is_relative_to(root):
         raise SetupError(
-            f"{path} is not in {checkout}, and JupyterLab serves only that folder. Copy the notebook there."
+            f"{path} is not in {root}, and JupyterLab serves only that folder. Copy the notebook there."
         )
-    return str(path.relative_to(checkout))
+    return str(path.relative_to(root))
 
 
 def _make_workspace() -> None:
@@ -296,12 +298,12 @@ def _start_kernel(address: _Address, notebook: str) -> None:
         server.getresponse().read()
 
 
-def _announce(address: _Address, notebook: str, checkout: Path, browser: bool) -> None:
+def _announce(address: _Address, notebook: str, root: Path, browser: bool) -> None:
     page = f"lab/tree/{quote(notebook)}" if notebook else "lab"
     url = f"{address.url}{page}?token={address.token}"
     opened = browser and webbrowser.open(url)
     sys.stdout.write(
-        f"JupyterLab serves {checkout} at\n\n    {url}\n\n"
+        f"JupyterLab serves {root} at\n\n    {url}\n\n"
         f"{'The page opens in your browser.' if opened else 'Open this address in your browser.'} "
         "Ctrl-C here ends JupyterLab, its kernels, and the ROS master.\n"
     )

@@ -167,7 +167,7 @@ def clean_environment() -> dict[str, str]:
 
 def _invented(path: str, text: str) -> Path:
     """Return a file that contains `text`, for all sandboxes of this checkout."""
-    file = Places.of().cache / "sandbox" / Path(path).name
+    file = Places.of().own_data / "sandbox" / Path(path).name
     if not file.exists() or file.read_text("utf-8") != text:
         file.parent.mkdir(parents=True, exist_ok=True)
         draft = file.with_name(f"{file.name}.{os.getpid()}.{threading.get_ident()}")

@@ -19,6 +19,8 @@ from course_pkg.waiting import wait_until
 
 ENDING = 5.0  # The child processes of a killed process end within this time in s.
 NEEDED = 1 << 30  # A complete set-up needs a little less than this number of bytes of disk space.
+# The packages for the first command are all that an installation for students needs.
+NEEDED_BY = (("course", "course lab"), ("grade", "course grade"), ("test", "course test"))
 
 
 class Finding(NamedTuple):
@@ -61,14 +63,14 @@ def _installed(places: Places) -> Iterator[Finding]:
             yield Finding("system", "has no packages of ROS 1", str(error))
             return
         yield Finding("system", platform.name)
-        for part, needed_by in (("course", "course lab"), ("grade", "course grade"), ("test", "course test")):
+        for part, needed_by in NEEDED_BY[: 1 if places.installed else None]:
             missing = packages.missing_packages(getattr(platform, part))
             advice = f"`./course {needed_by.split()[1]}` installs them; or type as an administrator: " + (
                 f"apt-get update && apt-get install --no-install-recommends {' '.join(missing)}"
             )
             seen = f"missing: {' '.join(missing)}" if missing else "installed"
             yield Finding(f"packages for `{needed_by}`", seen, advice if missing else "")
-    for command, test in (("run true", False), ("test", True)):
+    for command, test in (("run true", False), *([] if places.installed else [("test", True)])):
         steps = [step for stage in steps_of(places, test=test) for step in stage]
         yield from (
             _made(step, command)
@@ -85,7 +87,7 @@ def _made(step: Step, command: str) -> Finding:
 
 
 def _disk(places: Places) -> Finding:
-    folder = next(path for path in (places.cache, *places.cache.parents) if path.exists())
+    folder = next(path for path in (places.own_data, *places.own_data.parents) if path.exists())
     if not os.access(folder, os.W_OK):
         advice = "Set XDG_CACHE_HOME to a folder that you can write to."
         return Finding("cache", f"{folder} is not writable", advice)

@@ -55,7 +55,7 @@ def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
     if library.exists():  # The set-up builds the library only on Linux.
         preloaded = environ.get("LD_PRELOAD", "").replace(":", " ").split()
         result["LD_PRELOAD"] = ":".join(dict.fromkeys([*preloaded, str(library)]))
-    result.setdefault("ROS_LOG_DIR", str(places.logs / "ros"))
+    result.setdefault("ROS_LOG_DIR", str(places.own_data / "log" / "ros"))
     # rospy's messages import numpy, and numpy starts threads. These threads would receive signals that the
     # main thread blocks. A process with several threads cannot enter a user namespace.
     result.setdefault("OPENBLAS_NUM_THREADS", "1")

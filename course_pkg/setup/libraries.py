@@ -66,6 +66,8 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
         )
     # The lock lists all necessary libraries, and some dependencies are omitted on purpose (see lock.py).
     options: list[str | Path] = ["--no-deps", "--require-hashes", "-r", lock_file(extra)]
+    if env.get("UV_NO_INDEX"):  # uv has only an option for this
+        options.append("--no-index")
     journal.run([uv, "pip", "install", "--python", places.python, *options], env=env)
     for unwanted in places.venv.glob(f"lib/python3*/site-packages/{SLOW_STARTER}"):
         unwanted.unlink()

@@ -1,4 +1,4 @@
-"""The folders of the course: the checkout, and the cache folder with all files that the set-up creates."""
+"""The folders of the course: the checkout, the folder that the set-up creates, and the user's own files."""
 
 from __future__ import annotations
 
@@ -9,14 +9,16 @@ from pathlib import Path
 from typing import NamedTuple
 
 from course_pkg.errors import SetupError
+from course_pkg.installed import DATA, own_folder, version_folder
 
 # The first tuple contains the package's folders except course_pkg; the second tuple contains all its files.
 CATKIN_FOLDERS = ("srv", "msg", "action", "launch")
+BUILT = "env"  # in the folder of an installed version: all files that the set-up creates
 PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")
 
 
 class Places(NamedTuple):
-    """The folders of one checkout.
+    """The folders of one checkout, or of one version of a shared installation.
 
     The set-up creates files only outside the checkout, because rosrun searches the checkout.
     """
@@ -28,9 +30,26 @@ class Places(NamedTuple):
     def of(cls, checkout: Path | None = None) -> Places:
         """Return the places of `checkout`; the default is the checkout that contains this module."""
         checkout = (checkout or Path(__file__).parents[2]).resolve()
+        if version := version_folder(checkout):
+            return cls(checkout, version / BUILT)
         key = hashlib.sha256(os.fsencode(checkout)).hexdigest()[:8]
         name = "".join(letter if letter.isalnum() else "-" for letter in checkout.name)
         return cls(checkout, cache_root() / f"{name}-{key}")
+
+    @property
+    def installed(self) -> bool:
+        """Whether this is a shared installation, in which a user cannot write."""
+        return version_folder(self.checkout) is not None
+
+    @property
+    def own(self) -> Path:
+        """The folder with the user's notebooks and workspace: the checkout, if it is not installed."""
+        return own_folder(self.checkout)
+
+    @property
+    def own_data(self) -> Path:
+        """The folder for files that the course writes while it runs, such as logs."""
+        return self.own / DATA if self.installed else self.cache
 
     @property
     def conda(self) -> Path | None:
@@ -67,7 +86,7 @@ class Places(NamedTuple):
 
     @property
     def logs(self) -> Path:
-        """The folder for the output of the set-up's tools, and for the logs of ROS."""
+        """The folder for the output of the set-up's tools."""
         return self.cache / "log"
 
     @property

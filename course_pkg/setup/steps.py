@@ -40,6 +40,11 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
     stages = steps_of(places, grade=grade, hub=hub, test=test)
     if all(step.is_done() for stage in stages for step in stage):
         return
+    if places.installed:
+        raise SetupError(
+            f"The installation in {places.checkout.parent} does not fit this machine any more, for example "
+            "because Python or ROS was updated. As an administrator, type\n  course install\nagain."
+        )
     places.make_cache()
     progress = Progress()
     waiting = "Another set-up of this checkout is running. Waiting for its end."

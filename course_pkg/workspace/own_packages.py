@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 NAME = "workspace"
 REMEDY = "Move the course to a folder in which you can write, and whose path contains no space."
+INSTALLED_REMEDY = "Set COURSE_HOME to a folder in which you can write, and whose path contains no space."
 MANIFEST = "package.xml"
 # These folders for generated modules are used if the course's devel folder contains no such folder.
 MODULES = ("lib/python3/dist-packages",)
@@ -30,7 +31,7 @@ KINDS = (".srv", ".msg")  # Python packages with these endings contain only gene
 
 
 def own_workspace() -> Path:
-    """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` in the checkout.
+    """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` beside `notebooks`.
 
     A run that validates or grades notebooks sets COURSE_WORKSPACE or COURSE_STATE, so that it does not find
     the packages of another run. If only COURSE_STATE is set, the workspace is the folder `workspace` in that
@@ -38,7 +39,7 @@ def own_workspace() -> Path:
     """
     if given := os.environ.get("COURSE_WORKSPACE"):
         return Path(given).expanduser().resolve()
-    return Path(os.environ.get("COURSE_STATE") or Places.of().checkout).resolve() / NAME
+    return Path(os.environ.get("COURSE_STATE") or Places.of().own).resolve() / NAME
 
 
 def make_own_workspace() -> Path:
@@ -54,7 +55,8 @@ def make_own_workspace() -> Path:
         except OSError as error:
             problem = f"it cannot be made ({error.strerror})"
     if problem:
-        raise SetupError(f"{root} cannot be your catkin workspace: {problem}. {REMEDY}")
+        remedy = INSTALLED_REMEDY if Places.of().installed else REMEDY
+        raise SetupError(f"{root} cannot be your catkin workspace: {problem}. {remedy}")
     return root
 
 

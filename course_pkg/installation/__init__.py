@@ -1,0 +1,10 @@
+"""A shared installation of the course for all users of a machine, and an installer without internet.
+
+A prefix, such as /opt/ros-services-course, contains:
+
+- versions/ID: one version, complete as soon as it contains installation.json, and then never changed:
+  `course` (the students' edition), `env` (virtual environment and catkin workspace), `completion.bash`
+- current: a link to the version that `course` on the PATH starts
+
+`course_pkg/installed.py` decides where a user's own files are.
+"""

@@ -1,0 +1,29 @@
+"""The only place that decides whether this package is in a checkout or in a shared installation.
+
+In a checkout, the notebooks are beside the package, and one user owns all files. A shared installation
+(`course install`) is read-only, and each user has an own folder with notebooks, workspace and results.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+RECORD = "installation.json"  # a file in the folder of each complete version of a shared installation
+DATA = ".course"  # in a user's own folder: results, settings of JupyterLab, logs
+
+
+def version_folder(checkout: Path) -> Path | None:
+    """Return the installed version that contains `checkout`, or None if `checkout` is not installed."""
+    return checkout.parent if (checkout.parent / RECORD).is_file() else None
+
+
+def own_folder(checkout: Path) -> Path:
+    """Return the folder with the user's notebooks and `workspace`: `checkout`, if it is not installed.
+
+    With a shared installation, it is the folder in the variable COURSE_HOME, or ~/ros-course.
+    """
+    if version_folder(checkout) is None:
+        return checkout
+    given = os.environ.get("COURSE_HOME") or "~/ros-course"
+    return Path(os.path.abspath(os.path.expanduser(given)))
