@@ -24,7 +24,6 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
 
-HERE = Path(__file__).parent
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ones, and 0 means any free port
 READY = 60.0  # time limit for the start in s; it takes 2 s, or much longer with an empty disk cache
 LOOK = 0.01  # s between two checks whether the server answers
@@ -151,7 +150,10 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
 
 
 def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, object]:
-    """Return JupyterLab's settings, by the names of its traits. All installed extensions stay enabled."""
+    """Return JupyterLab's settings for this start, by the names of its traits.
+
+    The settings of all starts are in course_pkg/lab/extension.py. All installed extensions stay enabled.
+    """
     return {
         "ServerApp.root_dir": places.checkout,
         "ServerApp.ip": ip,
@@ -159,15 +161,9 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
         "ServerApp.jpserver_extensions": {"course_pkg.lab.extension": True},
-        "ServerApp.terminado_settings": {"shell_command": ["bash", "--rcfile", str(HERE / "bashrc")]},
-        "ServerApp.contents_manager_class": "course_pkg.lab.extension.CourseContents",
-        "ContentsManager.checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints",
-        "CachedCheckpoints.folder": places.cache / "jupyter" / "checkpoints",
-        "LabApp.app_settings_dir": HERE / "settings",
         "LabApp.user_settings_dir": _user_settings(),
         "LabApp.workspaces_dir": scratch / "workspaces",
         "LabApp.cache_files": True,  # The names of the front end's files change when their content changes.
-        "LabApp.extension_manager": "readonly",
     }
 
 
