@@ -20,6 +20,7 @@ from tornado.websocket import WebSocketHandler
 from traitlets import Bool, Unicode, default
 from traitlets.config import Config
 
+from course_pkg.errors import CourseError
 from course_pkg.setup import Places, environment
 
 HERE = Path(__file__).parent
@@ -102,12 +103,15 @@ def _prepare_ros(server: Server) -> None:
         return
     if os.environ.get("ROS_MASTER_URI"):
         return
-    from course_pkg.lab.jupyterlab import free_port
-    from course_pkg.lab.master import starting_master
+    from course_pkg.ros.process.roscore import Roscore  # needs the modules of ROS
 
-    master = starting_master(free_port())
-    master.__enter__()
-    atexit.register(master.__exit__, None, None, None)
+    try:
+        master = Roscore().start()
+    except CourseError as error:
+        server.log.warning("%s Each notebook starts its own master.", error)
+        return
+    atexit.register(master.stop)
+    os.environ["ROS_MASTER_URI"] = master.uri
 
 
 def _send_at_once(server: Server) -> None:
