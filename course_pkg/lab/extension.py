@@ -22,6 +22,7 @@ from traitlets.config import Config
 
 from course_pkg.errors import CourseError
 from course_pkg.setup import Places, environment
+from course_pkg.workspace import make_own_workspace
 
 HERE = Path(__file__).parent
 # The file browser hides these files of the repository, because students do not need them. The file browser
@@ -90,6 +91,7 @@ def course_settings() -> Config:
 def _load_jupyter_server_extension(server: Server) -> None:
     """Prepare the server for kernels, terminals and clicks."""
     _prepare_ros(server)
+    _make_workspace(server)
     _send_at_once(server)
 
 
@@ -112,6 +114,15 @@ def _prepare_ros(server: Server) -> None:
         return
     atexit.register(master.stop)
     os.environ["ROS_MASTER_URI"] = master.uri
+
+
+def _make_workspace(server: Server) -> None:
+    """Create the folder of the student's own packages if the server shows the checkout."""
+    if Path(server.root_dir).resolve() == Places.of().checkout:
+        try:
+            make_own_workspace()
+        except CourseError as error:
+            server.log.warning("%s", error)
 
 
 def _send_at_once(server: Server) -> None:
