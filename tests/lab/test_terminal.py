@@ -1,4 +1,4 @@
-"""JupyterLab's terminals: the commands that a student types on a robot's computer also work there."""
+"""Tests of commands in JupyterLab's terminals."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SCRIPT = (
 )
 INSTALLED = "catkin_install_python(PROGRAMS scripts/area DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})\n"
 TAB, CTRL_C = "\t", "\x03"
-BUSY = 240.0  # s; time limit for commands that take 3 s on an idle machine, such as catkin_make
+BUSY = 240.0  # Commands that take 3 s on an idle machine, such as catkin_make, may take this many seconds.
 
 
 class Terminal:
@@ -49,7 +49,7 @@ class Terminal:
         self._shell.sendline(line)
 
     def keys(self, text: str) -> None:
-        """Press the keys of `text`, without the Enter key."""
+        """Type `text` without the Enter key."""
         self._shell.send(text)
 
     def wait_for(self, text: str) -> str:
@@ -64,7 +64,7 @@ class Terminal:
         return re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", printed)
 
     def close(self) -> None:
-        """End the shell and the processes in it."""
+        """Stop the shell and its processes."""
         self._shell.close(force=True)
 
 
@@ -77,13 +77,10 @@ def listening(pid: int) -> set[str]:
 
 @pytest.fixture(scope="module")
 def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
-    """Start `course lab` with a temporary folder for the student's packages.
-
-    Yield a terminal of JupyterLab.
-    """
+    """Start `course lab` with a temporary workspace, and yield a terminal."""
     state = tmp_path_factory.mktemp("state")
     with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(state)  # a user may type `course lab` in any folder
+        patch.chdir(state)  # The test starts `course lab` in another folder, because a user may do this too.
         with lab(COURSE_STATE=str(state)) as (process, address):
             parts = urlsplit(address)
             headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
@@ -92,7 +89,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
             terminal = Terminal(shell)
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
-            assert rosout  # a test that starts another node /rosout can end this node
+            assert rosout  # If another test starts a node /rosout, the node of this master exits.
             try:
                 yield terminal
             finally:
@@ -103,12 +100,12 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
 
 
 def test_a_terminal_starts_where_the_chapters_and_the_workspace_are(terminal: Terminal) -> None:
-    """A terminal starts in the folder that contains `notebooks`, as the chapters say."""
+    """A terminal starts in the folder that contains `notebooks`."""
     assert Path(terminal.run("pwd").strip()) == ROOT
 
 
 def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
-    """The nodes, services and parameters are the same as after `roscore`."""
+    """The nodes, services and parameters are the same as with `roscore`."""
     assert terminal.run("rosnode list").split() == ["/rosout"]
     assert terminal.run("rosservice list").split() == ["/rosout/get_loggers", "/rosout/set_logger_level"]
     assert terminal.run("rosparam list").split() == ["/rosdistro", "/rosversion", "/run_id"]
@@ -116,17 +113,14 @@ def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
 
 
 def test_roscore_says_that_a_master_runs(terminal: Terminal) -> None:
-    """A second roscore refuses to start, because a master already runs at ROS_MASTER_URI."""
+    """The command roscore refuses to start while a master runs."""
     printed = terminal.run("roscore")
     assert "roscore cannot run as another roscore/master is already running" in printed
     assert terminal.environment["ROS_MASTER_URI"] in printed
 
 
 def test_a_node_in_cpp_listens_on_this_computer_only(terminal: Terminal) -> None:
-    """A C++ node in the terminal listens only on 127.0.0.1.
-
-    By default, the XML-RPC server of roscpp listens on all addresses. The terminal's settings prevent this.
-    """
+    """A C++ node in the terminal listens only on 127.0.0.1."""
     node = re.findall(
         r"\d+$", terminal.run("rosrun rosout rosout __name:=of_mine > /dev/null & echo $!").strip()
     )
@@ -137,7 +131,7 @@ def test_a_node_in_cpp_listens_on_this_computer_only(terminal: Terminal) -> None
 
 
 def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
-    """A student can use catkin_make, devel/setup.bash, rossrv, roscd, rosrun, and the Tab key."""
+    """A student can use catkin_make, devel/setup.bash, rossrv, roscd and rosrun."""
     root = Path(terminal.environment["COURSE_STATE"], "workspace")
     assert (root / "src").is_dir()
     lists = GOOD["CMakeLists.txt"] + INSTALLED
@@ -156,7 +150,7 @@ def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
 
 
 def test_roscore_starts_a_new_master_after_the_lab_master_has_ended(terminal: Terminal) -> None:
-    """If the master of the lab is killed, roscore starts a new one at the same address, with /rosout."""
+    """After the master of the lab is killed, roscore starts a new master at the same address."""
     uri = terminal.environment["ROS_MASTER_URI"]
     former = MasterClient(uri).pid()
     os.kill(former, signal.SIGKILL)
