@@ -1,7 +1,13 @@
-"""The course's additions to the Jupyter server: an extension, and classes for checkpoints and files."""
+"""The course's additions to the Jupyter server: an extension, and classes for checkpoints and files.
+
+The set-up enables the extension in the course's environment. So a server that a user starts there by hand,
+such as `jupyter lab` or `jupyter notebook`, has the same settings as the server of `course lab`.
+"""
 
 from __future__ import annotations
 
+import atexit
+import os
 import sys
 from collections.abc import MutableMapping
 from logging import Logger
@@ -11,16 +17,21 @@ from typing import Any, Protocol
 from jupyter_server.services.contents.filecheckpoints import AsyncFileCheckpoints
 from jupyter_server.services.contents.largefilemanager import AsyncLargeFileManager
 from tornado.websocket import WebSocketHandler
-from traitlets import Bool, Unicode
+from traitlets import Bool, Unicode, default
+from traitlets.config import Config
 
+from course_pkg.errors import CourseError
+from course_pkg.setup import Places, environment
 from course_pkg.sharing.sender import start_sender
+from course_pkg.workspace import make_own_workspace
 
+HERE = Path(__file__).parent
 # The file browser hides these files of the repository, because students do not need them. The file browser
 # shows all other files, such as a student's own files and `workspace`.
 HIDDEN = (
     *("CHANGELOG.md", "CMakeLists.txt", "CONTRIBUTING.md", "LICENSE", "README.md", "action", "course"),
-    *("course_pkg", "deploy", "environment.yml", "launch", "package.xml", "postBuild", "pyproject.toml"),
-    *("setup.py", "solutions", "srv", "start", "tests"),
+    *("course_pkg", "deploy", "environment.yml", "launch", "package.xml", "pyproject.toml"),
+    *("setup.py", "solutions", "srv", "tests"),
 )
 # The server's setting for the class that connects a page with a kernel.
 CONNECTION_CLASS = "kernel_websocket_connection_class"
@@ -47,19 +58,76 @@ class Server(Protocol):
 
     web_app: WebApplication
     log: Logger
+    config: Config
+    root_dir: str
+
+    def update_config(self, config: Config) -> None:
+        """Merge `config` into the server's configuration."""
 
 
 def _jupyter_server_extension_points() -> list[dict[str, str]]:
     return [{"module": "course_pkg.lab.extension"}]
 
 
+def _link_jupyter_server_extension(server: Server) -> None:
+    """Apply the course's settings; settings of the command line and of the user's files have priority."""
+    settings = course_settings()
+    settings.CourseContents.everything = Path(server.root_dir).resolve() != Places.of().checkout
+    settings.merge(server.config)
+    server.update_config(settings)
+
+
+def course_settings() -> Config:
+    """Return the settings that each Jupyter server in the course's environment needs."""
+    return Config(
+        ServerApp={
+            "terminado_settings": {"shell_command": ["bash", "--rcfile", str(HERE / "bashrc")]},
+            "contents_manager_class": "course_pkg.lab.extension.CourseContents",
+        },
+        ContentsManager={"checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints"},
+        LabApp={"app_settings_dir": str(HERE / "settings"), "extension_manager": "readonly"},
+    )
+
+
 def _load_jupyter_server_extension(server: Server) -> None:
-    """Send the results of checks to the class view, if sharing is on. Make clicks in panels faster."""
+    """Prepare the server for kernels, terminals and clicks; send results to the class view if sharing is on."""
+    _prepare_ros(server)
+    _make_workspace(server)
     start_sender(lambda message: server.log.warning("class view: %s", message))
-    set_nodelay(server)
+    _send_at_once(server)
 
 
-def set_nodelay(server: Server) -> None:
+def _prepare_ros(server: Server) -> None:
+    """Set the environment of ROS, and start a master if ROS_MASTER_URI names none.
+
+    Kernels and terminals inherit this environment. `course lab` has done both before the server starts.
+    """
+    if "ROS_PACKAGE_PATH" not in os.environ and not environment.apply():
+        server.log.warning("The course's workspace is not built. Run `./course doctor` in a terminal.")
+        return
+    if os.environ.get("ROS_MASTER_URI"):
+        return
+    from course_pkg.ros.process.roscore import Roscore  # needs the modules of ROS
+
+    try:
+        master = Roscore().start()
+    except CourseError as error:
+        server.log.warning("%s Each notebook starts its own master.", error)
+        return
+    atexit.register(master.stop)
+    os.environ["ROS_MASTER_URI"] = master.uri
+
+
+def _make_workspace(server: Server) -> None:
+    """Create the folder of the student's own packages if the server shows the checkout."""
+    if Path(server.root_dir).resolve() == Places.of().checkout:
+        try:
+            make_own_workspace()
+        except CourseError as error:
+            server.log.warning("%s", error)
+
+
+def _send_at_once(server: Server) -> None:
     """Set TCP_NODELAY on every kernel websocket: a click then takes 10 ms instead of 46 ms.
 
     The server writes a message to the websocket in small pieces. Nagle's algorithm (RFC 896) delays a piece
@@ -95,6 +163,10 @@ class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base
     """
 
     folder = Unicode(help="the folder of the checkpoints").tag(config=True)
+
+    @default("folder")
+    def _folder(self) -> str:
+        return str(Places.of().cache / "jupyter" / "checkpoints")
 
     def checkpoint_path(self, checkpoint_id: str, path: str) -> str:
         """Return the file for a checkpoint of the notebook at `path`; create the file's folder.

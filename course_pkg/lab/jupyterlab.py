@@ -27,7 +27,6 @@ from course_pkg.setup import Places
 from course_pkg.setup.own_files import make_own_files
 from course_pkg.workspace import make_own_workspace
 
-HERE = Path(__file__).parent
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ones, and 0 means any free port
 READY = 60.0  # time limit for the start in s; it takes 2 s, or much longer with an empty disk cache
 LOOK = 0.01  # s between two checks whether the server answers
@@ -171,23 +170,21 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
 
 
 def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str, object]:
-    """Return JupyterLab's settings, by the names of its traits. All installed extensions stay enabled.
+    """Return JupyterLab's settings for one start, by the names of its traits.
 
-    The file browser shows the folder `root`; the other two are folders for checkpoints and workspaces.
+    All installed extensions stay enabled. The settings of all starts are in course_pkg/lab/extension.py. The
+    file browser shows the folder `root`; the other two are folders for checkpoints and workspaces.
     """
     return {
         "ServerApp.root_dir": root,
         "ServerApp.open_browser": False,
         "ServerApp.allow_root": True,
         "ServerApp.jpserver_extensions": {"course_pkg.lab.extension": True},
-        "ServerApp.contents_manager_class": "course_pkg.lab.extension.CourseContents",
-        "ContentsManager.checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints",
         "CachedCheckpoints.folder": checkpoints,
-        "LabApp.app_settings_dir": HERE / "settings",
+        "CourseContents.everything": False,
         "LabApp.user_settings_dir": _user_settings(),
         "LabApp.workspaces_dir": workspaces,
         "LabApp.cache_files": True,  # The names of the front end's files change when their content changes.
-        "LabApp.extension_manager": "readonly",
     }
 
 

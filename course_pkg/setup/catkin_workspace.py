@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 import sys
@@ -49,6 +50,7 @@ def build_workspace(places: Places, journal: Journal) -> None:
     journal.run(build, env=_build_environment(places))
     environment.write(places)
     _write_path_file(places)
+    _enable_extension(places)
 
 
 def _linked_packages(places: Places) -> Iterator[tuple[str, Path]]:
@@ -103,3 +105,11 @@ def _write_path_file(places: Places) -> None:
     for packages in places.venv.glob("lib/python3*/site-packages"):
         paths = environment.python_path(places)
         write_atomically(packages / "course_pkg.pth", "".join(f"{path}\n" for path in paths))
+
+
+def _enable_extension(places: Places) -> None:
+    """Enable the course's extension for each Jupyter server that is started in the environment."""
+    enabled = places.venv / "etc" / "jupyter" / "jupyter_server_config.d" / "course_pkg.json"
+    enabled.parent.mkdir(parents=True, exist_ok=True)
+    extensions = {"course_pkg.lab.extension": True}
+    write_atomically(enabled, json.dumps({"ServerApp": {"jpserver_extensions": extensions}}) + "\n")

@@ -23,10 +23,10 @@ from course_pkg.handout.edition.readme import student_readme, unlinked
 from course_pkg.setup.edition import RECORD
 
 README = "README.md"
-FOLDERS = ("action", "course_pkg", "deploy", "figures", "launch", "msg", "srv")
+FOLDERS = (".binder", ".devcontainer", "action", "course_pkg", "deploy", "figures", "launch", "msg", "srv")
 FILES = (
-    *(".gitignore", "CMakeLists.txt", "LICENSE", "course", "environment.yml", "package.xml", "postBuild"),
-    *("pyproject.toml", "setup.py", "start"),
+    *(".dockerignore", ".gitignore", "CMakeLists.txt", "LICENSE", "course", "environment.yml", "package.xml"),
+    *("pyproject.toml", "setup.py"),
 )
 # The pattern matches files of a chapter that are left out: example answers, grading fixtures, the site's
 # recordings, and private checks.
@@ -97,8 +97,13 @@ def tracked_files(root: Path, is_wanted: Callable[[str], bool]) -> Iterator[tupl
 def _released_paths(root: Path) -> Iterator[str]:
     listed = _git_listing(root, "--cached")
     if listed is None:  # In this case, the checkout was downloaded without git's data.
-        listed = [str(path.relative_to(root)) for folder in FOLDERS for path in (root / folder).rglob("*")]
-        listed = [*(name for name in listed if not WRITTEN_BY_TOOLS.search(name)), *FILES]
+        listed = [
+            f"{folder}/{path.relative_to(root / folder)}"
+            for folder in FOLDERS
+            for path in (root / folder).rglob("*")
+            if not WRITTEN_BY_TOOLS.search(str(path.relative_to(root / folder)))
+        ]
+        listed += FILES
     for name in listed:
         path = root / name
         if is_released(name) and path.is_file() and not path.is_symlink():
