@@ -15,26 +15,23 @@ from tests.browser.chromium import chromium
 from tests.kernel import Kernel
 
 ANSWERS, NOTEBOOKS = "tests/checking/test_answers.py", "tests/notebooks/test_validation.py"
-LAB = "JupyterLab"  # the group of all tests that use JupyterLab
+LAB = "JupyterLab"  # All tests with JupyterLab belong to this group.
 
 
 def pytest_configure() -> None:
-    """Handle also those signals that a shell ignores for background commands.
-
-    All child processes inherit these settings.
-    """
+    """Enable the signals that a shell ignores for background commands."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-@pytest.hookimpl(tryfirst=True)  # first, because pytest-xdist reads the marks in the same hook
+# pytest-xdist reads the marks in the same hook, so this function must run first.
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put tests into groups that stay on one worker (`--dist loadgroup`); the slowest groups come first.
+    """Put tests into groups that pytest-xdist runs on one worker; slow groups run first.
 
-    The tests of a file form a group, because they share a master. The tests of example answers form a group,
-    because the sandboxes of one worker run the answers at the same time. All tests with JupyterLab form a
-    group, because loading its page takes longer than most of these tests.
+    The tests of a file form a group, because these tests share a master. The tests of example answers form a
+    group. All tests with JupyterLab form a group, because loading JupyterLab's page is slow.
     """
     for item in items:
         group = item.path.relative_to(item.config.rootpath).as_posix()
@@ -82,9 +79,9 @@ def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PrivateMaster]:
 
 @pytest.fixture
 def kernel(master: PrivateMaster) -> Iterator[Kernel]:
-    """Start a process that runs cells.
+    """Start a new process that runs cells.
 
-    Each test gets a new process, because rospy can start only once in a process.
+    rospy can start only once in a process.
     """
     with Kernel() as fresh:
         yield fresh
@@ -102,6 +99,6 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 @pytest.fixture(scope="session")
 def sandbox() -> None:
-    """Skip the test if this machine cannot create a sandbox; `course grade` does not run there either."""
+    """Skip the test if this machine cannot create a sandbox."""
     if reason := refusal():
         pytest.skip(reason)

@@ -1,4 +1,4 @@
-"""A Python process that runs cells one after the other, as a notebook's kernel does."""
+"""A Python process that runs cells like a notebook's kernel."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Any
 
-TIMEOUT = 30.0  # s; the time limit for a cell, unless a test gives another limit
+TIMEOUT = 30.0  # A cell may take this many seconds, unless a test gives another limit.
 
 LOOP = """
 import json, os, sys, time
@@ -40,7 +40,7 @@ class Reply:
     """The result of a cell.
 
     `value` is the value of the variable `result` in the cell. If the cell raised an exception, `error` is the
-    name of its class and `words` is its message. `took` is the duration in s.
+    exception's class name and `words` is its message. `took` is the duration in s.
     """
 
     value: Any
@@ -50,9 +50,9 @@ class Reply:
 
 
 class Kernel:
-    """A Python process that runs cells. If a cell reaches its time limit, the process is killed.
+    """A Python process that runs cells.
 
-    The test then fails with an AssertionError.
+    If a cell reaches its time limit, the process is killed, and the test fails with an AssertionError.
     """
 
     def __init__(self, env: Mapping[str, str | None] | None = None) -> None:
@@ -65,7 +65,7 @@ class Kernel:
             stderr=subprocess.STDOUT,
             pass_fds=[writer],
             env={name: value for name, value in environment.items() if value is not None},
-            start_new_session=True,  # Jupyter starts a kernel in the same way
+            start_new_session=True,  # Jupyter also starts a kernel in a new session.
             text=True,
         )
         os.close(writer)
@@ -81,37 +81,37 @@ class Kernel:
         self.exit()
 
     def ask(self, cell: str, timeout: float = TIMEOUT) -> Reply:
-        """Run a cell, and return its result; it may be an error. `timeout` is the time limit in s."""
+        """Run a cell, and return its result or error. `timeout` is the time limit in s."""
         self.begin(cell)
         return self.reply(timeout)
 
     def run(self, cell: str, timeout: float = TIMEOUT) -> Any:  # noqa: ANN401
-        """Run a cell that must not raise an error, and return its `result`."""
+        """Run a cell without errors, and return the cell's `result`."""
         reply = self.ask(cell, timeout)
         assert not reply.error, f"{reply.error}: {reply.words}"
         return reply.value
 
     def begin(self, cell: str) -> None:
-        """Start a cell, and return without waiting for its end."""
+        """Start a cell, and return immediately."""
         assert self._process.stdin is not None
         self._process.stdin.write(json.dumps(textwrap.dedent(cell)) + "\n")
         self._process.stdin.flush()
         assert self._line(TIMEOUT) == "begun\n"
 
     def reply(self, timeout: float = TIMEOUT) -> Reply:
-        """Return the result of the cell that was started."""
+        """Return the result of the started cell."""
         return Reply(**json.loads(self._line(timeout)))
 
     def kill(self) -> None:
-        """Kill the process with SIGKILL, as the kernel of Linux does if there is no free memory."""
+        """Kill the process with SIGKILL."""
         self._process.kill()
 
     def interrupt(self) -> None:
-        """Interrupt the running cell with a signal to its whole process group, as Jupyter does."""
+        """Interrupt the running cell with SIGINT to the whole process group, as Jupyter does."""
         os.killpg(self.pid, signal.SIGINT)
 
     def exit(self, timeout: float = 10.0) -> str:
-        """End the process, and return all text that it printed; kill it after `timeout` s."""
+        """End the process within `timeout` s, and return its printed text."""
         try:
             printed, _ = self._process.communicate(timeout=timeout)
         except subprocess.TimeoutExpired:

@@ -1,4 +1,4 @@
-"""A real IPython kernel. It receives the id of each cell, as from a front end such as JupyterLab."""
+"""A real IPython kernel that receives the id of each cell, as from JupyterLab."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from types import TracebackType
 
 from jupyter_client import BlockingKernelClient, KernelManager
 
-TIMEOUT = 30.0  # s; the time limit for a cell
+TIMEOUT = 30.0  # A cell may take this many seconds.
 
 
 @dataclass
@@ -25,16 +25,16 @@ class Shown:
     ename: str = ""
     evalue: str = ""
     traceback: list[str] = field(default_factory=list)
-    others: str = ""  # output that other cells printed at the same time
+    others: str = ""  # This text is the output of other cells at the same time.
 
     @property
     def error_lines(self) -> list[str]:
-        """The lines of the traceback as a front end shows them."""
+        """The lines of the traceback."""
         return "\n".join(self.traceback).splitlines()
 
 
 class NotebookKernel:
-    """A process with an IPython kernel, and the client of this kernel."""
+    """An IPython kernel process with its client."""
 
     def __init__(self, env: Mapping[str, str] | None = None, **options: str) -> None:
         self.manager = KernelManager(kernel_name="python3", **options)
@@ -53,7 +53,7 @@ class NotebookKernel:
         self.manager.shutdown_kernel(now=True)
 
     def begin(self, code: str, cell: str | None = None) -> str:
-        """Send the code of a cell, with its id `cell` if it is not None; return the id of the message."""
+        """Send the code and the id of a cell to the kernel, and return the id of the message."""
         content = {
             "code": textwrap.dedent(code).strip("\n"),
             "silent": False,
@@ -72,9 +72,9 @@ class NotebookKernel:
         return self.shown(self.begin(code, cell), timeout)
 
     def shown(self, number: str, timeout: float = TIMEOUT) -> Shown:
-        """Wait until the cell that was sent with the message id `number` has ended, and return its outputs.
+        """Wait for the end of the cell with the message id `number`, and return its outputs.
 
-        Raises AssertionError if the cell does not end within `timeout` s.
+        Raises AssertionError if the cell takes more than `timeout` s.
         """
         shown, deadline = Shown(), time.monotonic() + timeout
         while True:

@@ -1,11 +1,13 @@
-"""A pytest plug-in that chooses tests: `--changed` runs tests that a change can affect, `--slow` slow tests.
+"""A pytest plug-in that selects tests.
+
+The option `--changed` selects tests that a change can affect, and `--slow` selects slow tests.
 
 A test depends on its own folder in tests/, and on the packages of course_pkg that its package may import. The
-layers of import-linter's contract in pyproject.toml list these packages. A test of one chapter depends on the
-folder of this chapter and on the chapters from which it imports, but not on other chapters.
+import-linter contract in pyproject.toml lists these packages. A test of a chapter depends on this chapter and
+on the chapters that it imports.
 
-A group contains the tests of one file, or of one file and one chapter. `--changed` leaves out a group if it
-passed earlier, and all files on which it depends have not changed since then.
+A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group that has
+passed and whose files have not changed since then.
 """
 
 from __future__ import annotations
@@ -32,7 +34,8 @@ else:
 
 ROOT = Path(__file__).parents[1]
 ALWAYS = ("pyproject.toml", "CMakeLists.txt", "package.xml", "course_pkg/setup/locks/test.txt")
-CHAPTER = re.compile(r"\[(\d\d)[._]")  # the chapter in a test's id: "[05.1 right: …]", "[05_write_a_server]"
+# The pattern finds the chapter in a test's id: "[05.1 right: …]", "[05_write_a_server]"
+CHAPTER = re.compile(r"\[(\d\d)[._]")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -43,7 +46,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 class Selection:
-    """The groups of tests that passed, each with the digest of the files on which the group depends."""
+    """The passed groups, and for each group the digest of its files."""
 
     def __init__(self, file: Path) -> None:
         self._file = file
@@ -52,11 +55,11 @@ class Selection:
         self._selected: dict[str, int] = {}
 
     def is_unchanged(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` has passed with the present digest."""
+        """Return whether the group of `item` has passed with the current digest."""
         return self._passed.get(group_of(item.nodeid)) == digest_of(group_of(item.nodeid))
 
     def has_changed(self, item: pytest.Item) -> bool:
-        """Return whether the group of `item` has passed with another digest; in a new clone, return False."""
+        """Return whether the group of `item` has passed with another digest."""
         return group_of(item.nodeid) in self._passed and not self.is_unchanged(item)
 
     def note(self, report: pytest.TestReport) -> None:
@@ -65,7 +68,7 @@ class Selection:
         self._outcomes[group] = self._outcomes.get(group, True) and not report.failed
 
     def store(self) -> None:
-        """Store the groups that passed in this run, and remove the groups that failed."""
+        """Store the groups that passed, and remove the groups that failed."""
         for group, passed in self._outcomes.items():
             self._passed.pop(group, None)
             if passed:
@@ -74,10 +77,7 @@ class Selection:
 
 
 class SelectionPlugin:
-    """The hooks of the plug-in.
-
-    They select tests before the run, and they store and list outcomes after it.
-    """
+    """The pytest hooks of the plug-in."""
 
     def __init__(self, config: pytest.Config) -> None:
         self._config = config
@@ -85,7 +85,7 @@ class SelectionPlugin:
         self._whole = not config.option.keyword and not any("::" in word for word in config.args)
 
     def pytest_collection_modifyitems(self, config: pytest.Config, items: list[pytest.Item]) -> None:
-        """Deselect the slow tests, or all other tests with `--slow`.
+        """Deselect the slow tests. With `--slow`, deselect all other tests.
 
         With `--changed`, also deselect unchanged groups.
         """
@@ -100,26 +100,26 @@ class SelectionPlugin:
         items[:] = [item for item in items if item not in left]
 
     def _is_wanted(self, item: pytest.Item, *, slow: bool) -> bool:
-        """Return whether a test belongs to a usual run, or to a run with `--slow` if `slow` is true."""
+        """Return whether a test belongs to a usual run, or to a slow run if `slow` is true."""
         if item.get_closest_marker("when_changed"):
             return slow or self._selection.has_changed(item)
         return (item.get_closest_marker("slow") is not None) == slow
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Record each outcome. Print a failure at once, because an interrupted run prints no summary."""
+        """Record each outcome, and print a failure immediately."""
         self._selection.note(report)
         if report.failed and not hasattr(self._config, "workerinput"):
             reporter = self._config.pluginmanager.get_plugin("terminalreporter")
             reporter.write_line(f"\n{report.nodeid} failed ({report.when})")
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
-        """Store the groups that passed, if all tests of each file ran and the run was not interrupted."""
+        """Store the passed groups after a complete run."""
         controller = not hasattr(session.config, "workerinput")
         if controller and self._whole and not session.shouldstop and not session.config.option.markexpr:
             self._selection.store()
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        """Print, at the end of the run, a command that repeats each failed test."""
+        """Print a command for each failed test."""
         failed = [*terminalreporter.getreports("failed"), *terminalreporter.getreports("error")]
         names = dict.fromkeys(report.nodeid.split("@")[0] for report in failed)
         if names:
@@ -134,7 +134,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def group_of(test: str) -> str:
-    """Return the group of a test: the test's file, and the chapter in the test's parameter, if any."""
+    """Return the group of a test: its file, and the chapter in its parameter."""
     found = CHAPTER.search(test)
     return f"{test.partition('::')[0]} {found[1] if found else ''}".strip()
 
@@ -156,9 +156,9 @@ def digest_of(group: str) -> str:
 def _packages_below(folder: str) -> list[str]:
     """Return the packages on which a folder of tests depends.
 
-    The result contains the package of this name and all packages that it may import.
+    The packages are the package of the same name and all packages that it may import.
 
-    If no package has the name of the folder, the folder depends on all packages.
+    If no package has this name, return all packages.
     """
     package = {"chapters": "authoring", "notebooks": "authoring"}.get(folder, folder)
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]
@@ -169,10 +169,7 @@ def _packages_below(folder: str) -> list[str]:
 
 
 def chapter_paths(chapter: str) -> Iterator[str]:
-    """Yield the folders and the notebooks on which the tests of a chapter depend; "" means all chapters.
-
-    The folders are the chapter's own folder and the folders from which it imports.
-    """
+    """Yield the folders and notebooks on which the tests of a chapter depend; "" means all chapters."""
     for number in [chapter] if chapter else chapters():
         yield from (str(folder.relative_to(ROOT)) for folder in folders_for(number))
     for pattern in (f"solutions/{chapter}*", f"notebooks/{chapter}*"):
@@ -181,9 +178,9 @@ def chapter_paths(chapter: str) -> Iterator[str]:
 
 @cache
 def _digest_of_folder(path: str, *, own: bool = False) -> str:
-    """Return the digest of a file, of a module without its ending .py, or of a folder.
+    """Return the digest of a file, of a module or of a folder.
 
-    If `own` is true, the subfolders of the folder are not included.
+    If `own` is true, ignore the subfolders.
     """
     where = ROOT / path
     found = where.glob("*" if own else "**/*") if where.is_dir() else [where, where.with_suffix(".py")]

@@ -1,4 +1,4 @@
-"""Functions for the tests of all folders: waits, states of processes, and commands."""
+"""Functions for all tests: waits, process states and commands."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Result = TypeVar("Result")
 
 
 def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval: float = 0.01) -> Result:
-    """Return the first true value of `condition`, evaluated every `interval` s; fail after `timeout` s."""
+    """Return the first true value of `condition`. Fail after `timeout` s."""
     deadline = time.monotonic() + timeout
     while not (value := condition()):
         if time.monotonic() > deadline:
@@ -26,10 +26,7 @@ def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval:
 
 @contextmanager
 def stopped(pid: int) -> Iterator[None]:
-    """Stop a process with SIGSTOP during the `with` block.
-
-    All its threads are stopped when the block begins.
-    """
+    """Stop a process with SIGSTOP during the `with` block."""
     os.kill(pid, signal.SIGSTOP)
     try:
         eventually(lambda: all(state in "Tt" for state in _thread_states(pid)))
@@ -40,7 +37,7 @@ def stopped(pid: int) -> Iterator[None]:
 
 
 def process_state(pid: int) -> str:
-    """Return the letter for the state of a process, as in ps; if the process has ended, return "Z"."""
+    """Return the letter of a process state, as in ps. Return "Z" if the process has exited."""
     return _state(Path(f"/proc/{pid}/stat"))
 
 
@@ -56,11 +53,11 @@ def _state(stat: Path) -> str:
 
 
 def terminal(*command: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run a command to its end, and return its exit status and its output as text."""
+    """Run a command, and return its exit status and output."""
     env = {**os.environ, **environment}
     return subprocess.run(command, capture_output=True, text=True, timeout=30, env=env, check=False)
 
 
 def program(name: str, *arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Run one of the course's programs to its end, and return its exit status and its output as text."""
+    """Run one of the course's programs, and return its exit status and output."""
     return terminal("rosrun", "course_pkg", name, *arguments, **environment)

@@ -1,4 +1,4 @@
-"""Tests of `write_atomically`: it writes a file completely, or does not change it."""
+"""Tests of `write_atomically`, which either writes a whole file or does not change the file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from course_pkg.files import write_atomically
 
 
 def test_a_failed_write_does_not_change_the_file(tmp_path: Path) -> None:
-    """After a failed write, the file has its old text, and no temporary file is left."""
+    """After a failed write, the file has its old text."""
     path = tmp_path / "file"
     write_atomically(path, "old")
     with pytest.raises(UnicodeEncodeError):

@@ -1,4 +1,4 @@
-"""Tests that share a master or a JupyterLab are in one group, and each group stays on one worker."""
+"""Tests of the groups: one worker runs all tests of a group."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 def test_a_worker_knows_the_group_of_each_test(request: pytest.FixtureRequest) -> None:
     """With `--dist loadgroup`, pytest-xdist adds the group to the id of a test.
 
-    With pytest 9.2, it does not.
+    With pytest 9.2, pytest-xdist does not add the group.
     """
     grouped = request.config.getoption("loadgroup", default=False)
     assert request.node.nodeid.endswith("@tests/test_groups.py") == grouped

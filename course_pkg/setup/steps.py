@@ -1,4 +1,4 @@
-"""Run the steps of the set-up that are not done; independent steps run at the same time."""
+"""Run the steps of the set-up that are not finished; independent steps run at the same time."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from course_pkg.setup.stamps import Stamps, digest, locked
 
 
 class Step(NamedTuple):
-    """One step of the set-up. `is_done` runs at every start, so it must be fast.
+    """One step of the set-up.
 
-    `makes` is the folder that it creates.
+    `is_done` runs at every start, so it must be fast. `makes` is the folder that the step creates.
     """
 
     title: str
@@ -29,9 +29,10 @@ class Step(NamedTuple):
 
 
 def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
-    """Set up what is missing. If nothing is missing, this takes a few milliseconds and prints nothing.
+    """Set up what is missing.
 
-    Raises SetupError, with the next step for the user, if a step fails.
+    If nothing is missing, this function takes a few milliseconds and prints nothing. Raises SetupError, with
+    the next step for the user, if a step fails.
     """
     stages = steps_of(places, grade=grade, test=test)
     if all(step.is_done() for stage in stages for step in stage):
@@ -52,11 +53,11 @@ def ensure(places: Places, *, grade: bool = False, test: bool = False) -> None:
 
 
 def steps_of(places: Places, *, grade: bool = False, test: bool = False) -> list[list[Step]]:
-    """Return the steps in stages; the steps of a stage do not depend on each other."""
+    """Return the steps in stages; all steps of one stage can run at the same time."""
     stamps = Stamps(places.stamps)
     library_step = _library_step(places, stamps, "test" if test else "course")
     catkin = _workspace_step(places, stamps)
-    if places.conda:  # environment.yml lists the packages and the libraries for conda
+    if places.conda:  # For conda, environment.yml lists the packages and the libraries.
         return [[catkin]]
     platform = packages.read_platform(places.checkout)
     wanted = [*platform.course, *(platform.test if test else platform.grade if grade else ())]
@@ -86,7 +87,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        # with this stamp, the next start is faster, because it does not have to call dpkg
+        # With this stamp, the next start does not call dpkg.
         with suppress(OSError):
             stamps.write(name, state)
         return True
@@ -100,7 +101,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
         made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in (extra, "test"))
-        # the lock file of "test" also contains all libraries of "course"
+        # The lock file of "test" contains all libraries of "course".
         return libraries.environment_works(places) and any(made)
 
     def make(journal: Journal, _progress: Progress) -> None:
@@ -129,7 +130,7 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
         with progress.step(step.title):
             step.make(journal, progress)
 
-    # imported here, because it takes 5 ms and most starts do not need it
+    # The import takes 5 ms, and most starts do not need it.
     from concurrent.futures import ThreadPoolExecutor
 
     with progress.painting(), ThreadPoolExecutor(max_workers=2) as pool:

@@ -80,24 +80,24 @@ CASES = {
 
 @pytest.mark.parametrize(("source", "expected"), CASES.values(), ids=CASES)
 def test_rules(source: str, expected: str) -> None:
-    """The answer is removed, and no other byte changes."""
+    """`blank` removes the answer and changes no other byte of the cell."""
     assert blank(source) == expected
 
 
 @pytest.mark.parametrize("source", [source for source, _ in CASES.values()], ids=CASES)
 def test_blanking_twice_changes_nothing_more(source: str) -> None:
-    """A second call of `blank` changes nothing."""
+    """`blank` does not change a cell that is already blank."""
     assert blank(blank(source)) == blank(source)
 
 
 @pytest.mark.parametrize("name", [name for name, (source, _) in CASES.items() if "%" not in source])
 def test_a_blank_exercise_is_valid_python(name: str) -> None:
-    """A student who runs a blank exercise gets no syntax error."""
+    """A blank exercise is valid Python."""
     ast.parse(blank(CASES[name][0]))
 
 
 @pytest.mark.parametrize("source", ["def f(:\n    return", "%%bash\nls", "%%script true\nx = 1"])
 def test_a_cell_without_a_rule_is_refused(source: str) -> None:
-    """`blank` raises an error for invalid Python, and for a magic to which no rule applies."""
+    """`blank` raises an error for a cell that is not valid Python."""
     with pytest.raises(AuthoringError):
         blank(source)

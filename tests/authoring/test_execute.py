@@ -1,4 +1,4 @@
-"""A chapter runs in a new kernel, and a second run by nbval gives the same outputs."""
+"""`course sync --execute` runs each chapter in a new kernel and stores the outputs."""
 
 from __future__ import annotations
 
@@ -42,10 +42,7 @@ def solution(root: Path, *cells: Cell) -> Path:
 
 
 def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A second run does not change the file, the check passes, and nbval passes.
-
-    Each run has its own master, although ROS_MASTER_URI contains the address of another one.
-    """
+    """A second run does not change the stored file, and nbval passes."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     path = solution(tmp_path, code(SET_UP, id="set-up"), exercise(source=SERVER), check())
     execute(["05"], tmp_path)
@@ -58,9 +55,9 @@ def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: p
 
 
 def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) -> None:
-    """The SVG contains its labels as text, and is the same in every run. nbval compares only the plain text.
+    """The SVG contains its labels as text, and is the same in every run.
 
-    This is also true if matplotlib has drawn a figure before the kernel becomes a node.
+    nbval compares only the plain text.
     """
     set_up = code('from course_pkg import join\nnode = join("chapter_05")', id="set-up")
     path = solution(tmp_path, code(PLOT, id="early"), set_up, code(PLOT, id="plot"))
@@ -83,7 +80,7 @@ def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) ->
 
 
 def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
-    """The error contains the id of the cell, and the stored file does not change."""
+    """The error message contains the id of the cell that failed, and the stored file does not change."""
     path = solution(tmp_path, code("1 / 0", id="boom"))
     before = path.read_text()
     with pytest.raises(AuthoringError, match="cell boom stopped the run with ZeroDivisionError"):
@@ -92,10 +89,7 @@ def test_a_cell_that_stops_the_run_is_named(tmp_path: Path) -> None:
 
 
 def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message of `course sync --execute` contains the chapter, the part and the report.
-
-    The status is 1.
-    """
+    """If a check fails, `course sync --execute` exits with status 1 and prints the report."""
     wrong = SERVER.replace("request.width * request.length", "request.width + request.length")
     path = solution(tmp_path, code(SET_UP, id="set-up"), exercise(source=wrong), check())
     before = path.read_text()
@@ -104,7 +98,6 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
     with pytest.raises(SystemExit) as ended:
         main(["sync", "--execute", "05"])
     assert path.read_text() == before
-    # sys.exit with a text prints this text, and sets the exit status to 1
     first, headline, *report = str(ended.value.code).splitlines()
     assert first.startswith("course: 05_write_a_server: check 05.1 has not passed")
     assert headline == "  05.1 not yet: 0 of 2 points"
@@ -112,7 +105,7 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
 
 
 def test_a_check_without_a_report_has_not_passed() -> None:
-    """A check has passed only if its output is a report of its own part; printed text does not count."""
+    """A check passes only if its output is a report of its own part. Printed text does not count."""
     passed = {"output_type": "execute_result", "data": {"text/plain": "05.1 passed: 2 of 2 points"}}
     printed = {"output_type": "stream", "name": "stdout", "text": "05.1 passed"}
     assert not_passed(book(_checked(passed), _checked(printed, passed), code("1"))) == {}
@@ -135,7 +128,7 @@ run_all({"05_wait": book(code(cell))}, lambda *_: None)
 
 
 def test_an_interrupt_ends_the_kernels(tmp_path: Path) -> None:
-    """After Ctrl-C, the command and its kernel end."""
+    """After Ctrl-C, the command and its kernel exit."""
     pid_file = tmp_path / "pid"
     with subprocess.Popen(
         [sys.executable, "-c", INTERRUPTED, str(pid_file)], stderr=subprocess.DEVNULL

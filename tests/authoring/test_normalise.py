@@ -1,4 +1,4 @@
-"""A normalised notebook contains nothing that differs between runs or front ends."""
+"""A normalised notebook contains nothing that differs between two runs."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from tests.authoring.books import book, check, code, exercise, text
 
 
 def stream(words: str, name: str = "stdout") -> dict[str, str]:
-    """Return an output of a stream."""
+    """Return a stream output."""
     return {"output_type": "stream", "name": name, "text": words}
 
 
 def test_a_second_normalisation_changes_nothing() -> None:
-    """The file is the same after a second call of `tidy`, and it is a valid notebook."""
+    """A second call of `tidy` does not change the notebook."""
     data = {"text/plain": "Panel()", VIEW: {"model_id": "0123"}}
     shown = {"output_type": "execute_result", "data": data, "metadata": {VIEW: {}}, "execution_count": 77}
     cell = code(
@@ -40,7 +40,7 @@ def test_a_second_normalisation_changes_nothing() -> None:
 
 
 def test_only_parts_that_differ_between_runs_are_removed() -> None:
-    """Widget ids and timings are removed, and outputs of a stream are joined; texts and tags stay."""
+    """`tidy` removes widget ids and timings, but not texts and tags."""
     data = {"text/plain": "Panel()", VIEW: {"model_id": "0123"}}
     shown = {"output_type": "display_data", "data": data, "metadata": {}}
     cell = code("panel", outputs=[stream("a"), stream("b\n"), shown], execution_count=77, tags=["x"])
@@ -57,7 +57,7 @@ def test_only_parts_that_differ_between_runs_are_removed() -> None:
 
 
 def test_a_readable_traceback_stays() -> None:
-    """The course's traceback names cells but no files, so the notebook keeps it."""
+    """`tidy` does not remove a traceback of the course, because this traceback contains no file paths."""
     lines = [HEADER, "  This cell, line 1", "    fail()", "E: v"]
     cell = code("fail()", outputs=[{"output_type": "error", "ename": "E", "evalue": "v", "traceback": lines}])
     tidy(book(cell))
@@ -65,7 +65,7 @@ def test_a_readable_traceback_stays() -> None:
 
 
 def test_another_traceback_is_reduced_to_its_last_line() -> None:
-    """An error keeps its message. Its traceback is removed, because it contains paths of this machine."""
+    """`tidy` removes a traceback that contains file paths, but not the error message."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["File /home/me/x.py", "E: v"]}
     cell = code("fail()", outputs=[error], execution_count=1)
     tidy(book(cell))
@@ -73,10 +73,7 @@ def test_another_traceback_is_reduced_to_its_last_line() -> None:
 
 
 def test_every_cell_gets_a_unique_id() -> None:
-    """The id of an exercise or of a check contains the id of its part.
-
-    Valid ids stay, and duplicates get a number as a suffix.
-    """
+    """`tidy` gives each cell without a valid id a new id, and makes duplicate ids unique."""
     notebook = book(text("a", "same"), text("b", "same"), text("c", "not valid!"), exercise(), check())
     notebook["cells"][3]["id"] = "whatever"
     tidy(notebook)
@@ -87,7 +84,7 @@ def test_every_cell_gets_a_unique_id() -> None:
 
 
 def test_strip_removes_every_output() -> None:
-    """A stripped cell has no outputs and no execution count, but the same source."""
+    """A stripped cell has no outputs and no execution count, and its source does not change."""
     cell = code("1", outputs=[stream("1")], execution_count=3)
     notebook = book(cell)
     before = copy.deepcopy(cell["source"])

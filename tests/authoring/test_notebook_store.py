@@ -16,7 +16,7 @@ from tests.authoring.books import book, check, code, exercise, text
 
 @pytest.fixture
 def root(tmp_path: Path) -> Path:
-    """Create a checkout with one chapter; it has all parts that the chapter's checks declare."""
+    """Create a checkout with one chapter."""
     cells = [text("# Write a server")]
     for part in parts_of("05"):
         answer = [f"{part.start}\nanswered = True"] if part.start else []
@@ -32,10 +32,7 @@ def write(root: Path, notebook: Notebook, name: str = "05_write_a_server") -> No
 
 
 def test_sync_updates_the_notebooks(root: Path) -> None:
-    """Before the first sync, `check` lists the missing notebook. After the sync, `check` passes.
-
-    A second sync writes nothing.
-    """
+    """`check` lists a missing notebook, and passes after the sync."""
     with pytest.raises(AuthoringError, match=r"course sync[\s\S]*notebooks/05_write_a_server.ipynb"):
         sync(check=True, root=root)
     assert sync(root=root) == 0
@@ -47,7 +44,7 @@ def test_sync_updates_the_notebooks(root: Path) -> None:
 
 
 def test_a_students_notebook_has_no_answer(root: Path) -> None:
-    """A student's exercise cell has the signature of the function, and the same metadata and id."""
+    """In a student's notebook, an exercise cell contains only the signature of the function."""
     sync(root=root)
     derived = json.loads((root / "notebooks" / "05_write_a_server.ipynb").read_text())
     cell = derived["cells"][1]
@@ -57,7 +54,7 @@ def test_a_students_notebook_has_no_answer(root: Path) -> None:
 
 
 def repair(source: str) -> list[Cell]:
-    """Return the cells of chapter 04, with `source` as the solution of each part."""
+    """Return the cells of chapter 04, where `source` is the solution of each part."""
     cells = []
     for part in parts_of("04"):
         cells += [exercise(part.check, part.points, source), check(part.check)]
@@ -65,10 +62,10 @@ def repair(source: str) -> list[Cell]:
 
 
 def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: Path) -> None:
-    """The student's cell contains the broken file from the check, and is not blank."""
+    """The student's cell contains the broken file instead of a blank exercise."""
     path = "src/lamp_services/CMakeLists.txt"
     write(tmp_path, book(*repair(f"%%writefile {path}\nproject(lamp_services)")), "04_define_a_service")
-    with pytest.raises(AuthoringError):  # the other parts of the chapter have to write other files
+    with pytest.raises(AuthoringError):
         sync(root=tmp_path)
     derived = json.loads((tmp_path / "notebooks" / "04_define_a_service.ipynb").read_text())
     cell = next(cell for cell in derived["cells"] if cell["id"] == "exercise-04-4")
@@ -78,14 +75,14 @@ def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: P
 
 
 def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) -> None:
-    """If the cell and the check name different files, the sync fails."""
+    """If a cell and its check name different files, the sync fails."""
     write(tmp_path, book(*repair("%%writefile elsewhere.txt\nproject(lamp_services)")), "04_define_a_service")
     with pytest.raises(AuthoringError, match=r"exercise-04-4: the check hands out a cell that begins with"):
         sync(root=tmp_path)
 
 
 def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
-    """`check` finds a changed byte in a derived notebook, and a sync restores the byte."""
+    """`check` reports an edited notebook, and a sync restores it."""
     sync(root=root)
     path = root / "notebooks" / "05_write_a_server.ipynb"
     path.write_text(path.read_text() + "\n")
@@ -96,7 +93,7 @@ def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
 
 
 def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
-    """If a chapter is renamed, `check` lists the notebook with the old name, and a sync deletes it."""
+    """After a chapter is renamed, a sync deletes the notebook with the old name."""
     sync(root=root)
     (root / "notebooks" / "05_old_name.ipynb").write_text("{}")
     with pytest.raises(AuthoringError, match="05_old_name"):
@@ -134,14 +131,14 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
     ],
 )
 def test_each_problem_of_a_solution_is_reported(tmp_path: Path, cells: list[Cell], words: str) -> None:
-    """The message contains the notebook's name and the problem."""
+    """The error message contains the notebook's name and the problem."""
     write(tmp_path, book(*cells))
     with pytest.raises(AuthoringError, match=rf"05_write_a_server[^\n]*{words}"):
         sync(root=tmp_path)
 
 
 def test_a_file_that_is_not_a_notebook_is_refused(tmp_path: Path) -> None:
-    """The error for a truncated file contains the name of the file."""
+    """The error message for a truncated file contains the name of the file."""
     (tmp_path / "solutions").mkdir()
     (tmp_path / "solutions" / "05_x.ipynb").write_text('{"cells": [')
     with pytest.raises(AuthoringError, match=r"05_x\.ipynb is not a notebook"):

@@ -1,7 +1,4 @@
-"""When a solution is stored, panels get still pictures.
-
-A measured picture stays if its code has not changed.
-"""
+"""When a solution is stored, each panel gets a picture."""
 
 from __future__ import annotations
 
@@ -20,7 +17,7 @@ TURTLES = {"background": [69, 86, 255], "names": [], "palette": [], "rows": [], 
 
 
 def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") -> Notebook:
-    """Return an executed notebook: a cell with a panel, and a cell with a plot."""
+    """Return an executed notebook with two cells: a panel and a plot."""
     view = {"text/plain": "Panel()", VIEW: {"model_id": "m"}}
     shown = {"output_type": "execute_result", "data": view, "metadata": {}, "execution_count": 1}
     drawn = {"output_type": "display_data", "data": {"text/plain": "<Figure>", SVG: plot}, "metadata": {}}
@@ -31,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return `notebook` as it is stored when the earlier stored notebook is `before`."""
+    """Return `notebook` as the store writes it when the previously stored notebook is `before`."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)
@@ -39,10 +36,7 @@ def stored(notebook: Notebook, before: Notebook) -> Notebook:
 
 
 def test_a_panel_gets_a_picture_beside_its_text() -> None:
-    """The output keeps its text and gets a picture.
-
-    The widget's view is removed, because the kernel has ended.
-    """
+    """A stored panel has a picture and a text, but no widget view."""
     notebook = stored(executed("<svg>1</svg>"), book())
     (output,) = notebook["cells"][0]["outputs"]
     assert set(output["data"]) == {"text/plain", SVG}
@@ -51,7 +45,7 @@ def test_a_panel_gets_a_picture_beside_its_text() -> None:
 
 
 def test_a_plot_stays_while_nothing_changed() -> None:
-    """After a second run of the same code, the stored plot stays, even if the measured times differ."""
+    """If neither the code nor the text output changes, the store does not replace the stored plot."""
     first = stored(executed("<svg>1</svg>"), book())
     assert first["cells"][1]["outputs"][0]["metadata"][SVG][MADE_BY]
     assert stored(executed("<svg>2</svg>"), first) == first
@@ -59,7 +53,7 @@ def test_a_plot_stays_while_nothing_changed() -> None:
 
 @pytest.mark.parametrize("change", ["source", "text", "earlier cell", "no digest"])
 def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
-    """After a change of the output's text or of the code, the new plot replaces the stored plot."""
+    """If the code or the text output changes, the store replaces the plot."""
     first = stored(executed("<svg>1</svg>"), book())
     again = executed("<svg>2</svg>", source="plot(2)" if change == "source" else "plot()")
     if change == "text":
@@ -72,7 +66,7 @@ def test_a_plot_is_drawn_anew_after_a_change(change: str) -> None:
 
 
 def test_only_a_measured_picture_of_a_panel_stays() -> None:
-    """The picture of a question is drawn again each time. The picture of a recording of turtles is kept."""
+    """The store replaces the picture of a prediction, but not the picture of a recording."""
     for panel, stays in (("prediction", False), ("turtles", True)):
         first = stored(executed("<svg>1</svg>", panel=panel), book())
         first["cells"][0]["outputs"][0]["data"][SVG] = "<svg>old</svg>"
@@ -81,7 +75,7 @@ def test_only_a_measured_picture_of_a_panel_stays() -> None:
 
 
 def test_a_widget_of_another_library_gets_no_picture() -> None:
-    """The course draws pictures of its own panels only."""
+    """The store adds pictures only to panels of the course."""
     notebook = executed("<svg>1</svg>")
     notebook["metadata"]["widgets"][STATES]["state"]["m"]["state"]["_anywidget_id"] = "another.Widget"
     assert set(stored(notebook, book())["cells"][0]["outputs"][0]["data"]) == {"text/plain"}

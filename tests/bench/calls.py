@@ -37,7 +37,7 @@ from course_pkg.ros.trace.recorder import Recorder
 
 
 def bounded_main() -> None:
-    """Measure calls on new connections, calls on persistent connections, and snapshots of the graph."""
+    """Measure calls on new connections, calls on persistent connections, and snapshots of the ROS graph."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     calls = parser.parse_args().calls
@@ -55,10 +55,7 @@ def bounded_main() -> None:
 
 
 def bounded_compare(label: str, bare: rospy.ServiceProxy, bounded: BoundedProxy, calls: int) -> None:
-    """Print the median duration of a call through each proxy in ms, and the ratio of the medians.
-
-    The proxies alternate.
-    """
+    """Print the median duration of a call through each proxy in ms, and the ratio of the two medians."""
     for proxy in (bare, bounded):
         times_of(partial(proxy, 1.2, 5.2, 8.9), 50)
     blocks: tuple[list[float], list[float]] = ([], [])
@@ -70,7 +67,7 @@ def bounded_compare(label: str, bare: rospy.ServiceProxy, bounded: BoundedProxy,
 
 
 def looks(count: int) -> None:
-    """Print the duration of a snapshot of a graph with `count` nodes."""
+    """Print the duration of a snapshot of a ROS graph with `count` nodes."""
     processes = [NodeProcess.rosrun("course_pkg", "pulse", name=f"pulse_{number}") for number in range(count)]
     for number, process in enumerate(processes):
         process.wait_for_service(f"/pulse_{number}/get_loggers", timeout=60)
@@ -113,7 +110,7 @@ def panel_compare(calls: int) -> tuple[float, float]:
 
 
 def panel_main() -> int:
-    """Print the ratio of each run; return 1 if the median of the ratios does not meet the bar."""
+    """Print the ratio of each run. Return 1 if the median ratio is above the limit."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     parser.add_argument("--runs", type=int, default=3)
@@ -137,8 +134,8 @@ def panel_main() -> int:
 # receipt. A payment that has not ended 2 s after its time limit counts as a hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
-DEADLINE = 15.0  # time limit for one payment (s); a killed till needs about 1 s for its restart
-GRACE = 2.0  # s after the time limit; a payment that has not ended by then is a hang
+DEADLINE = 15.0  # A payment may take this many seconds; a restart of a killed till needs about 1 s.
+GRACE = 2.0  # A payment that takes this many seconds more than DEADLINE counts as a hang.
 IN_THE_TILL = (
     "dies before it charges",
     "charges and dies",
@@ -152,7 +149,7 @@ FAULTS = (*IN_THE_TILL, *FROM_OUTSIDE)
 
 
 def robust_main() -> int:
-    """Make many payments, and print the numbers of errors and hangs; return 1 if there are any."""
+    """Make many payments, and print the numbers of errors and hangs. Return 1 if there are any."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=200)
     parser.add_argument("--seed", type=int, default=int(time.time()))
@@ -197,7 +194,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """A till in a separate process; when the process ends, it is started again."""
+    """A till in a separate process that is restarted whenever it exits."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -208,7 +205,10 @@ class Street:
         self._keeper.start()
 
     def payment(self, pay: Callable[..., int | None], cents: int, fault: str, dice: random.Random) -> str:
-        """Pay while the till causes `fault`, and return "right", "hang", or a description of the error."""
+        """Make a payment while the till causes `fault`.
+
+        Return "right", "hang", or a description of the error.
+        """
         self._cause(fault, dice)
         results: list[object] = []
 
@@ -226,7 +226,7 @@ class Street:
         return verdict
 
     def close(self) -> None:
-        """End the till, and the thread that restarts it."""
+        """Stop the till and the thread that restarts it."""
         self._over.set()
         self._keeper.join(30)
         self._till.stop()
@@ -241,7 +241,7 @@ class Street:
         elif fault == "is shut down":
             self._till.interrupt()
         elif fault == "is killed while it is asked":
-            # a call takes about 3 ms, so the fault comes at a random moment of it
+            # A call takes about 3 ms, so this delay places the fault at a random moment of the call.
             delay = dice.uniform(0.0, 0.004)
             threading.Timer(delay, self._signal, [self._till.pid, signal.SIGKILL]).start()
 
@@ -281,14 +281,14 @@ class Street:
 
 
 def books(folder: Path) -> list[dict[str, Any]]:
-    """Return all payments in the till's file; an incomplete last line is left out."""
+    """Return all complete payments in the till's file."""
     path = folder / "books"
     lines = path.read_text("utf-8").splitlines() if path.exists() else []
     return [json.loads(line) for line in lines if line.endswith("}")]
 
 
 class Till:
-    """The till in its process. It writes each request to a file once, before it sends the response."""
+    """The node of the till. The node writes each request to a file before it sends the response."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -336,11 +336,11 @@ def serve(folder: Path) -> None:
 
 # recorder: measures the cost of the recorder. It measures a call on a new connection, a call on a persistent
 # connection, and a published message, each with and without recording in both nodes. It also measures a
-# single event. The clients with and without recording alternate; clients and servers use one core each. The
-# result of a run is the lower quartile of its durations. The best run is printed, because other load makes
-# durations only longer.
+# single event. The result of a run is the lower quartile of its durations. The benchmark prints the fastest
+# run, because other programs on the machine can only make a run slower.
 
-# maximum ratio for a call on a new connection; maximum duration of an event (µs)
+# The first number limits the duration ratio for a call on a new connection. The second number limits the
+# duration of an event in µs.
 RECORDER_BAR, EVENT_BAR = 1.03, 5.0
 NODE = """
 import json, os, statistics, sys, time
@@ -388,7 +388,7 @@ Figures = dict[str, float]
 
 
 def recorder_main() -> int:
-    """Print all results; return 1 if one of them does not meet its bar."""
+    """Print all results. Return 1 if a result is above its limit."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     parser.add_argument("--runs", type=int, default=7)
@@ -410,7 +410,7 @@ def recorder_main() -> int:
 
 
 def started(way: str, core: int) -> subprocess.Popen[bytes]:
-    """Start a server. Its calls are recorded if `way` is "recorded"."""
+    """Start a server that records its calls if `way` is "recorded"."""
     server = subprocess.Popen([sys.executable, "-c", SERVER, way, str(core), "0"])
     rospy.wait_for_service(way, timeout=20)
     return server
@@ -425,7 +425,7 @@ def figures(way: str, core: int, calls: int) -> Figures:
 
 
 def shown(runs: list[tuple[Figures, Figures]]) -> float:
-    """Print the best durations; return the ratio for a call on a new connection."""
+    """Print the shortest durations, and return the duration ratio for a call on a new connection."""
     ratios = []
     for name in runs[0][0]:
         bare, recorded = (1e6 * min(run[end][name] for run in runs) for end in (0, 1))
@@ -454,6 +454,7 @@ if __name__ == "__main__":
             "panel": panel_main,
             "robust": robust_main,
             "recorder": recorder_main,
-            "till": lambda: serve(Path(sys.argv[1])),  # the benchmark `robust` starts this process
+            # The benchmark `robust` starts this subcommand as a separate process.
+            "till": lambda: serve(Path(sys.argv[1])),
         }
     )

@@ -1,4 +1,4 @@
-"""Functions that several benchmarks use, for subcommands and for measurements of time."""
+"""Functions for the subcommands and the time measurements of the benchmarks."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import NoReturn
 
 
 def run_command(commands: Mapping[str, Callable[[], int | None]]) -> NoReturn:
-    """Run the subcommand that the first argument names; the other arguments are its options."""
+    """Run the subcommand in the first argument, and pass the other arguments to this subcommand."""
     name = sys.argv.pop(1) if len(sys.argv) > 1 else ""
     if name not in commands:
         sys.exit(f"usage: {sys.argv[0]} {'|'.join(commands)} [OPTION …]")
@@ -30,10 +30,7 @@ def times_of(action: Callable[[], object], repeats: int) -> list[float]:
 
 
 def alternate(actions: Mapping[str, Callable[[], object]], rounds: int) -> dict[str, float]:
-    """Return the median duration of each action in ms.
-
-    The actions alternate, so that other load on the machine affects all of them.
-    """
+    """Return the median duration of each action in ms; the actions run alternately."""
     times: dict[str, list[float]] = {name: [] for name in actions}
     for _ in range(rounds):
         for name, action in actions.items():

@@ -24,7 +24,7 @@ from course_pkg.checking.parts import every_part
 
 ROOT = Path(__file__).parents[2]
 ROSPY = {"Service", "ServiceProxy", "Publisher", "Subscriber"}
-# methods of the object that join() returns; they do the same as rospy's classes
+# These methods of the object that join() returns do the same as classes of rospy.
 OURS = {"serve", "proxy", "call", "advertise", "subscribe"}
 TYPES = ("course_pkg.srv", "course_pkg.msg", "course_pkg.action")
 COLOURS = re.compile(r"\x1b\[[0-9;]*m")
@@ -33,7 +33,7 @@ NAMES_BAR, PARTS_BAR, ERROR_BAR, WORDS_BAR = 18, 95, 12, 38_000
 
 @dataclass(frozen=True)
 class Code:
-    """A code cell: its place, its source without magics, its magics, and whether it is an exercise."""
+    """A code cell: its position, its source without magics, its magics, and whether it is an exercise."""
 
     place: str
     tree: ast.Module
@@ -42,9 +42,9 @@ class Code:
 
 
 def objects_main() -> bool:
-    """Print how many objects in exercises are created by rospy, and how many by the course.
+    """Print how many objects in exercises are created by rospy, and how many are created by the course.
 
-    Returns whether any is created by the course.
+    Return whether the course creates any object.
     """
     created = Counter(
         "rospy" if owner == "rospy" else f"the course ({code.place})"
@@ -60,7 +60,10 @@ def objects_main() -> bool:
 
 
 def names_main() -> bool:
-    """Print the names from course_pkg in code cells, except types; return whether there are too many."""
+    """Print the names that code cells import from course_pkg, except types.
+
+    Return whether there are too many.
+    """
     found: dict[str, set[str]] = {}
     for code in code_cells():
         for name in {*imported(code.tree), *methods(code.tree), *code.magics}:
@@ -105,12 +108,12 @@ def prose_main() -> bool:
 
 
 def all_main() -> bool:
-    """Print all counts; return whether any of them does not meet its bar."""
+    """Print all counts, and return whether a count does not meet its limit."""
     return any([objects_main(), names_main(), parts_main(), errors_main(), prose_main()])
 
 
 def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
-    """Yield the path of the notebook, the number of the cell and the cell, for each cell of this kind."""
+    """Yield each cell of this kind, with the path of its notebook and its number."""
     for path in sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb")):
         for number, cell in enumerate(nbformat.read(path, as_version=4).cells):
             if cell.cell_type == kind:
@@ -118,7 +121,7 @@ def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
 
 
 def code_cells() -> Iterator[Code]:
-    """Yield the code cells with Python, including the cells that write a program."""
+    """Yield the code cells that contain Python."""
     for path, number, cell in cells("code"):
         first = cell.source.partition("\n")[0]
         if first.startswith("%%") and not re.match(r"%%writefile .*\.py$", first):

@@ -1,4 +1,4 @@
-"""Tests whether the flags find all copies, and nothing else, in a class of 300 students.
+"""Measures how well the flags find copies in a class of 300 students.
 
 `grading.py copies [SEED …]` writes a class of chapter 05: for each exercise, each of 280 students takes one
 of the independently written answers (from independent_05.txt and from the chapter's example answers) and
@@ -33,14 +33,11 @@ SECONDS, FALSE_ALARMS, WRITTEN = 20.0, 2, 60
 HANDLERS = {"handle_count", "handle_reset", "handle_switch", "handle_checked_geometry"}
 SERVICES = {"count_service", "reset_service", "switch_service", "checked_service"}
 KEPT = {"Counter", "Switch", "counter", "switch", *HANDLERS, *SERVICES}
-Answers = dict[str, str]  # the source of the answer to each part
+Answers = dict[str, str]  # This type maps the id of a part to the source of the student's answer.
 
 
 def copies_main() -> int:
-    """Measure with each seed, and print one line for each seed.
-
-    Return the number of bars that are not met.
-    """
+    """Print one line for each seed, and return the number of limits that are not met."""
     written = independent_answers()
     count = sum(map(len, written.values()))
     print(f"{count} independently written answers of at least {STATEMENTS} statements (bar {WRITTEN})")
@@ -51,7 +48,7 @@ def copies_main() -> int:
 
 
 def measured(written: dict[str, list[str]], seed: int) -> bool:
-    """Print the result of the flags for the class of this seed; return whether the bars are met."""
+    """Print the result of the flags for the class with this seed. Return whether the limits are met."""
     students, pairs = a_class(written, random.Random(seed))  # noqa: S311 -- a class that can be repeated
     submissions = [handed_in(number, answers) for number, answers in enumerate(students)]
     grades = [Grade(each.student, CHAPTER, (), origin=each.origin) for each in submissions]
@@ -74,7 +71,7 @@ def measured(written: dict[str, list[str]], seed: int) -> bool:
 
 
 def independent_answers() -> dict[str, list[str]]:
-    """Return the sources of the answers to each part; answers with too few statements are left out."""
+    """Return the independent answers to each part, without very short answers."""
     found: dict[str, list[str]] = {}
     own = Path(__file__).with_name("independent_05.txt").read_text("utf-8")
     for header, source, _ in percent_cells(own):
@@ -91,7 +88,7 @@ def independent_answers() -> dict[str, list[str]]:
 def a_class(
     written: dict[str, list[str]], draw: random.Random
 ) -> tuple[list[Answers], list[tuple[int, int]]]:
-    """Return the answers of all students, and the pairs (original, copy) as numbers of students."""
+    """Return the answers of all students, and the numbers of the students in each pair (original, copy)."""
     students: list[Answers] = []
     for _ in range(STUDENTS - COPIES):
         style = a_style(draw)
@@ -111,7 +108,7 @@ def a_class(
 
 
 def styled(source: str, style: list[Rule], draw: random.Random) -> str:
-    """Return an answer in the style of a student."""
+    """Return a submission that contains these answers."""
     return in_style(source, style, draw)
 
 

@@ -30,13 +30,13 @@ NOTHING = {
     "returns 0": "return 0",
     "returns an empty list": "return []",
     "raises": "raise RuntimeError('nothing')",
-}  # the only statement of each function, by its description
+}  # Each key describes a function, and its value is the only statement of this function.
 IDLE = "does nothing: "
 UNABLE = {"is not Python": "this is not Python\n", "raises at its start": "raise RuntimeError('nothing')\n"}
 
 
 def main() -> int:
-    """Run the answers, print those with points, and return the number of answers with wrong points."""
+    """Run the answers and print the answers with points. Return the number of answers with wrong points."""
     words = sys.argv[1:]
     few = "few" in words
     asked = tuple(word for word in words if word != "few") or ("",)
@@ -72,7 +72,7 @@ def main() -> int:
 
 
 def _doing_nothing(right: Answer) -> Iterator[Answer]:
-    """Yield answers that do nothing, with the names of `right`; some need functions in it."""
+    """Yield answers that define the same names as `right`, but do nothing."""
     magic = right.source.startswith("%%")
     first, _, text = right.source.partition("\n") if magic else ("", "", right.source)
     head = f"{first}\n" if magic else ""

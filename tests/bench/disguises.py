@@ -1,8 +1,7 @@
-"""Changes programs as students do: writes an answer in another style, or disguises a copy.
+"""Changes programs as students do: rewrites an answer in another style, or disguises a copy.
 
-A style changes the structure of a program: it uses other statements in other places. A disguise changes only
-what a student can change without understanding the program: names, comments, and the order of functions and
-of independent statements.
+A style changes the structure of a program. A disguise changes only names, comments, and the order of
+functions and of independent statements.
 """
 
 from __future__ import annotations
@@ -42,7 +41,7 @@ Rule = Callable[[ast.Module, random.Random], None]
 
 
 def in_style(source: str, style: Sequence[Rule], draw: random.Random) -> str:
-    """Return a program that does the same and follows the rules of a style."""
+    """Return a program with the same behaviour that follows the rules of a style."""
     magic, module = _parsed(source)
     for rule in style:
         rule(module, draw)
@@ -55,7 +54,7 @@ def a_style(draw: random.Random) -> list[Rule]:
 
 
 def disguised(source: str, keep: set[str], draw: random.Random) -> str:
-    """Return a copy with other names, another order and other comments; the names in `keep` do not change."""
+    """Return a copy with changed names, order and comments. The names in `keep` do not change."""
     magic, module = _parsed(source)
     _without_docstrings(module)
     _renamed(module, keep, draw)
@@ -253,7 +252,7 @@ def print_results(module: ast.Module, draw: random.Random) -> None:
 
 
 def format_texts(module: ast.Module, draw: random.Random) -> None:
-    """Rewrite f-strings and calls of str() in another form."""
+    """Rewrite f-strings and calls of str()."""
     style = draw.choice(["{}", "%"])
 
     class Change(ast.NodeTransformer):
@@ -269,7 +268,7 @@ def format_texts(module: ast.Module, draw: random.Random) -> None:
 
 
 def turn_conditions(module: ast.Module, draw: random.Random) -> None:
-    """Exchange the branches of `if … else`."""
+    """Swap the branches of `if … else`."""
     for node in ast.walk(module):
         if isinstance(node, ast.If) and node.orelse and draw.random() < 0.7:
             node.test = ast.UnaryOp(ast.Not(), node.test)
@@ -302,7 +301,7 @@ def spread_conditional_values(module: ast.Module, draw: random.Random) -> None:
 
 
 def name_arguments(module: ast.Module, draw: random.Random) -> None:
-    """Assign calculated arguments of calls to variables first."""
+    """Assign each calculated argument of a call to a variable before the call."""
     name = draw.choice(WORDS)
     for body in _blocks(module):
         for place in range(len(body) - 1, -1, -1):
@@ -321,7 +320,7 @@ def name_arguments(module: ast.Module, draw: random.Random) -> None:
 
 
 def compare_with_true(module: ast.Module, draw: random.Random) -> None:
-    """Compare conditions with True."""
+    """Add `== True` to conditions."""
     operator = draw.choice([ast.Is, ast.Eq])
     for node in ast.walk(module):
         if isinstance(node, ast.If | ast.IfExp) and isinstance(node.test, ast.Attribute | ast.Name):
@@ -329,7 +328,7 @@ def compare_with_true(module: ast.Module, draw: random.Random) -> None:
 
 
 def guard(module: ast.Module, draw: random.Random) -> None:
-    """Check the argument at the beginning of handlers."""
+    """Add a check of the argument at the beginning of each handler."""
     test = draw.choice(["{} is None", "not hasattr({}, '__slots__')", "rospy.is_shutdown()"])
     for function in _functions(module):
         if function.args.args and draw.random() < 0.8:
@@ -358,7 +357,7 @@ def protect(module: ast.Module, draw: random.Random) -> None:
 
 
 def annotate_steps(module: ast.Module, draw: random.Random) -> None:
-    """Assign the fields of the request to variables first."""
+    """Assign the fields of the request to variables at the beginning."""
     for function in _functions(module):
         fields = sorted(
             {node.attr for node in ast.walk(function) if isinstance(node, ast.Attribute)
@@ -374,7 +373,7 @@ def annotate_steps(module: ast.Module, draw: random.Random) -> None:
 
 
 def slip(module: ast.Module, draw: random.Random) -> None:
-    """Add a mistake: another number, another comparison, or a sum in place of a product."""
+    """Add a mistake, such as a wrong number or comparison."""
     for node in ast.walk(module):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mult) and draw.random() < 0.5:
             node.op = ast.Add()

@@ -75,7 +75,7 @@ def speed_main() -> None:
 
 
 def report(what: str, seconds: float) -> None:
-    """Print one line of the table."""
+    """Print one line of the results."""
     print(f"{what:32}{seconds:8.2f} s a notebook", flush=True)
 
 
@@ -87,7 +87,7 @@ def timed(work: Callable[[], object]) -> float:
 
 
 def handed_in(folder: Path, count: int) -> None:
-    """Write `count` submissions, which all differ. Every third submission has a wrong answer."""
+    """Write `count` different submissions. Every third submission has one wrong answer."""
     solution = read(NotebookStore().solutions([CHAPTER])[0])
     for number in range(count):
         notebook = json.loads(json.dumps(solution))
@@ -102,7 +102,7 @@ def handed_in(folder: Path, count: int) -> None:
 
 
 def speed_grade(submissions: Path, out: Path, validate: str) -> None:
-    """Grade the submissions with the same command as an instructor."""
+    """Grade the submissions with `course grade`."""
     command = [Places.of().checkout / "course", "grade", submissions, "--out", out, "--validate", validate]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     assert subprocess.run(command, check=False, **quiet).returncode in (GRADED, NEED_A_LOOK)
@@ -111,7 +111,7 @@ def speed_grade(submissions: Path, out: Path, validate: str) -> None:
 def many(here: Path, few: float, count: int) -> None:
     """Grade `count` submissions.
 
-    Print the throughput for many submissions, relative to that for few submissions, and the memory.
+    Print the throughput and the memory.
     """
     handed_in(here / "many", count)
     with watched() as seen:
@@ -126,7 +126,7 @@ def many(here: Path, few: float, count: int) -> None:
 
 @contextmanager
 def watched() -> Iterator[list[float]]:
-    """Yield a list; once per second, the memory of all child processes in MiB is added to it."""
+    """Once per second, append the memory of all child processes in MiB to the yielded list."""
     seen: list[float] = []
     over = threading.Event()
 
@@ -152,7 +152,7 @@ def _resident(pid: int) -> int:
 
 
 def nbgrader(here: Path, count: int) -> float:
-    """Return how long nbgrader needs for each of `count` notebooks with the same cells (s)."""
+    """Return the duration in s that nbgrader needs for each of `count` notebooks with the same cells."""
     python = nbgrader_python()
     course = here / "nbgrader"
     assignment = course / "source" / "ps" / "notebook.ipynb"
@@ -177,10 +177,7 @@ def nbgrader(here: Path, count: int) -> float:
 
 
 def as_assignment() -> dict[str, object]:
-    """Return the notebook with nbgrader's metadata.
-
-    The exercise cells are answers, and the check cells are tests.
-    """
+    """Return the chapter's notebook as an nbgrader assignment."""
     notebook = json.loads(json.dumps(read(NotebookStore().solutions([CHAPTER])[0])))
     for cell in code_cells(notebook):
         cell["outputs"], cell["execution_count"] = [], None
@@ -201,10 +198,7 @@ def as_assignment() -> dict[str, object]:
 
 
 def nbgrader_python() -> Path:
-    """Return the interpreter of an environment in which nbgrader is installed.
-
-    The environment is created only once.
-    """
+    """Return the Python interpreter of an environment with nbgrader."""
     places = Places.of()
     folder = places.cache.parent / "bench-nbgrader"
     python = folder / "bin" / "python"
@@ -220,13 +214,13 @@ def nbgrader_python() -> Path:
 
 # kill: kills the grader by SIGKILL at random moments. Arguments: `[TIMES]`. Six submissions are graded once
 # without a kill. Then a run is killed after a random time and continued, TIMES times (default 20). The grades
-# must be the same each time, and no process may be left.
+# must be equal after each run, and no process may remain.
 
 COURSE = Places.of().checkout / "course"
 
 
 def kill_main() -> None:
-    """Kill and continue runs, and print how often the grades were the same and no process was left."""
+    """Kill and continue runs. Print how often the grades were equal and no process remained."""
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         here = Path(folder)
@@ -243,7 +237,7 @@ def kill_main() -> None:
 
 
 def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bool:
-    """Kill a run and continue it; return whether its grades are `expected` and no process is left."""
+    """Kill a run and continue it. Return whether its grades are `expected` and no process remains."""
     moment = random.uniform(0.2, whole)  # noqa: S311 -- not a secret
     process = start(submissions, out)
     time.sleep(moment)
@@ -279,24 +273,23 @@ def alive(pid: int) -> bool:
 
 
 def start(submissions: Path, out: Path) -> subprocess.Popen[bytes]:
-    """Start `course grade` without nbval, in the same way as an instructor."""
+    """Start `course grade` without nbval."""
     command = [COURSE, "grade", submissions, "--out", out, "--validate", "none"]
     return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ})
 
 
 def grade_without_nbval(submissions: Path, out: Path) -> None:
-    """Grade all submissions; if this fails, exit."""
+    """Grade all submissions. Exit if grading fails."""
     if start(submissions, out).wait():
         sys.exit("grading failed")
 
 
-# reference: grades the solutions. Arguments: `[RUNS]`. The solution of each chapter is handed in RUNS times
-# (default 20) and graded like other submissions, several of them at the same time. Each part must pass each
-# time. A check that sometimes refuses a correct answer would take points from students.
+# reference: grades the solutions. Arguments: `[RUNS]`. Each chapter's solution is graded RUNS times (default
+# 20), and several submissions are graded at the same time. Each part must pass each time.
 
 
 def reference_main() -> None:
-    """Grade the solutions, and list each part that did not pass."""
+    """Grade the solutions, and print each part that did not pass."""
     runs = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     lost: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
@@ -305,7 +298,8 @@ def reference_main() -> None:
             for path in NotebookStore().solutions():
                 target = hand_in(here / "in", f"s{number:02}", path.name[:2])
                 notebook = json.loads(target.read_text("utf-8"))
-                notebook["cells"][0]["source"] += f"\n{number}"  # equal notebooks would be graded only once
+                # Identical notebooks would be graded only once.
+                notebook["cells"][0]["source"] += f"\n{number}"
                 target.write_text(json.dumps(notebook), "utf-8")
         grade_without_nbval(here / "in", here / "out")
         graded = 0
@@ -339,7 +333,7 @@ WRITTEN = re.compile(
 
 
 def answers_main() -> int:
-    """Check the answers; return how many of them have another verdict than their header."""
+    """Check the answers. Return how many answers have a verdict that differs from their header."""
     folder, *wanted = sys.argv[1:]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
     written = [answer for path in paths for answer in _written(path)]

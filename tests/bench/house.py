@@ -42,9 +42,9 @@ BARS = {
 
 
 def size_main() -> bool:
-    """Print the amount of Python, and the largest number of modules in a folder.
+    """Print the number of lines of Python, and the largest number of modules in a folder.
 
-    Return whether a bar is exceeded.
+    Return whether a limit is exceeded.
     """
     lines = {path: len(path.read_text("utf-8").splitlines()) for path in python_files()}
     folders = Counter(path.parent for path in lines if path.name != "__init__.py")
@@ -60,7 +60,7 @@ def size_main() -> bool:
 
 
 def imports_main() -> bool:
-    """Print the numbers of forbidden imports; return whether a bar is exceeded."""
+    """Print the number of forbidden imports. Return whether a limit is exceeded."""
     return any(
         [
             over("import circles", refused("circles")),
@@ -71,14 +71,14 @@ def imports_main() -> bool:
 
 
 def types_main() -> bool:
-    """Print how often the code uses Any (an import counts, too); return whether the bar is exceeded."""
+    """Print how often the code uses Any. Return whether the limit is exceeded."""
     uses = {str(path.relative_to(ROOT)): uses_of_any(path.read_text("utf-8")) for path in python_files()}
     most, count = max(uses.items(), key=lambda item: item[1])
     return over("uses of Any", sum(uses.values()), f"{count} of them in {most}")
 
 
 def functions_main() -> bool:
-    """Print the lengths of functions, from `def` to the last line; return whether a bar is exceeded."""
+    """Print the lengths of functions. Return whether a limit is exceeded."""
     paths = [path for path in python_files() if not is_answers(path)]
     lengths = [length for path in paths for length in function_lengths(path.read_text("utf-8"))]
     return any(
@@ -90,7 +90,7 @@ def functions_main() -> bool:
 
 
 def hints_main() -> bool:
-    """Print the number of hints that no example answer causes; return whether the bar is exceeded."""
+    """Print the number of hints that no example answer causes. Return whether the limit is exceeded."""
     hints = {chapter: hints_of(chapter) for chapter in chapters()}
     missing = [
         hint
@@ -101,12 +101,12 @@ def hints_main() -> bool:
 
 
 def all_main() -> bool:
-    """Print all numbers; return whether any bar is exceeded."""
+    """Print all numbers. Return whether a limit is exceeded."""
     return any([size_main(), imports_main(), types_main(), functions_main(), hints_main()])
 
 
 def over(what: str, figure: float, note: str = "") -> bool:
-    """Print a number and its bar; return whether the number is larger than the bar."""
+    """Print a number and its limit. Return whether the number is larger than the limit."""
     bar = BARS[what]
     print(f"{what:34}{figure:>10,.10g}  (bar: {bar:,})  {'OVER' if figure > bar else ''}  {note}".rstrip())
     return figure > bar
@@ -138,7 +138,7 @@ def refused(contract: str) -> int:
 
 
 def uses_of_any(source: str) -> int:
-    """Return how often the name Any occurs; strings that contain types count, too."""
+    """Return how often the name Any occurs in the source; types in strings count too."""
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
     names = sum(token.type == tokenize.NAME and token.string == "Any" for token in tokens)
     aliases = re.findall(r': TypeAlias = "(.*)"$', source, re.MULTILINE)
@@ -146,7 +146,7 @@ def uses_of_any(source: str) -> int:
 
 
 def function_lengths(source: str) -> Iterator[int]:
-    """Yield the number of lines of each function, without its decorators."""
+    """Yield the number of lines of each function without its decorators."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.end_lineno is not None:
             yield node.end_lineno - node.lineno + 1

@@ -40,13 +40,18 @@ from course_pkg.lab.jupyterlab import free_port
 from tests.lab.commands import ADDRESS, ROOT, alive, below, can_connect, having, lab, user_environment
 from tests.support import eventually
 
-START_RATIO, START_BAR = 0.75, 3.0  # maximum start time: as a ratio to that of `jupyter lab`, and in s
-CLICK_RATIO, CLICK_BAR = 0.3, 12.0  # maximum ratio to `jupyter lab`, and maximum duration (ms)
+# The start of `course lab` may take at most this fraction of the start of `jupyter lab`, and at most this
+# many seconds.
+START_RATIO, START_BAR = 0.75, 3.0
+# A click in `course lab` may take at most this fraction of a click in `jupyter lab`, and at most this many
+# ms.
+CLICK_RATIO, CLICK_BAR = 0.3, 12.0
 WARM_UP = 10  # clicks
-TIMEOUT = 20.0  # s; a process that still runs after this time counts as left behind
+TIMEOUT = 20.0  # A process that still runs after this many seconds counts as left behind.
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
 FLAGS += ["--disable-background-networking"]
-SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"  # `jupyter lab` also restores old tabs
+# The selector excludes hidden tabs, because `jupyter lab` restores old tabs.
+SHOWN = ".jp-NotebookPanel:not(.lm-mod-hidden)"
 IDLE = f"() => document.querySelector('{SHOWN} .jp-Notebook-ExecutionIndicator[data-status=idle]')"
 STEPS = ("address known", "page received", "notebook rendered", "kernel idle")
 CELL = """
@@ -78,12 +83,12 @@ CLICK = """async () => {
     await changed
     return performance.now() - start
 }"""
-# the arguments are a notebook and a folder for state
+# The two arguments are a notebook and a folder for JupyterLab's settings.
 Server = Callable[[Path, Path], AbstractContextManager[str]]
 
 
 def start(runs: int = 5, notebook: str = "notebooks/00_start_the_graph.ipynb") -> bool:
-    """Measure each server once with an empty browser cache, and then several times with a full cache."""
+    """Measure the start of each server, first with an empty browser cache and then with a full cache."""
     rows: dict[str, list[list[float]]] = {name: [] for name in SERVERS}
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         for _ in range(runs + 1):
@@ -127,7 +132,7 @@ def until_usable(page: Page) -> list[float]:
 
 
 def click(clicks: int = 100) -> bool:
-    """Measure the clicks on each server twice; the servers alternate."""
+    """Measure the clicks on each server twice."""
     notebook = ROOT / "tests" / "bench" / f"click-{os.getpid()}.ipynb"
     cells = [nbformat.v4.new_markdown_cell("# Click"), nbformat.v4.new_code_cell(CELL)]
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
@@ -166,7 +171,7 @@ def times_of_clicks(server: AbstractContextManager[str], clicks: int) -> list[fl
 
 
 def reported(medians: dict[str, float], ratio_bar: float, bar: float, unit: str) -> bool:
-    """Print the ratio of the medians and the duration; return whether both meet their bars."""
+    """Print the ratio of the medians and the duration. Return whether both values meet their limits."""
     ratio = medians["course"] / medians["stock"]
     print(f"course lab / stock: {ratio:.2f} (bar {ratio_bar}): {'met' if ratio <= ratio_bar else 'MISSED'}")
     met = medians["course"] <= bar
@@ -261,12 +266,12 @@ def costs(server: Server, notebook: Path) -> tuple[list[float], list[float], lis
 
 
 def kill(times: int = 20) -> bool:
-    """Kill `course lab`, the master and the kernel several times; return whether nothing was left behind."""
+    """Kill `course lab`, the master and the kernel several times. Return whether all processes ended."""
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     victims["the holder of the graph"] = b"graph/holder.py\0"
     left = 0
     for name, pattern in victims.items():
-        port = free_port()  # the same port for each start; a start fails if its port is still in use
+        port = free_port()  # Each start uses this port, so a start fails if the port is still in use.
         seconds, leftovers = zip(*(killed(port, pattern) for _ in range(times)), strict=True)
         count, slowest = sum(leftovers), max(seconds)
         print(f"SIGKILL of {name}, {times} times: {count} processes or ports left; slowest {slowest:.1f} s")
@@ -275,17 +280,16 @@ def kill(times: int = 20) -> bool:
 
 
 def killed(port: int, pattern: bytes) -> tuple[float, int]:
-    """Kill the process whose command line contains `pattern`, or the command itself if `pattern` is empty.
+    """Kill the process whose command line contains `pattern`, and then stop the command.
 
-    Then end the command. Returns the time in s until all processes have ended and the port is free, and the
-    numbers of processes and of ports that remain after TIMEOUT.
+    An empty `pattern` kills the command itself. Return the time in s until all processes have exited, and the
+    numbers of processes and of ports that remain.
     """
     with lab("--port", str(port), str(next((ROOT / "solutions").glob("*.ipynb")))) as (process, address):
         assert urlsplit(address).port == port
         family = eventually(partial(complete_family, process))
         if pattern:
-            # The last match is the process itself, and the first match is its supervisor. Both have the same
-            # command line.
+            # The supervisor has the same command line as its child process and comes first in the list.
             os.kill(having(pattern, family)[-1], signal.SIGKILL)
             family += below(process)
             process.send_signal(signal.SIGINT)
@@ -299,10 +303,7 @@ def killed(port: int, pattern: bytes) -> tuple[float, int]:
 
 
 def complete_family(process: subprocess.Popen[str]) -> list[int]:
-    """Return the child processes of `process`.
-
-    Return an empty list if there is no master or no kernel yet.
-    """
+    """Return the child processes of `process`, or an empty list while the master or the kernel is missing."""
     family = below(process)
     return family if having(b"ipykernel_launcher", family) and having(b"rosmaster\0--core", family) else []
 

@@ -40,7 +40,7 @@ TURTLES = 12
 
 
 def rates_main() -> None:
-    """Print each measured number and its bar."""
+    """Print each measured number and its limit."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=20.0)
     seconds = parser.parse_args().seconds
@@ -56,7 +56,7 @@ def rates_main() -> None:
 
 
 def measure(simulator: NodeProcess, turtles: int, seconds: float) -> None:
-    """Print the rate, the gaps and the CPU time while each turtle has a subscriber and a publisher."""
+    """Print the rate, the gaps and the CPU time."""
     names = [f"/turtle{number}" for number in range(1, turtles + 1)]
     arrivals: deque[float] = deque()
     with ExitStack() as open_:
@@ -108,7 +108,7 @@ def driving(names: list[str]) -> Iterator[None]:
 
 
 def answers(count: int = 40) -> None:
-    """Print the median duration of a call to each service."""
+    """Print the median duration of a call for each service."""
     spawn, reset = rospy.ServiceProxy("/spawn", Spawn), rospy.ServiceProxy("/reset", Empty)
     teleport = rospy.ServiceProxy("/turtle1/teleport_absolute", TeleportAbsolute)
     calls: dict[str, Callable[[], object]] = {
@@ -119,7 +119,8 @@ def answers(count: int = 40) -> None:
     times: dict[str, list[float]] = {label: [] for label in calls}
     for turn in range(count):
         for label, call in calls.items():
-            time.sleep(0.001 * (turn % 17))  # so that the calls come at different times within a tick
+            # The pause varies so that the calls arrive at different times within a tick.
+            time.sleep(0.001 * (turn % 17))
             started = time.monotonic()
             call()
             times[label].append((time.monotonic() - started) * 1000)
@@ -146,7 +147,7 @@ BLOCKS = 10
 
 
 def fuzz_main() -> None:
-    """Make random calls in ten blocks, and examine the node after each block."""
+    """Make random calls in ten blocks, and check the node after each block."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--deeds", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
@@ -175,7 +176,7 @@ def fuzz_main() -> None:
 # left behind: a node, topic, service, process, listening port or environment variable. It also measures the
 # start and the end of a plain node, because a fault with a server cannot be faster than this.
 
-BOUND = 3.0  # s; the benchmark counts the rounds that take longer
+BOUND = 3.0  # The benchmark counts the rounds that take longer than this many seconds.
 BARE = """
 import rospy
 from std_srvs.srv import Trigger
@@ -204,9 +205,10 @@ def bare_round() -> float:
 
 
 def measured(label: str, rounds: int, turn: Callable[[], float]) -> tuple[float, float, int]:
-    """Run `turn` several times; print and return the median and the maximum duration in s.
+    """Run `turn` several times.
 
-    The third number says how often the state after the round differed from the state before it.
+    Print and return the median and the maximum duration in s, and the number of rounds that changed the
+    graph.
     """
     before, times, changed = Surroundings(), [], 0
     for _ in range(rounds):

@@ -47,16 +47,15 @@ from tests.browser.jupyter import running_lab, running_notebook
 from tests.browser.pages import new_page, panel
 
 # graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time while the graph
-# does not change. The CPU time is measured with idle nodes, and with messages on 40 topics.
+# does not change.
 
 UPDATE_BAR = 150.0  # ms
-IDLE_BAR = 2.0  # maximum share of a core (%)
+IDLE_BAR = 2.0  # The panel may use at most this percentage of a core.
 NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
-RATE = 5  # Hz; each topic has this rate
+RATE = 5  # Each topic has this rate in Hz.
 
-# A node that publishes on some topics and subscribes to other topics. Its arguments are the names of the
-# topics.
+# A node that publishes and subscribes to the topics in its arguments.
 SPEAKER = """
 import sys
 import rospy
@@ -77,7 +76,7 @@ while not rospy.is_shutdown():
 
 
 def graph(turn: int) -> Snapshot:
-    """Return a graph in which the name of one topic depends on `turn`."""
+    """Return a graph that contains one topic with a different name for each `turn`."""
     names = [f"/robot_{number}" for number in range(NODES)]
     topics = [
         TopicSeen(f"/topic_{number}_{turn if not number else 0}", "std_msgs/String", (names[number % NODES],),
@@ -93,7 +92,7 @@ def graph(turn: int) -> Snapshot:
 
 
 def update() -> float:
-    """Return the median duration in ms from a new snapshot to a new drawing."""
+    """Return the median time in ms between a new snapshot and its drawing."""
     model = GraphModel(lambda **_: None)
     times = []
     for turn in range(15):
@@ -107,7 +106,7 @@ def update() -> float:
 def share(
     nodes: list[subprocess.Popen[bytes]], ready: Callable[[GraphPanel], bool]
 ) -> tuple[float, Counter[str]]:
-    """Return the share of a core (%) that a visible panel uses, and the number of updates of each trait."""
+    """Return the percentage of a core that a visible panel uses, and the number of updates of each trait."""
     sent: Counter[str] = Counter()
     try:
         panel = GraphPanel()
@@ -133,7 +132,7 @@ def share(
 
 
 def idle() -> float:
-    """Return the share of a core (%) while ten nodes are idle."""
+    """Return the percentage of a core that the panel uses while ten nodes are idle."""
     nodes = [
         subprocess.Popen(["rosrun", "course_pkg", "server", f"__name:=n{number}"]) for number in range(10)
     ]
@@ -141,10 +140,7 @@ def idle() -> float:
 
 
 def busy() -> tuple[float, Counter[str]]:
-    """Return the share of a core (%) while 20 nodes use 40 topics.
-
-    The second result is the number of updates of each trait.
-    """
+    """Return the percentage of a core and the trait updates while 20 nodes use 40 topics."""
     topics = [f"/topic_{number}" for number in range(TOPICS)]
     commands = [
         [f"robot_{number}", ",".join(topics[number::NODES]), ",".join(topics[(number + 7) % NODES :: NODES])]
@@ -162,7 +158,7 @@ def _heard(panel: GraphPanel) -> int:
 
 
 def graph_main() -> int:
-    """Print the results; return 1 if one does not meet its bar, or if new counts caused a new drawing."""
+    """Print the results. Return 1 if a result does not meet its limit."""
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"] = master.uri
         os.environ["ROS_HOSTNAME"] = "localhost"
@@ -175,12 +171,13 @@ def graph_main() -> int:
 
 
 # timeline: measures how long the timeline panel needs in a browser for the first drawing of 2,000 events, and
-# for moving the view. The view is moved once with all events visible, and once with an eighth of them. Each
-# frame begins when the browser has painted the previous frame. `./course test` installs the browser.
+# for moving the view. `./course test` installs the browser.
 
 EVENTS, LENGTH = 2000, 10.0  # s
-DRAW_BAR, PAN_BAR = 500.0, 30.0  # maximum duration (ms); minimum number of frames per second
-REPEATS, TIMELINE_WATCH = 9, 2000  # number of drawings; duration of the movement in ms
+# The first drawing may take at most this many ms. Moving the view must reach at least this many frames per
+# second.
+DRAW_BAR, PAN_BAR = 500.0, 30.0
+REPEATS, TIMELINE_WATCH = 9, 2000  # The benchmark draws this many times, and moves the view for this many ms.
 PANELS = Path(__file__).parents[2] / "course_pkg" / "panels"
 DRAW = """async (state) => {
     const url = URL.createObjectURL(new Blob([state._esm], {type: "text/javascript"}))
@@ -220,7 +217,7 @@ PAN = """async (watch) => {
 
 
 def timeline_main() -> int:
-    """Print the results; return 1 if one of them does not meet its bar."""
+    """Print the results. Return 1 if a result does not meet its limit."""
     files = {"_esm": module(PANELS / "timeline/timeline.js"), "recorded": state(recording())}
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
@@ -244,7 +241,7 @@ def timeline_main() -> int:
 
 
 def first_drawing(page: Page, files: dict[str, object]) -> float:
-    """Return the time in ms from the beginning to the first picture on the page."""
+    """Return the time in ms until the page shows the first picture."""
     page.evaluate("window.again?.()")
     return float(page.evaluate(DRAW, files))
 
@@ -258,7 +255,7 @@ def moving(page: Page) -> float:
 
 
 def recording() -> Recording:
-    """Return a recording with messages at 80 Hz, and with calls that take 0.1 s each."""
+    """Return a recording with messages at 80 Hz and with calls that take 0.1 s."""
     events: list[Event] = []
     for number in range(int(80 * LENGTH)):
         at, key = number / 80, f"message {number}"
@@ -274,7 +271,7 @@ def recording() -> Recording:
 
 
 def call(number: int, at: float) -> list[Event]:
-    """Return the events of the call with this number, which begins at `at` s."""
+    """Return the events of a call that begins at `at` s."""
     key, who, whom = f"call {number}", "/customer", "/cashier"
     parts = (
         (LOOKUP, 0, 1e-3),
@@ -294,9 +291,9 @@ def call(number: int, at: float) -> list[Event]:
 # panel is shown by a real kernel. In place of a page, a client reads the kernel's messages.
 
 TOPIC_WATCH = 10.0  # s
-TOPIC_BAR = 5.0  # maximum share of a core (%) at 100 Hz
-UPDATES = 10.0  # maximum number of updates per second
-DRIFT = 2.0  # maximum error of a rate (%)
+TOPIC_BAR = 5.0  # The panel may use at most this percentage of a core at 100 Hz.
+UPDATES = 10.0  # The panel may send at most this many updates per second.
+DRIFT = 2.0  # The displayed rate may differ from the real rate by at most this percentage.
 
 SHOW = """
 import os
@@ -356,7 +353,7 @@ def spent(pid: int) -> float:
 
 
 def watch(client: BlockingKernelClient, pids: list[int]) -> tuple[list[float], float, float]:
-    """Return each process's share of a core (%), the updates per second to the page, and their kB/s."""
+    """Return each process's percentage of a core, the updates per second, and the kB per second."""
     before, began, updates, size = [spent(pid) for pid in pids], time.monotonic(), 0, 0
     while (left := began + TOPIC_WATCH - time.monotonic()) > 0:
         try:
@@ -380,7 +377,7 @@ def drain(client: BlockingKernelClient) -> None:
 
 
 def topic_main() -> int:
-    """Print the results; return 1 if one of them does not meet its bar."""
+    """Print the results. Return 1 if a result does not meet its limit."""
     missed = 0
     with PrivateMaster() as master:
         os.environ["ROS_MASTER_URI"], os.environ["ROS_HOSTNAME"] = master.uri, "localhost"
@@ -418,7 +415,7 @@ def topic_main() -> int:
 # types: measures how long the type browser needs to open, with the types of this machine, and with hundreds
 # of additional types. It is compared with `rossrv list`, which lists the same service types in a terminal.
 
-TYPES_BAR = 100.0  # maximum time for opening with the types of this machine, after the import (ms)
+TYPES_BAR = 100.0  # The type browser may need at most this many ms to open, after the import.
 PACKAGES, TYPES = 60, 10
 RUNS = 9
 MANIFEST = "<package format='2'><name>{}</name><version>1.0.0</version></package>"
@@ -441,10 +438,7 @@ def median_of(action: Callable[[], object]) -> float:
 
 
 def report(what: str) -> float:
-    """Print the durations with the present ROS_PACKAGE_PATH.
-
-    Return the duration of the first opening in ms.
-    """
+    """Print the durations for the current ROS_PACKAGE_PATH, and return the first duration in ms."""
     first = time.perf_counter()
     TypeBrowser("std_srvs/SetBool")
     first = 1000 * (time.perf_counter() - first)
@@ -456,7 +450,7 @@ def report(what: str) -> float:
 
 
 def types_main() -> int:
-    """Print the results; return 1 if the first opening does not meet its bar."""
+    """Print the results. Return 1 if the first duration is above its limit."""
     with PrivateMaster() as master, tempfile.TemporaryDirectory() as folder:
         os.environ.update(ROS_MASTER_URI=master.uri, ROS_HOSTNAME="localhost")
         first = report("this machine")
@@ -516,7 +510,7 @@ def turtles_main() -> None:
 
 
 def counted(page: Page) -> list[int]:
-    """Return a list with one element: the number of bytes that the page's websockets have received."""
+    """Return a list whose only element is the number of bytes that the page's websockets have received."""
     received = [0]
 
     def count(socket: WebSocket) -> None:

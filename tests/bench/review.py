@@ -15,9 +15,9 @@ from tests.browser.chromium import chromium
 from tests.grading.review.classes import TOKEN, graded, serving, write_class
 
 STUDENTS = 300
-LINES = 60  # of each answer
+LINES = 60  # Each answer has this number of lines.
 STEPS = 200
-# Presses a key, and returns the time in ms until the next frame after the answer was put into the page.
+# The function presses a key, and returns the time in ms until the browser paints the next answer.
 PRESS = """
 async (key) => {
   const before = document.body.dataset.shown;
@@ -31,7 +31,7 @@ async (key) => {
 
 
 def next_main() -> None:
-    """Print the median, the 95th percentile and the maximum: one key after another, without a pause."""
+    """Press one key after another. Print the median, the 95th percentile and the maximum duration."""
     grades = [
         graded(f"s{number:03}", "\n".join(f"value_{line} = {number + line}" for line in range(LINES)))
         for number in range(STUDENTS)

@@ -28,8 +28,7 @@ from commands import run_command
 
 ROOT = Path(__file__).parents[2]
 FRESH_BAR = 60.0  # s
-# The new system needs these files of this machine. They contain addresses of package mirrors, name servers
-# and certificates.
+# The new system needs these files for package downloads: mirrors, name servers and certificates.
 SURROUNDINGS = (
     "/etc/apt/sources.list",
     "/etc/apt/sources.list.d",
@@ -81,7 +80,7 @@ def fresh_main() -> int:
 
 
 def fresh_measure(pristine: Path, system: Path) -> float:
-    """Return the duration in s of a first start in `system`, which becomes a copy of `pristine`."""
+    """Copy the system `pristine` to `system`, and return the duration in s of a first start."""
     subprocess.run(["cp", "-a", pristine, system], check=True)
     checkout = system / "home" / "course"
     checkout.mkdir(parents=True)
@@ -106,14 +105,14 @@ def fresh_measure(pristine: Path, system: Path) -> float:
 
 
 def inside(system: Path, script: str) -> None:
-    """Run `script` in `system`, in a mount namespace that ends with the script."""
+    """Run `script` in a mount namespace of `system`."""
     env = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root"}
     env |= {name: os.environ[name] for name in (*KEPT, *(it.upper() for it in KEPT)) if name in os.environ}
     subprocess.run(["unshare", "--mount", "sh", "-c", INSIDE, system, script], env=env, check=True)
 
 
 def mirror(codename: str) -> str:
-    """Return the mirror from which this machine's apt installs `codename`, or this machine's own release."""
+    """Return the mirror from which apt installs `codename`, or the release of this machine."""
     targets = [
         "apt-get",
         "indextargets",
@@ -128,7 +127,7 @@ def mirror(codename: str) -> str:
 
 
 def tell_surroundings(system: Path) -> None:
-    """Copy files into `system`, so that it can reach the same mirrors as this machine."""
+    """Copy files into `system` that the package downloads need."""
     for name in SURROUNDINGS:
         source, target = Path(name), system / name[1:]
         if source.is_dir():
@@ -165,7 +164,7 @@ def import_time(statement: str) -> float:
 
 
 def imports_main() -> None:
-    """Measure each import alternately with that of rospy, and print the median of the differences."""
+    """Measure the imports alternately, and print the median difference to the import of rospy."""
     taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
     for _ in range(ROUNDS):
         peer = import_time(PEER)
@@ -200,12 +199,12 @@ def cpp_main() -> int:
 
 
 def cpp_measure() -> tuple[list[float], float]:
-    """Return the duration of each build in a new workspace, and of the compilation of one file, in s."""
+    """Return the duration of each build, and of the compilation of one file, in s."""
     with tempfile.TemporaryDirectory(prefix="course-cpp-") as folder:
         seconds = list(built(Path(folder)))
         from course_pkg.workspace.cpp_support import (
             compile_command,
-        )  # imported here, because `fresh` runs without the course's libraries
+        )  # The import is here because `fresh` runs without the course's libraries.
 
         source = f"{folder}/src/cpp_services/src/geometry_server.cpp"
         return seconds, timed(compile_command(source, f"{folder}/alone"), folder)
@@ -229,7 +228,7 @@ def built(folder: Path) -> Iterator[float]:
 
 
 def timed(command: list[str], folder: str) -> float:
-    """Run a command, and return its duration in s. If it fails, exit with the command's output."""
+    """Run a command, and return its duration in s. Exit if the command fails."""
     started = time.perf_counter()
     done = subprocess.run(
         command, cwd=folder, env={**os.environ, "PWD": folder}, capture_output=True, text=True, check=False

@@ -66,10 +66,7 @@ def pages_main() -> None:
 
 
 def write_notebooks(root: Path) -> None:
-    """Write 14 executed notebooks: the last run of each chapter.
-
-    If the course has fewer than 14 chapters, some chapters are written twice.
-    """
+    """Write 14 executed notebooks; with fewer chapters, some chapters are written twice."""
     runs, solutions = Runs(), NotebookStore().solutions()
     (root / "solutions").mkdir()
     for number, path in enumerate(islice(cycle(solutions), PAGES)):
@@ -82,7 +79,7 @@ def write_notebooks(root: Path) -> None:
 
 
 def speed(root: Path) -> None:
-    """Build the site and nbconvert's pages alternately, each in a separate process; print the medians."""
+    """Build the site and nbconvert's pages alternately, and print the median durations."""
     ours = [sys.executable, "-c", BUILD, str(root), str(root / "site")]
     notebooks = sorted(map(str, (root / "solutions").glob("*.ipynb")))
     theirs = [
@@ -102,12 +99,12 @@ def speed(root: Path) -> None:
 
 
 def run(command: Sequence[str]) -> None:
-    """Run a command to its end."""
+    """Run a command and wait until it exits."""
     subprocess.run(command, check=True, capture_output=True)
 
 
 def weights(site: Path) -> None:
-    """Print the sizes of the pages, and of the files that all pages use."""
+    """Print the sizes of the pages and of their shared files."""
     own = [path.stat().st_size for path in site.glob("[0-9]*.html")]
     packed = [len(compress(path.read_bytes())) for path in site.glob("[0-9]*.html")]
     print(f"own part: median {statistics.median(own) / 1000:.1f} kB, most {max(own) / 1000:.1f} kB; ", end="")
@@ -119,7 +116,7 @@ def weights(site: Path) -> None:
 
 
 def first_panels(site: Path) -> None:
-    """Print the time from the beginning of a navigation until the first panel of the page is painted."""
+    """Print the time from the navigation until the first panel of the page is painted."""
     flags = ["--no-sandbox", "--disable-gpu"]
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=flags)
@@ -165,12 +162,12 @@ def axe_main() -> None:
 # `[WORKERS …]`. By default, it uses the number of workers that `course` uses on this machine.
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
-BAR = 0.45  # maximum ratio to the duration of the serial run
-LIMIT = 3600.0  # time limit for one run (s)
+BAR = 0.45  # A parallel run may take at most this fraction of the serial run.
+LIMIT = 3600.0  # One run may take at most this many seconds.
 
 
 def nbval_main() -> int:
-    """Run one notebook after another, then with each number of workers, and print the ratios."""
+    """Run the notebooks serially and then in parallel, and print the ratios of the durations."""
     counts = [int(count) for count in sys.argv[1:]] or [workers_here(len(SOLUTIONS))]
     print(
         f"{len(SOLUTIONS)} solutions, {os.cpu_count()} cores; load {os.getloadavg()[0]:.1f} before the start"
@@ -211,7 +208,7 @@ LOOPBACK = ("0100007F", "00000000000000000000000001000000", "0000000000000000FFF
 
 
 def listeners_main() -> None:
-    """Run each chapter, and print its listening sockets; exit with 1 if one of them is not on 127.0.0.1."""
+    """Run each chapter, and print its listening sockets. Exit with 1 if a socket is not on 127.0.0.1."""
     away: set[str] = set()
     for path in SOLUTIONS:
         seen = listeners_during(path)

@@ -1,4 +1,4 @@
-"""Debian's Chromium with the options that the tests need."""
+"""Debian's Chromium with the options for the tests."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import pytest
 from playwright.sync_api import Browser, expect, sync_playwright
 
-TIMEOUT = 40_000  # ms; on a busy machine, a page needs seconds to show its content
+TIMEOUT = 40_000  # The browser waits at most this many ms for a page.
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",

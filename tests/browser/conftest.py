@@ -1,4 +1,4 @@
-"""A page and a JupyterLab for the tests in this folder; each worker has one server and one browser."""
+"""Fixtures for browser tests: a page and a JupyterLab."""
 
 from __future__ import annotations
 
@@ -15,10 +15,7 @@ SIZE: ViewportSize = {"width": 1280, "height": 1000}  # px
 
 @pytest.fixture(scope="session")
 def context(browser: Browser) -> Iterator[BrowserContext]:
-    """Return a context whose pages share a cache, so that JupyterLab is loaded once.
-
-    They may use the clipboard.
-    """
+    """Return a browser context whose pages share a cache and may use the clipboard."""
     context = browser.new_context(viewport=SIZE, permissions=["clipboard-read", "clipboard-write"])
     yield context
     context.close()
@@ -40,7 +37,7 @@ def _lab_page(context: BrowserContext) -> Iterator[Page]:
 
 @pytest.fixture
 def lab_page(_lab_page: Page) -> Iterator[Page]:
-    """Return the page with JupyterLab that all tests of a worker use; its window has the usual size."""
+    """Return the JupyterLab page that all tests of a worker share."""
     _lab_page.set_viewport_size(SIZE)
     with no_errors(_lab_page):
         yield _lab_page
@@ -48,6 +45,6 @@ def lab_page(_lab_page: Page) -> Iterator[Page]:
 
 @pytest.fixture(scope="session")
 def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    """Start a JupyterLab for all tests of a worker; each test opens its own notebook in it."""
+    """Start one JupyterLab for all tests of a worker."""
     with running_lab(tmp_path_factory.mktemp("lab")) as lab:
         yield lab

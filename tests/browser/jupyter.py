@@ -1,4 +1,4 @@
-"""A real JupyterLab with its own ROS master, and the actions of a student in it."""
+"""A real JupyterLab with its own ROS master, and functions that use it like a student."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from tests.browser.pages import READY
 from tests.support import eventually
 
-# Functions that run in the page. The first function closes all notebooks without a dialog, and opens one
-# notebook with its kernel.
+# These functions run in the page. The first function closes all notebooks without a dialog and opens one
+# notebook.
 OPEN = """async (path) => {
   const { commands, shell } = window.jupyterapp;
   for (const open of [...shell.widgets("main")]) open.dispose();
@@ -33,14 +33,17 @@ OPEN = """async (path) => {
   await shown.context.ready;
   await shown.sessionContext.ready;
 }"""
+IDLE = "() => window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
-OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"  # the course's settings
-BASHRC = Path(course_pkg.lab.__file__).with_name("bashrc")  # the start file of the course's terminals
+# This file contains the course's settings of JupyterLab.
+OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"
+# The course's terminals run this file at their start.
+BASHRC = Path(course_pkg.lab.__file__).with_name("bashrc")
 
 
 @dataclass(frozen=True)
 class Lab:
-    """A running server: its address, and the folder that it shows."""
+    """A running JupyterLab server with its address and its root folder."""
 
     url: str
     folder: Path
@@ -48,10 +51,7 @@ class Lab:
 
 @contextmanager
 def running_lab(folder: Path) -> Iterator[Lab]:
-    """Start JupyterLab on a free port with a private master.
-
-    Both end with the block, or when this process ends.
-    """
+    """Run JupyterLab on a free port with a private master during the `with` block."""
     port = _free_port()
     root = folder / "notebooks"
     root.mkdir(parents=True)
@@ -67,10 +67,7 @@ def running_lab(folder: Path) -> Iterator[Lab]:
 
 @contextmanager
 def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = "Light") -> Iterator[None]:
-    """Open a notebook with these code cells and run them; its kernel and its node end with the block.
-
-    If the page has already loaded JupyterLab, it is not loaded again.
-    """
+    """Open a notebook with these code cells, and run them. The kernel runs until the `with` block ends."""
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in cells])
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3", "language": "python"}
     nbformat.write(notebook, lab.folder / f"{name}.ipynb")
@@ -81,8 +78,8 @@ def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = 
     try:
         page.evaluate(THEME, f"JupyterLab {theme}")
         page.evaluate(OPEN, f"{name}.ipynb")
-        # without this wait, Run All opens a dialog that asks for a kernel
-        expect(page.locator("#jp-main-statusbar")).to_contain_text("| Idle", timeout=READY)
+        # Without this wait, Run All opens a dialog that asks for a kernel.
+        page.wait_for_function(IDLE, timeout=READY)
         run_all(page)
         yield
     finally:
@@ -90,7 +87,7 @@ def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = 
 
 
 def run_all(page: Page) -> None:
-    """Run all cells, and wait until the last cell has ended."""
+    """Run all cells, and wait until the last cell has finished."""
     last = page.locator(".jp-CodeCell .jp-InputPrompt").last
     before = last.inner_text()
     page.get_by_role("menuitem", name="Run", exact=True).click()
@@ -125,10 +122,7 @@ def _command(port: int, root: Path) -> list[str]:
 
 
 def _environment(folder: Path, master: str) -> Mapping[str, str]:
-    """Return an environment with separate settings, state and runtime files.
-
-    Several servers can then run at a time.
-    """
+    """Return an environment with separate JupyterLab settings, so that several servers can run at a time."""
     for place, values in json.loads(OVERRIDES.read_text("utf-8")).items():
         extension, _, name = place.partition(":")
         settings = folder / "settings" / extension
@@ -141,7 +135,7 @@ def _environment(folder: Path, master: str) -> Mapping[str, str]:
         "JUPYTER_RUNTIME_DIR": folder / "runtime",
         "IPYTHONDIR": folder / "ipython",
         "COURSE_STATE": folder / "state",
-        "COURSE_WORKSPACE": folder / "workspace",  # beside the notebooks
+        "COURSE_WORKSPACE": folder / "workspace",
         "ROS_MASTER_URI": master,
     }
     return {**os.environ, **{name: str(value) for name, value in places.items()}}

@@ -1,4 +1,4 @@
-"""Pages in the browser, with and without a kernel."""
+"""Helpers for pages in the browser."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from playwright.sync_api import BrowserContext, Error, Locator, Page, expect
 from course_pkg.panels.panel import Panel
 
 HERE = Path(__file__).parent
-# JupyterLab's own files in a stack trace; the course's scripts have blob: addresses.
+# JupyterLab's own scripts have these addresses in a stack trace; the course's scripts have blob: addresses.
 JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
-READY = 60_000  # ms; on a busy machine, a browser, a server and a kernel need this time to start
+READY = 60_000  # A browser, a server and a kernel start within this many ms, even on a busy machine.
 HOST = (HERE / "host.html").read_text()
 
-# A function that runs in the page; it returns the texts whose contrast is too low.
+# This function runs in the page and returns the texts with too little contrast.
 FAINT = (HERE / "contrast.js").read_text()
 
 
 @contextmanager
 def new_page(context: BrowserContext) -> Iterator[Page]:
-    """Open a page; the test fails if a script on this page raises an error."""
+    """Open a page. The test fails if a script on this page raises an error."""
     page = context.new_page()
     with no_errors(page):
         yield page
@@ -34,10 +34,7 @@ def new_page(context: BrowserContext) -> Iterator[Page]:
 
 @contextmanager
 def no_errors(page: Page) -> Iterator[None]:
-    """Fail if a script of the course raises an error during the block.
-
-    JupyterLab's own errors are ignored.
-    """
+    """Fail if a script of the course raises an error during the `with` block."""
     errors: list[str] = []
 
     def keep(error: Error) -> None:
@@ -59,14 +56,14 @@ def panel(page: Page, label: str = "Service panel") -> Locator:
 
 
 def picture(target: Page | Locator, name: str) -> None:
-    """If COURSE_ARTIFACTS is set, write a screenshot to this folder, so that a person can look at it."""
+    """Save a screenshot to the folder COURSE_ARTIFACTS, if this variable is set."""
     if folder := os.environ.get("COURSE_ARTIFACTS"):
         Path(folder).mkdir(parents=True, exist_ok=True)
         target.screenshot(path=Path(folder) / f"{name}.png")
 
 
 def save(widget: Panel, path: Path, theme: str = "light") -> str:
-    """Write a page that shows the widget's state without a kernel, and return the address of the page."""
+    """Save the widget as a page without a kernel, and return the address of the page."""
     state = {
         name: value
         for name, value in widget.get_state().items()

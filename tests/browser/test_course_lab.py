@@ -1,4 +1,4 @@
-"""The first page of `course lab`."""
+"""The start page of `course lab`."""
 
 from __future__ import annotations
 
@@ -11,10 +11,7 @@ from tests.lab.commands import lab
 
 
 def test_the_file_browser_shows_the_chapters_first(browser: Browser, tmp_path: Path) -> None:
-    """The file browser lists the chapters; their parent folder lists the files for students.
-
-    No file is changed.
-    """
+    """The file browser first shows the folder with the chapters."""
     with lab(COURSE_STATE=str(tmp_path)) as (_, address), browser.new_page() as page:
         page.goto(address, timeout=READY, wait_until="commit")
         files = page.locator("#filebrowser .jp-DirListing-content")

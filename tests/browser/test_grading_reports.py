@@ -1,4 +1,4 @@
-"""The pages of `course grade` in a browser: no script runs, and they fit on a phone, in light and dark."""
+"""The HTML pages of `course grade` in a browser."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CONTRAST = (Path(__file__).parent / "contrast.js").read_text()
 
 @pytest.fixture(scope="module")
 def reports(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write the reports of a class that has every kind of result."""
+    """Write the reports of a class with every kind of result."""
     out = tmp_path_factory.mktemp("reports")
     grades = [*class_of(30, ("05", "06")), refused("s31"), refused("s32", ""), nasty()]
     write_reports([replace(grade, sandboxed=grade.student != "s07") for grade in grades], out)
@@ -26,7 +26,7 @@ def reports(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(params=["light", "dark"])
 def said(request: pytest.FixtureRequest, browser: Browser) -> Iterator[tuple[Page, list[str]]]:
-    """Open a page that is 390 px wide, and collect the console's messages about policies and scripts."""
+    """Open a narrow page, and collect the browser's messages about blocked scripts."""
     context = browser.new_context(color_scheme=request.param, viewport={"width": 390, "height": 800})
     page, words = context.new_page(), []
     page.on("console", lambda message: words.append(message.text))
@@ -38,7 +38,7 @@ def said(request: pytest.FixtureRequest, browser: Browser) -> Iterator[tuple[Pag
 
 
 def test_every_page_can_be_read(reports: Path, said: tuple[Page, list[str]]) -> None:
-    """Nothing is wider than the phone, each text has enough contrast, and the page uses its style sheet."""
+    """On a phone, each page fits into the window, and each text has enough contrast."""
     page, words = said
     paths = [reports / "class.html", *sorted((reports / "feedback").glob("*.html"))[:12]]
     for path in paths:
@@ -51,7 +51,7 @@ def test_every_page_can_be_read(reports: Path, said: tuple[Page, list[str]]) -> 
 
 
 def test_links_lead_to_the_feedback(reports: Path, said: tuple[Page, list[str]]) -> None:
-    """Each link of the class page leads to an existing page, for every student's name."""
+    """Each link of the class page leads to an existing page."""
     page, _ = said
     page.goto((reports / "class.html").as_uri())
     links = page.eval_on_selector_all("a", "links => links.map(link => decodeURI(link.href))")

@@ -1,4 +1,4 @@
-"""The graph panel in a real browser: large graphs, folding, rates, calls, and pages without a kernel."""
+"""The graph panel in a real browser, with and without a kernel."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ LATER = 'node.serve("/later", Trigger, lambda _: (True, "here"))'
 
 
 def large() -> Snapshot:
-    """Return a graph of 20 nodes, 40 topics and 20 services; half of them are in namespaces."""
+    """Return a graph of 20 nodes, 40 topics and 20 services."""
     names = [f"/node_{number}" for number in range(NODES)]
     topics = [
         TopicSeen(
@@ -90,7 +90,7 @@ def shape(graph: Locator, key: str) -> Locator:
 def test_a_large_graph_can_be_read(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str, width: int
 ) -> None:
-    """Names stay readable, the drawing scrolls within the panel, and nothing overflows."""
+    """The drawing of a large graph scrolls within the panel, and its names have a readable size."""
     page.set_viewport_size({"width": width, "height": 1000})
     page.goto(save(widget, tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -109,19 +109,20 @@ def test_a_large_graph_can_be_read(
 
 
 def test_a_saved_namespace_lists_its_shapes(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """Without a kernel, a namespace cannot be unfolded; its details list the shapes in it."""
+    """On a saved page, a folded namespace lists its nodes and topics."""
     page.goto(save(widget, tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
     box = shape(graph, "namespace /robot_1/")
     expect(box).to_have_attribute("aria-expanded", "false")
-    expect(graph.get_by_text("this picture was saved")).not_to_be_attached()  # live=False never follows
+    # With live=False, the panel does not show this text.
+    expect(graph.get_by_text("this picture was saved")).not_to_be_attached()
     box.click()
     expect(graph.locator(".ros-details")).to_contain_text("/robot_1/topic_1 10 Hz")
     expect(box).to_have_attribute("aria-expanded", "false")
 
 
 def played(widget: GraphPanel) -> GraphPanel:
-    """Record eight seconds of a panel: a call, its response, and a graph that loses half of its nodes."""
+    """Record a panel for eight seconds while the graph changes."""
     whole, began = large(), time.time() - 100
     half = Snapshot(whole.master, whole.nodes[:10], whole.topics[:8], whole.services[:10])
 
@@ -145,7 +146,7 @@ def played(widget: GraphPanel) -> GraphPanel:
 
 
 def seek(graph: Locator, seconds: float) -> None:
-    """Move the slider to a time of the recording."""
+    """Move the slider to `seconds` in the recording."""
     graph.get_by_label("Moment of the recording").fill(str(round(1000 * seconds)))
 
 
@@ -153,10 +154,7 @@ def seek(graph: Locator, seconds: float) -> None:
 def test_a_recording_of_the_graph_is_played_without_a_kernel(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str
 ) -> None:
-    """The page says that it shows the end of a recording.
-
-    The slider and the keys move to another time, and Play plays the recording again.
-    """
+    """The slider and the keys select a time of the recording, and Play plays it again."""
     page.set_viewport_size({"width": 560, "height": 900})
     page.goto(save(played(widget), tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -188,9 +186,9 @@ def test_a_recording_of_the_graph_is_played_without_a_kernel(
 
 
 def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """A recording pauses while the reader cannot see it.
+    """A recording pauses while it is not visible on the page.
 
-    With reduced motion, it shows one picture per second.
+    With reduced motion, the page shows one picture per second.
     """
     page.emulate_media(reduced_motion="reduce")
     page.goto(save(played(widget), tmp_path / "page.html"))
@@ -209,7 +207,7 @@ def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, 
     assert all(after - before >= 1 for before, after in itertools.pairwise(times))
     page.evaluate("document.body.style.paddingTop = '5000px'")
     page.wait_for_function("document.querySelector('.ros-graph').getBoundingClientRect().top > innerHeight")
-    page.evaluate(FRAMES, 10)  # until the page reports that it is not visible
+    page.evaluate(FRAMES, 10)  # Wait until the page reports that the panel is not visible.
     stood = page.evaluate("said.length")
     page.evaluate(FRAMES, 150)
     assert page.evaluate("said.length") == stood
@@ -217,10 +215,7 @@ def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, 
 
 
 def test_lines_of_calls_are_drawn_on_a_saved_page(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """A saved panel is drawn before the page is visible.
-
-    The lines of calls are still at the right positions.
-    """
+    """A saved panel draws the lines of calls at the right positions."""
     troubles: list[str] = []
     page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
     page.goto(save(widget, tmp_path / "page.html"))
@@ -231,7 +226,7 @@ def test_lines_of_calls_are_drawn_on_a_saved_page(widget: GraphPanel, page: Page
 
 
 def test_print_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """In print, a dark panel is black on white and complete, and it has no controls."""
+    """In print, a dark panel is black on white, and has no buttons."""
     page.goto(save(widget, tmp_path / "page.html", "dark"))
     page.emulate_media(media="print")
     graph = panel(page, "Graph panel")
@@ -246,7 +241,7 @@ def test_print_has_its_own_colours(widget: GraphPanel, page: Page, tmp_path: Pat
 
 
 def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """The downloaded file is an image with a name, and with separate colours for light, dark and print."""
+    """The downloaded picture is an image with a title, and with colours for light, dark and print."""
     file = tmp_path / "graph.svg"
     file.write_text(widget.svg(), encoding="utf-8")
     page.goto(file.as_uri())
@@ -263,7 +258,7 @@ def test_a_still_picture_is_complete(widget: GraphPanel, page: Page, tmp_path: P
 def test_a_panel_saved_by_an_older_release_still_shows(
     widget: GraphPanel, page: Page, tmp_path: Path
 ) -> None:
-    """A saved state without rates and namespaces is drawn, too."""
+    """A panel from an older release, without rates and namespaces, is drawn."""
     address = tmp_path / "page.html"
     save(widget, address)
     text = re.sub(r'"(activity|spaces)":', r'"not_\1":', address.read_text())
@@ -276,7 +271,7 @@ def test_a_panel_saved_by_an_older_release_still_shows(
 
 
 def test_rates_callers_and_folds_follow_the_graph(lab: Lab, lab_page: Page) -> None:
-    """Rates and callers appear without a click. A namespace that was folded by keyboard stays folded."""
+    """A namespace that the student folds stays folded when the graph changes."""
     delayed = f"threading.Timer(8, lambda: exec({LATER!r}, globals())).start()"
     with running_notebook(lab_page, lab, "talk", TALK, CALL, "GraphPanel()", delayed):
         graph = panel(lab_page, "Graph panel")

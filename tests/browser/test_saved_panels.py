@@ -1,4 +1,4 @@
-"""Panels on a page without a kernel; a small page draws them from their saved state."""
+"""Panels on a saved page without a kernel."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CASES = [
     ("One picture, on demand", "a service", "Somebody waits for it."),
 ]
 
-# functions that run in the page
+# These functions run in the page.
 OVERLAPS, COLOURS = (Path(__file__).with_name(f"{name}.js").read_text() for name in ("overlaps", "colours"))
 
 
@@ -33,7 +33,7 @@ def answer(form: Locator, name: str) -> Locator:
 
 
 def test_a_saved_service_panel_says_that_it_is_saved(page: Page, tmp_path: Path) -> None:
-    """The last response is shown, Call is disabled, and a sentence gives the reason."""
+    """A saved service panel shows the last response, and the Call button is disabled."""
     widget = ServicePanel("/getGeometry")
     widget.call(length=2.0, width=3.0, height=4.0)
     page.goto(save(widget, tmp_path / "page.html"))
@@ -47,10 +47,7 @@ def test_a_saved_service_panel_says_that_it_is_saved(page: Page, tmp_path: Path)
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_replaces_the_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """A recorded request gets its recorded response, even if the request's numbers are written differently.
-
-    Any other request is refused.
-    """
+    """A recorded request gets its recorded response. Any other request gets an error message."""
     widget = ServicePanel("/getGeometry")
     widget.record(
         [{"length": 1.0, "width": 2.0, "height": 3.0}, {"length": 4.0, "width": 5.0, "height": 6.0}]
@@ -79,7 +76,7 @@ def test_a_recording_replaces_the_kernel(page: Page, tmp_path: Path, theme: str)
 
 
 def test_shapes_of_a_saved_graph_can_be_clicked(page: Page, tmp_path: Path) -> None:
-    """A click still shows the details of a shape, and the page says that the picture is saved."""
+    """A click on a shape of a saved graph shows its details."""
     page.goto(save(GraphPanel(), tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
     expect(graph.get_by_text("this picture was saved")).to_be_visible()
@@ -88,7 +85,7 @@ def test_shapes_of_a_saved_graph_can_be_clicked(page: Page, tmp_path: Path) -> N
 
 
 def test_a_saved_question_is_disabled(page: Page, tmp_path: Path) -> None:
-    """Without a kernel, the reader cannot enter a prediction, because it could not be stored."""
+    """On a saved page, the reader cannot enter a prediction."""
     store = PredictionStore(tmp_path / "predictions.json")
     page.goto(save(Question("05.x", "What?", ["this", "that"], store=store), tmp_path / "page.html"))
     expect(page.get_by_text("run the notebook to keep a prediction")).to_be_visible()
@@ -96,7 +93,7 @@ def test_a_saved_question_is_disabled(page: Page, tmp_path: Path) -> None:
 
 
 def test_saved_choices_can_be_read(page: Page, tmp_path: Path) -> None:
-    """The choices and the reasons are shown. The reader cannot choose, and a sentence gives the reason."""
+    """A saved page shows the choices and the reasons, and the reader cannot change the choices."""
     widget = Choices(
         "03.x", "Which fits?", ["a topic", "a service"], CASES, store=ChoiceStore(tmp_path / "c.json")
     )
@@ -118,7 +115,7 @@ def test_saved_choices_can_be_read(page: Page, tmp_path: Path) -> None:
 
 
 def test_a_saved_topic_panel_says_that_it_is_saved(page: Page, tmp_path: Path) -> None:
-    """The form and the commands are shown, the buttons are disabled, and a sentence gives the reason."""
+    """A saved topic panel shows the form and the commands, and its buttons are disabled."""
     page.set_viewport_size({"width": 560, "height": 1200})
     page.goto(save(TopicPanel("/speed", "std_msgs/Float64"), tmp_path / "page.html"))
     topic = panel(page, "Topic panel")
@@ -144,7 +141,7 @@ def chart(page: Page, folder: Path, curve: dict[str, object], theme: str = "ligh
 
 
 def test_a_chart_is_read_by_keyboard_and_pointer(page: Page, tmp_path: Path) -> None:
-    """The arrow keys move from one point to the next; the pointer selects the nearest point."""
+    """The arrow keys select the next point of the chart, and the pointer selects the nearest point."""
     drawn = chart(page, tmp_path, CURVE)
     canvas = drawn.get_by_role("group", name="Plot: the arrow keys read its points")
     readout = drawn.get_by_role("status").last
@@ -173,7 +170,7 @@ def test_a_chart_is_read_by_keyboard_and_pointer(page: Page, tmp_path: Path) -> 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_chart_can_be_read_in_both_themes_and_fits(page: Page, tmp_path: Path, theme: str) -> None:
-    """In 560 px, nothing overflows, no labels overlap, and the line has enough contrast."""
+    """In a width of 560 px, the labels do not overlap, and the line has enough contrast."""
     page.set_viewport_size({"width": 560, "height": 1200})
     drawn = chart(page, tmp_path, CURVE, theme)
     expect(drawn.locator("svg text").first).to_be_visible()
@@ -185,7 +182,7 @@ def test_a_chart_can_be_read_in_both_themes_and_fits(page: Page, tmp_path: Path,
 
 
 def test_a_long_curve_has_no_markers_and_an_empty_one_says_so(page: Page, tmp_path: Path) -> None:
-    """A plot with many points has a line without separate markers."""
+    """A plot with many points has no markers, and an empty plot says that it has no data."""
     points = [[index / 50, math.sin(index / 20)] for index in range(1000)]
     drawn = chart(page, tmp_path, {"points": points, "count": 1000, "left_out": 0})
     line = drawn.locator("polyline")

@@ -1,4 +1,4 @@
-"""The timeline on a page: with pointer and keyboard, as text, in print, and in JupyterLab."""
+"""The timeline on a page and in JupyterLab."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from course_pkg.ros import Event, Recording
 from tests.browser.jupyter import Lab, running_notebook
 from tests.browser.pages import FAINT, panel, picture, save
 
-# A function: the number of different colours in 9 x 9 pixels around a point of the drawing.
+# The function counts the different colours in 9 x 9 pixels around a point of the drawing.
 COLOURS = """(canvas, [x, y]) => {
     const data = canvas.getContext("2d").getImageData(x - 4, y - 4, 9, 9).data
     return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
 }"""
 LENGTH = 1.0  # s
-EDGE = 0.02  # the part of the drawing before and after the recording, relative to the recording's length
+EDGE = 0.02  # The drawing shows this fraction of the recording's length before and after the recording.
 
 
 def recording(*more: Event, open_end: bool = False) -> Recording:
-    """Return a recording of a call that takes 0.5 s, and of a topic at 20 Hz at the same time."""
+    """Return a recording of a call that takes 0.5 s, and of messages at 20 Hz."""
     key, mine, theirs = "call 1", ("/customer", "/detect"), ("/cashier", "/detect")
     end = None if open_end else 0.7
     events = [
@@ -58,35 +58,35 @@ def show(page: Page, folder: Path, given: Recording, theme: str = "light") -> Lo
 
 
 def drawing(timeline: Locator) -> Locator:
-    """Return the drawing."""
+    """Return the drawing of the timeline."""
     return timeline.locator("canvas.ros-body")
 
 
 def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
-    """Return the position in the drawing of a time (s) in the first row of a node."""
+    """Return the position in the drawing of the time `time` in s in the first row of a node."""
     box = drawing(timeline).bounding_box()
     assert box is not None
     return box["width"] * (time / LENGTH + EDGE) / (1 + 2 * EDGE), 4 + 22 + 10 + lane * (22 + 23 + 12)
 
 
 def click(page: Page, timeline: Locator, time: float, lane: int) -> None:
-    """Click at the position of a time (s) in the row of a node."""
+    """Click at the time `time` in s in the row of a node."""
     x, y = spot(timeline, time, lane)
     drawing(timeline).click(position={"x": x, "y": y})
 
 
 def ticks(timeline: Locator) -> bytes:
-    """Return a picture of the time axis, which depends on the visible part of the time."""
+    """Return a picture of the time axis."""
     return timeline.locator("canvas.ros-axis").screenshot()
 
 
 def drawn(page: Page) -> None:
-    """Wait until the page has drawn the last change, which happens in the next frame."""
+    """Wait until the page has drawn the last change."""
     page.evaluate("new Promise(requestAnimationFrame)")
 
 
 def test_a_click_describes_the_event(page: Page, tmp_path: Path) -> None:
-    """A click on an event shows a text with milliseconds; a click next to the event hides the text."""
+    """A click on an event shows its description, and a click next to the event hides the description."""
     timeline = show(page, tmp_path, recording())
     details = timeline.locator(".ros-details")
     expect(details).to_contain_text("Click an event")
@@ -105,7 +105,7 @@ def test_a_click_describes_the_event(page: Page, tmp_path: Path) -> None:
 
 
 def test_waiting_is_hatched(page: Page, tmp_path: Path) -> None:
-    """A waiting caller is striped, a handler has one colour, and idle time has no colour."""
+    """The bar of a waiting caller is striped, and the bar of a handler has one colour."""
     timeline = show(page, tmp_path, recording())
     colours = {
         lane_and_time: drawing(timeline).evaluate(COLOURS, spot(timeline, *reversed(lane_and_time)))
@@ -121,10 +121,7 @@ def test_waiting_is_hatched(page: Page, tmp_path: Path) -> None:
 
 
 def test_the_keyboard_is_sufficient(page: Page, tmp_path: Path) -> None:
-    """The down and up keys move to the next and previous event.
-
-    Enter shows this event larger, and 0 shows all events.
-    """
+    """The down and up keys select an event, Enter zooms in on this event, and 0 shows all events."""
     timeline = show(page, tmp_path, recording())
     details, whole = timeline.locator(".ros-details"), ticks(timeline)
     drawing(timeline).focus()
@@ -149,7 +146,7 @@ def test_the_keyboard_is_sufficient(page: Page, tmp_path: Path) -> None:
 
 
 def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
-    """A small mark can be selected; when the view zooms in on it, it becomes a bar."""
+    """When the student zooms in on a short event, the event becomes a bar."""
     timeline = show(page, tmp_path, recording())
     drawing(timeline).focus()
     details = timeline.locator(".ros-details")
@@ -162,7 +159,7 @@ def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
     picture(timeline, "timeline-zoomed")
     box: FloatRect | None = drawing(timeline).bounding_box()
     assert box is not None
-    share = (0.2 / LENGTH + EDGE) / (1 + 2 * EDGE)  # the zoom did not move the start of the look-up
+    share = (0.2 / LENGTH + EDGE) / (1 + 2 * EDGE)  # The zoom does not move the start of the look-up.
     wide = box["width"] / (LENGTH * (1 + 2 * EDGE)) * 2**7 * 0.001
     assert wide > 50
     y = spot(timeline, 0, 2)[1]
@@ -171,7 +168,7 @@ def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
 
 
 def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
-    """Ctrl and the wheel zoom, and a drag moves the view; the wheel without Ctrl changes nothing."""
+    """Ctrl and the mouse wheel zoom, and a drag moves the view."""
     timeline = show(page, tmp_path, recording())
     whole = ticks(timeline)
     drawing(timeline).hover(position={"x": 300, "y": 60})
@@ -196,10 +193,7 @@ def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
 
 
 def test_the_same_as_a_table(page: Page, tmp_path: Path) -> None:
-    """A table lists all events.
-
-    Sentences name the nodes that waited, that did nothing, or that were not recorded.
-    """
+    """A table lists all events, and sentences describe the nodes."""
     timeline = show(page, tmp_path, recording())
     expect(timeline.get_by_text("/customer waited for /cashier on /detect: 500 ms.")).to_be_visible()
     expect(timeline.get_by_text("/robot published 19 messages on /joints")).to_be_visible()
@@ -212,7 +206,7 @@ def test_the_same_as_a_table(page: Page, tmp_path: Path) -> None:
 
 
 def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
-    """If a caller was still waiting, the drawing, the sentences and the table say so."""
+    """The drawing, the sentences and the table show that a caller is still waiting."""
     timeline = show(page, tmp_path, recording(open_end=True))
     click(page, timeline, 0.6, 2)
     expect(timeline.locator(".ros-details")).to_contain_text("was still waiting when the recording ended.")
@@ -222,7 +216,7 @@ def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
 
 
 def test_nothing_was_recorded(page: Page, tmp_path: Path) -> None:
-    """An empty recording is described as empty, and the reader cannot zoom."""
+    """The panel says that an empty recording contains no events."""
     timeline = show(page, tmp_path, Recording(nodes=("/idle",), length=0.5))
     expect(timeline.get_by_text("Nothing happened between the nodes")).to_be_visible()
     expect(timeline.get_by_role("button")).to_have_count(0)
@@ -232,10 +226,7 @@ def test_nothing_was_recorded(page: Page, tmp_path: Path) -> None:
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1280, 560, 390])
 def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> None:
-    """Each text has enough contrast, and nothing is wider than the page.
-
-    The text can be read in both themes and on a narrow page.
-    """
+    """In both themes and on a narrow page, the texts have enough contrast and fit into the page."""
     page.set_viewport_size({"width": width, "height": 1000})
     failed = [
         Event("lookup", "/customer", "/nope", 0.8, 0.801, "master", "call 2", "MainThread"),
@@ -250,7 +241,7 @@ def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> N
 
 
 def test_in_print(page: Page, tmp_path: Path) -> None:
-    """In print, the drawing has a white background in both themes."""
+    """In print, the drawing has a white background."""
     timeline = show(page, tmp_path, recording(), "dark")
     ground = "canvas => getComputedStyle(canvas.closest('section')).backgroundColor"
     assert drawing(timeline).evaluate(ground) != "rgb(255, 255, 255)"
@@ -263,7 +254,7 @@ def test_in_print(page: Page, tmp_path: Path) -> None:
 
 
 def test_in_jupyterlab(lab: Lab, lab_page: Page) -> None:
-    """A recording of a real call is drawn in a notebook, and the keys work in the drawing."""
+    """A notebook shows a recording of a real call, and the keys work in the drawing."""
     cells = (
         "from course_pkg import Timeline, join\nfrom std_srvs.srv import Trigger\nnode = join('recorder')",
         "served = node.serve('/answer', Trigger, lambda request: (True, 'here'))",

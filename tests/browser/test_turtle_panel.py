@@ -1,4 +1,4 @@
-"""The turtle panel: live in a real JupyterLab, and as a recording on a page without a kernel."""
+"""The turtle panel in a real JupyterLab, and as a recording on a saved page."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ threading.Timer(1, later).start()
 
 
 def seek(turtles: Locator, part: float) -> None:
-    """Move the slider to a part of the recording; 0 is its start, and 1 is its end."""
+    """Move the slider to `part` of the recording, from 0 (start) to 1 (end)."""
     turtles.get_by_label("Moment of the recording").evaluate(
         "(handle, part) => { handle.value = handle.max * part; handle.dispatchEvent(new Event('input')) }",
         part,
@@ -45,7 +45,7 @@ def cells(turtles: Locator, name: str) -> list[str]:
 
 
 def recorded() -> TurtleRecording:
-    """Return a recording of 5 s: a turtle moves in a circle, and a second turtle exists in the last 2 s."""
+    """Return a recording of 5 s with a turtle that moves in a circle, and a turtle that appears after 3 s."""
     recording = TurtleRecording()
     for number in range(100):
         angle = number / 100 * 2 * math.pi
@@ -57,7 +57,7 @@ def recorded() -> TurtleRecording:
 
 
 def test_the_panel_follows_the_turtles(lab: Lab, lab_page: Page) -> None:
-    """The table shows a new turtle, and the new position of a turtle that a service has moved."""
+    """The table shows a new turtle, and a turtle's new position."""
     with running_notebook(lab_page, lab, "turtles", SETUP, "TurtlePanel()", LATER):
         turtles = panel(lab_page, "Turtle panel")
         expect(turtles.get_by_role("row", name="MyTurtle")).to_be_visible()
@@ -74,7 +74,7 @@ def test_the_panel_follows_the_turtles(lab: Lab, lab_page: Page) -> None:
 
 
 def test_without_a_simulator(lab: Lab, lab_page: Page) -> None:
-    """Without a simulator, the panel shows the command that starts one."""
+    """Without a simulator, the panel shows the command that starts a simulator."""
     with running_notebook(
         lab_page, lab, "no_turtles", SETUP.replace("simulator", "# simulator"), "TurtlePanel()"
     ):
@@ -86,7 +86,10 @@ def test_without_a_simulator(lab: Lab, lab_page: Page) -> None:
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """The page says that it shows the end of a recording; it can go to any time, and play from the start."""
+    """A saved recording first shows its last moment.
+
+    The reader can select any time, and play the recording.
+    """
     widget = TurtlePanel()
     widget.publish(recorded=recorded().state())
     page.set_viewport_size({"width": 390, "height": 900})
@@ -106,7 +109,7 @@ def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, them
 
 
 def test_the_trail_is_on_the_paper(page: Page, tmp_path: Path) -> None:
-    """The line is where the turtle moved, and nowhere else."""
+    """The drawn line is exactly the path of the turtle."""
     widget = TurtlePanel()
     widget.publish(recorded=recorded().state())
     page.goto(save(widget, tmp_path / "page.html"))

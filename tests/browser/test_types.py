@@ -1,4 +1,4 @@
-"""The type browser in a real browser: search, open types, and use a page without a kernel."""
+"""The type browser in a real browser."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ switch = node.serve("/switch", SetBool, lambda request: (True, ""))
 
 
 def options(browser: Locator) -> Locator:
-    """Return the types that the list shows."""
+    """Return the displayed types."""
     return browser.get_by_role("option")
 
 
 def test_search_open_and_copy_by_keyboard(lab: Lab, lab_page: Page) -> None:
-    """Typing shortens the list, the arrow keys and Enter open a type, and its buttons work."""
+    """The student searches, opens and copies a type with the keyboard only."""
     with running_notebook(lab_page, lab, "types", SERVE, "TypeBrowser()"):
         browser = panel(lab_page, "Type browser")
         expect(browser.get_by_text("Pick a type from the list")).to_be_visible()
@@ -59,10 +59,7 @@ def test_search_open_and_copy_by_keyboard(lab: Lab, lab_page: Page) -> None:
 def test_a_saved_browser_keeps_what_was_open(
     master: PrivateMaster, page: Page, tmp_path: Path, theme: str, width: int
 ) -> None:
-    """Without a kernel, the reader can search the list.
-
-    A sentence explains why other types cannot be opened.
-    """
+    """On a saved page, the reader can search the list, but cannot open other types."""
     assert master.uri
     page.set_viewport_size({"width": width, "height": 1000})
     page.goto(save(TypeBrowser("sensor_msgs/SetCameraInfo"), tmp_path / "page.html", theme))
@@ -83,7 +80,7 @@ def test_a_saved_browser_keeps_what_was_open(
 def test_a_broken_file_is_shown_with_its_line(
     master: PrivateMaster, page: Page, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The error contains the file and the line, and the text of the file is below it."""
+    """The error message contains the file and the line, and the panel shows the text of the file below it."""
     assert master.uri
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     package(tmp_path, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
@@ -95,7 +92,7 @@ def test_a_broken_file_is_shown_with_its_line(
 
 
 def test_a_thousand_types_are_searched_at_once(master: PrivateMaster, page: Page, tmp_path: Path) -> None:
-    """The list of a large installation is complete, and the search shows exactly the matching types."""
+    """With a thousand types, the list is complete, and the search shows exactly the matching types."""
     assert master.uri
     widget = TypeBrowser()
     names = tuple(f"package_{number // 20}/Type{number}" for number in range(1000))

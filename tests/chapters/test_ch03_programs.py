@@ -1,4 +1,4 @@
-"""The programs of chapter 03: the camera of the shop, the detector of customers, and the cashier."""
+"""The programs of chapter 03: the camera, the detector of customers, and the cashier."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from tests.support import eventually, program
 
 pytestmark = pytest.mark.usefixtures("master")
 
-FOR_GOOD = 600.0  # s for which a customer stays; this is longer than any test
+FOR_GOOD = 600.0  # A customer stays this many seconds, which is longer than any test.
 SERVES = {"shop_camera": "/let_in", "detector": "/detect_customer", "cashier": "/cashier/report"}
 
 
 def run(name: str, *arguments: str) -> NodeProcess:
-    """Start a program of the shop, and return it as soon as its service answers."""
+    """Start a program of the shop, and return it when its service is available."""
     process = NodeProcess(["rosrun", "course_pkg", name, *arguments])
     process.wait_for_service(SERVES[name])
     return process
@@ -41,7 +41,7 @@ def run(name: str, *arguments: str) -> NodeProcess:
 
 @pytest.fixture(autouse=True)
 def without_parameters(master: PrivateMaster) -> None:
-    """Remove the parameters of earlier programs, such as _rate:=5, because the master keeps them."""
+    """Remove the parameters of earlier programs from the master."""
     with ServerProxy(master.uri) as parameters:
         for node in SERVES:
             parameters.deleteParam("/tests", f"/{node}")
@@ -49,14 +49,14 @@ def without_parameters(master: PrivateMaster) -> None:
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg shop_camera`, without customers."""
+    """Run the camera without customers."""
     with run("shop_camera") as process:
         yield process
 
 
 @pytest.fixture
 def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg detector`; the camera is running."""
+    """Run the detector with a running camera."""
     with run("detector") as process:
         yield process
 
@@ -78,7 +78,7 @@ def report() -> CashierReportResponse:
 
 @pytest.mark.usefixtures("detector")
 def test_call_with_patience_0() -> None:
-    """With patience = 0, the response contains no customer, or a customer and the time of arrival."""
+    """A call with patience = 0 returns immediately."""
     assert (detect().detected, detect().number) == (False, 0)
     came = let_in(0.0)
     answer = detect(patience=10.0)
@@ -90,7 +90,7 @@ def test_call_with_patience_0() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_waiting_call_ends_when_a_customer_comes() -> None:
-    """The response comes after the customer's arrival, and long before the end of the given time."""
+    """A waiting call returns soon after a customer has arrived."""
     came = let_in(0.5)
     answer = detect(patience=30.0)
     assert came.comes[0].to_sec() <= time.time() < came.comes[0].to_sec() + 10.0
@@ -99,7 +99,7 @@ def test_waiting_call_ends_when_a_customer_comes() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_call_without_a_customer_ends_after_its_patience() -> None:
-    """If no customer comes, the response comes after the given time, with detected=False."""
+    """If no customer comes, the call returns detected=False after the given time."""
     started = time.monotonic()
     assert not detect(patience=0.5).detected
     assert 0.5 <= time.monotonic() - started < 5.0
@@ -107,10 +107,7 @@ def test_call_without_a_customer_ends_after_its_patience() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_customers_who_come_together_are_returned_one_by_one() -> None:
-    """Three customers come at the same time.
-
-    Each call returns the first customer whose number is above `after`.
-    """
+    """Each call returns the first customer whose number is above `after`."""
     first = let_in(0.0, 0.0, 0.0).first
     numbers = [first - 1]
     for _ in range(3):
@@ -120,7 +117,7 @@ def test_customers_who_come_together_are_returned_one_by_one() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_all_waiting_calls_return_the_customer() -> None:
-    """Ten calls wait at the same time, and all of them return the same customer."""
+    """Ten waiting calls all return the same customer."""
     with ThreadPoolExecutor(10) as pool:
         answers = [pool.submit(detect, patience=30.0) for _ in range(10)]
         first = let_in(0.5).first
@@ -130,7 +127,7 @@ def test_all_waiting_calls_return_the_customer() -> None:
 @pytest.mark.parametrize("patience", [-1.0, math.nan, math.inf, 61.0])
 @pytest.mark.usefixtures("detector")
 def test_impossible_patience_is_refused_with_the_range(patience: float) -> None:
-    """The error message contains the allowed range, and the next call works."""
+    """For an impossible patience, the error message contains the allowed range."""
     words = "cannot process request: patience: a wait of .* s is not possible; expected seconds, from 0 to 60"
     with pytest.raises(rospy.ServiceException, match=words):
         detect(patience=patience)
@@ -139,10 +136,7 @@ def test_impossible_patience_is_refused_with_the_range(patience: float) -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_number_of_waiting_calls_is_limited() -> None:
-    """At most 64 calls wait, and each of them gets a response.
-
-    The server refuses further calls immediately.
-    """
+    """At most 64 calls can wait, and the server refuses further calls immediately."""
     with ThreadPoolExecutor(80) as pool:
         waiting = [pool.submit(detect, patience=60.0) for _ in range(80)]
         eventually(lambda: sum(future.done() for future in waiting) >= 16, timeout=20)
@@ -154,10 +148,9 @@ def test_number_of_waiting_calls_is_limited() -> None:
 
 
 def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: NodeProcess) -> None:
-    """A call fails soon after the camera is killed; with a new camera, calls work again.
+    """Calls fail after the camera is killed, and succeed again with a new camera.
 
-    The customers of the new camera have higher numbers. Therefore, clients that wait for the next number find
-    them.
+    The customers of the new camera have higher numbers, so waiting clients find them.
     """
     first = let_in(0.0).first
     assert detect(patience=10.0).number == first
@@ -182,7 +175,7 @@ def _answers() -> bool:
 
 
 def test_detector_refuses_without_a_camera() -> None:
-    """The detector offers its service, but refuses the call."""
+    """Without a camera, the detector refuses the call."""
     with run("detector"), pytest.raises(rospy.ServiceException, match="customers cannot be detected"):
         detect()
 
@@ -198,7 +191,7 @@ def test_detector_refuses_without_a_camera() -> None:
 )
 @pytest.mark.usefixtures("camera")
 def test_impossible_customers_are_refused(after: list[float], stay: float, words: str) -> None:
-    """The error message contains the name of the wrong field, and the next call works."""
+    """The error message contains the name of the wrong field."""
     with pytest.raises(rospy.ServiceException, match=words):
         let_in(*after, stay=stay)
     assert len(let_in(5.0, 1.0).comes) == 2
@@ -206,10 +199,7 @@ def test_impossible_customers_are_refused(after: list[float], stay: float, words
 
 @pytest.mark.usefixtures("detector")
 def test_each_customer_is_published_once(master: PrivateMaster, kernel: Kernel) -> None:
-    """The camera repeats its messages, and two customers come together.
-
-    The detector publishes each number once.
-    """
+    """The detector publishes the number of each customer once."""
     kernel.run("from course_pkg import join\nfrom std_msgs.msg import UInt32\nnode = join('listener')")
     kernel.run("heard = node.subscribe('/customers', UInt32)")
     with ServerProxy(MasterClient(master.uri).lookup_node("/detector") or "") as node:
@@ -226,7 +216,7 @@ def test_each_customer_is_published_once(master: PrivateMaster, kernel: Kernel) 
 )
 @pytest.mark.usefixtures("detector")
 def test_cashier_greets_each_customer_once(settings: list[str]) -> None:
-    """In each design, customers are greeted once and in order, and the report contains the times."""
+    """Each version of the cashier greets the customers once and in the right order."""
     with run("cashier", *settings) as cashier:
         came = let_in(0.2, 0.2, 0.9)
         eventually(lambda: len(report().greeted) >= 3, timeout=20)
@@ -240,7 +230,7 @@ def test_cashier_greets_each_customer_once(settings: list[str]) -> None:
 
 
 def test_cashier_continues_without_a_detector(camera: NodeProcess) -> None:
-    """The cashier logs the failure once, calls again, and greets a customer after a detector has started."""
+    """After the detector starts again, the cashier greets customers again."""
     with run("cashier", "_design:=poll", "_rate:=50") as cashier:
         eventually(lambda: "No answer, so the next call follows soon" in cashier.output())
         with run("detector"):
@@ -252,10 +242,7 @@ def test_cashier_continues_without_a_detector(camera: NodeProcess) -> None:
 @pytest.mark.parametrize("answer", ["(True, 1, rospy.Time())", "(False, 0, rospy.Time())"])
 @pytest.mark.parametrize("settings", [["_design:=wait", "_patience:=0.5"], ["_design:=poll", "_rate:=2"]])
 def test_cashier_limits_its_rate_of_calls(kernel: Kernel, answer: str, settings: list[str]) -> None:
-    """The cashier makes two calls per second.
-
-    This is true even if each response comes at once or contains the same customer.
-    """
+    """The cashier makes at most two calls per second, even if the responses come immediately."""
     kernel.run("import rospy\nfrom course_pkg import join\nfrom course_pkg.srv import DetectCustomer")
     kernel.run(f"join('student').serve('/detect_customer', DetectCustomer, lambda request: {answer})")
     started = time.monotonic()
@@ -276,7 +263,7 @@ def test_cashier_limits_its_rate_of_calls(kernel: Kernel, answer: str, settings:
     ],
 )
 def test_cashier_with_a_wrong_parameter_ends_with_a_message(settings: list[str], words: str) -> None:
-    """The program prints the allowed values without a traceback, and its exit status is 1."""
+    """For a wrong parameter, the program prints the allowed values, and its exit status is 1."""
     done = program("cashier", *settings)
     assert done.returncode == 1
     assert words in done.stderr
@@ -284,13 +271,13 @@ def test_cashier_with_a_wrong_parameter_ends_with_a_message(settings: list[str],
 
 
 def test_random_customers_come() -> None:
-    """With _every:=0.1, customers come without a call of /let_in."""
+    """With _every:=0.1, customers come at random times."""
     with run("shop_camera", "_every:=0.1"), run("detector"):
         assert detect(patience=20.0).detected
 
 
 def test_the_launch_file_runs_the_whole_shop() -> None:
-    """The launch file starts a camera, a detector and a cashier, and customers are greeted."""
+    """The launch file starts a camera, a detector and a cashier, and the cashier greets customers."""
     with NodeProcess.roslaunch("course_pkg", "shop.launch", "every:=0.2", "design:=topic") as process:
         process.wait_for_service("/cashier/report", timeout=20)
         eventually(lambda: report().greeted, timeout=20)
@@ -300,10 +287,7 @@ def test_the_launch_file_runs_the_whole_shop() -> None:
 def test_nodes_end_after_a_signal(
     number: signal.Signals, detector: NodeProcess, camera: NodeProcess, master: PrivateMaster
 ) -> None:
-    """After SIGINT or SIGTERM, each node ends without a traceback and unregisters.
-
-    This is true even if a call is waiting.
-    """
+    """After SIGINT or SIGTERM, each node unregisters and exits without a traceback."""
     with ThreadPoolExecutor(2) as pool, run("cashier", "_design:=wait", "_patience:=60") as cashier:
         waiting = pool.submit(detect, patience=60.0)
         eventually(lambda: report().asked)
@@ -317,7 +301,7 @@ def test_nodes_end_after_a_signal(
 
 @pytest.mark.parametrize("name", ["shop_camera", "detector", "cashier", "polled_camera"])
 def test_the_nodes_wait_for_a_master(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master, a node prints that it waits for a master, and Ctrl-C ends the wait."""
+    """Without a master, a node waits and prints a message, and Ctrl-C ends the node."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", name]) as process:
         eventually(lambda: "Waiting for a master" in process.output())
@@ -328,10 +312,11 @@ def test_the_nodes_wait_for_a_master(name: str, monkeypatch: pytest.MonkeyPatch)
 
 @pytest.mark.parametrize("name", ["shop_camera", "detector", "cashier", "polled_camera"])
 def test_an_end_that_comes_during_the_start(name: str, master: PrivateMaster) -> None:
-    """Ctrl-C during the start of a node ends it, and no registration is left."""
+    """After Ctrl-C during the start, a node exits and is not registered."""
     client = MasterClient(master.uri)
     with NodeProcess(["rosrun", "course_pkg", name, f"__name:=new_{name}"]) as process:
-        eventually(partial(client.lookup_node, f"/new_{name}"), interval=0.001)  # during init_node()
+        # The condition becomes true during init_node().
+        eventually(partial(client.lookup_node, f"/new_{name}"), interval=0.001)
         os.kill(process.pid, signal.SIGINT)
         assert process.wait(20) == 0
         assert "Traceback" not in process.output()

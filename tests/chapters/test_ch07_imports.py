@@ -1,4 +1,4 @@
-"""Chapter 07's check of an import can distinguish a script that never ends from a busy machine."""
+"""Chapter 07's import check distinguishes a script that never ends from a busy machine."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ SCRIPT = Program("scripts/server.py")
 
 
 class Replying:
-    """A fake folder: each command that is run in it returns the same result."""
+    """A fake command folder that returns the same result for each command."""
 
     def __init__(self, reply: Reply) -> None:
         self.reply = reply
 
     def command(self, *_argv: str, within: float, worded: str) -> Finished:
-        """Return the result of a command; a time in `reply` is a fraction of the time limit."""
+        """Return the result of a command; a time in `reply` is a fraction of `within`."""
         times = {name: value * within for name, value in self.reply.items() if isinstance(value, float)}
         assert worded == "import server.py"
         return Finished({**self.reply, **times, "took": within})
 
 
 def imported(**reply: float | int | str | None) -> CheckContext:
-    """Return the context of a check in which the import ended with `reply`."""
+    """Return the context of a check in which the command for the import returned `reply`."""
     context = CheckContext("07.4", cast("Channel", None), cast("Node", None), 1)
     folder = cast("Folder", Replying(dict(reply)))
     can_be_imported(context, BuiltPackage(folder, Package("my_geometry", {})), SCRIPT)
@@ -45,40 +45,40 @@ def imported(**reply: float | int | str | None) -> CheckContext:
 
 
 def test_slow_import_on_a_busy_machine_is_not_a_mistake() -> None:
-    """The import waited for the CPU, or its times are not known: the check reports a busy machine."""
+    """If the import waited for the CPU, the check reports a busy machine."""
     for reply in ({"ran": 0.02, "queued": 0.9}, {}):
         with pytest.raises(CheckError, match=r"the machine is busy\. Run this cell again"):
             imported(status=None, **reply)
 
 
 def test_import_that_never_ends_is_a_mistake() -> None:
-    """The assertion fails if the import mostly slept, or used more CPU time than a normal import."""
+    """If the import slept or used much CPU time, the check fails."""
     for reply in ({"ran": 0.02, "queued": 0.05}, {"ran": 0.5, "queued": 0.5}):
         with pytest.raises(AssertionFailed, match="an import of the script starts no node"):
             imported(status=None, **reply)
 
 
 def test_an_import_that_ends_is_accepted() -> None:
-    """The script contains only definitions, so the import ends, and the check's own code then exits."""
+    """The check accepts a script that contains only definitions."""
     assert [each.holds for each in imported(status=IMPORTED).results.assertions] == [True]
 
 
 def test_a_script_that_exits_during_its_import_is_a_mistake() -> None:
-    """A script could hide that it starts a node if it ends the process with the exit status 0."""
+    """The check fails if the script exits with status 0 during its import."""
     with pytest.raises(AssertionFailed, match="an import of the script starts no node"):
         imported(status=0)
 
 
 @pytest.fixture
 def folders(tmp_path: Path) -> Iterator[CommandFolders]:
-    """Return folders in which a check can run commands."""
+    """Return the folders in which a check runs commands."""
     made = CommandFolders(lambda name: tmp_path / name)
     yield made
     made.close()
 
 
 def test_the_times_of_a_command_that_was_still_running_are_known(folders: CommandFolders) -> None:
-    """A sleeping command neither uses the CPU nor waits for it, but a computing command does."""
+    """A sleeping command uses no CPU time, but a computing command uses CPU time."""
     number = folders.folder([], {})["folder"]
     assert isinstance(number, int)
     sleeping = Finished(folders.run(["sleep", "60"], number, 1.0))

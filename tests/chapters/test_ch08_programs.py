@@ -1,4 +1,4 @@
-"""The programs of chapter 08: the adder and its clients, the server of ON and OFF, and the switch."""
+"""The programs of chapter 08."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def adder() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg add_two_ints_server` until it can be called."""
+    """Run `rosrun course_pkg add_two_ints_server` until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "add_two_ints_server"]) as process:
         process.wait_for_service("/add_two_ints")
         yield process
@@ -38,7 +38,7 @@ def adder() -> Iterator[NodeProcess]:
     ],
 )
 def test_adder_client_prints_the_sum(numbers: list[str], printed: str) -> None:
-    """The client prints only the sum, even for negative numbers and for the largest int64."""
+    """The client prints only the sum, even for negative and very large numbers."""
     done = program("add_two_ints_client", *numbers)
     assert (done.returncode, done.stdout, done.stderr) == (0, printed, "")
 
@@ -46,10 +46,7 @@ def test_adder_client_prints_the_sum(numbers: list[str], printed: str) -> None:
 @pytest.mark.usefixtures("adder")
 @pytest.mark.parametrize(("a", "b"), [(LARGEST, 1), (-LARGEST - 1, -1)])
 def test_sum_outside_of_int64_is_refused(a: int, b: int) -> None:
-    """If the sum is too large for an int64, the server refuses the call.
-
-    The client prints the error message.
-    """
+    """The server refuses a sum outside of int64, and the client prints the error message."""
     done = program("add_two_ints_client", str(a), str(b))
     assert done.returncode == 1
     assert f"cannot process request: {a + b} is more than an int64 can hold" in done.stderr
@@ -57,14 +54,14 @@ def test_sum_outside_of_int64_is_refused(a: int, b: int) -> None:
 
 @pytest.mark.parametrize("words", [[], ["1"], ["1", "2", "3"], ["1", "2.5"], ["1", str(LARGEST + 1)]])
 def test_adder_client_with_wrong_arguments(words: list[str]) -> None:
-    """If the arguments are not two int64 numbers, the client prints its usage, and the exit status is 2."""
+    """For wrong arguments, the client prints its usage, and its exit status is 2."""
     done = program("add_two_ints_client", *words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_ints_client A B")
 
 
 def test_client_of_another_definition_is_refused(adder: NodeProcess) -> None:
-    """The server compares the MD5 sums, and the client prints an error message with both of them."""
+    """A client with another service definition prints an error message with both MD5 sums."""
     done = program("add_two_floats_client", "20", "22")
     ours = service_type("course_pkg/AddTwoInts").md5
     assert (done.returncode, done.stdout) == (1, "")
@@ -77,7 +74,7 @@ def test_client_of_another_definition_is_refused(adder: NodeProcess) -> None:
 
 
 def test_client_of_another_definition_with_wrong_arguments() -> None:
-    """This client prints its own usage text, without a server."""
+    """For wrong arguments, this client prints its own usage."""
     done = program("add_two_floats_client", "one", "2")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_floats_client A B")
@@ -85,7 +82,7 @@ def test_client_of_another_definition_with_wrong_arguments() -> None:
 
 @pytest.fixture
 def on_off() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg on_off_server` until it can be called."""
+    """Run `rosrun course_pkg on_off_server` until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "on_off_server"]) as process:
         process.wait_for_service("/on_off")
         yield process
@@ -99,7 +96,7 @@ def test_on_off_returns_the_state(on_off: NodeProcess, number: str, state: str) 
 
 @pytest.mark.parametrize("number", ["2", "-1", "2147483647"])
 def test_on_off_refuses_other_numbers(on_off: NodeProcess, number: str) -> None:
-    """The error message contains the wrong number and the allowed numbers, and the next call works."""
+    """The error message contains the wrong number and the allowed numbers."""
     done = terminal("rosservice", "call", "/on_off", "--", number)
     assert done.returncode == 2
     assert f"cannot process request: {number} is neither 0 (OFF) nor 1 (ON)" in done.stderr
@@ -108,7 +105,7 @@ def test_on_off_refuses_other_numbers(on_off: NodeProcess, number: str) -> None:
 
 
 def test_on_off_client_sends_either_number(on_off: NodeProcess) -> None:
-    """The client prints the number and the state; in several runs, it sends both numbers."""
+    """The client sends 0 or 1, and prints the number and the state."""
     seen: set[str] = set()
 
     def both() -> bool:
@@ -122,21 +119,21 @@ def test_on_off_client_sends_either_number(on_off: NodeProcess) -> None:
 
 
 def test_on_off_client_takes_no_arguments() -> None:
-    """If it gets an argument, the client immediately prints its usage, and the exit status is 2."""
+    """If the client gets an argument, it prints its usage, and its exit status is 2."""
     done = program("on_off_client", "1")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: on_off_client")
 
 
 def test_on_off_client_without_a_server() -> None:
-    """Without a server, the client prints one line after 5 s, and the exit status is 1."""
+    """Without a server, the client prints one line after 5 s, and its exit status is 1."""
     done = program("on_off_client")
     assert (done.returncode, done.stdout) == (1, "")
     assert done.stderr == "timeout exceeded while waiting for service /on_off\n"
 
 
 def test_on_off_client_without_a_master() -> None:
-    """Without a master, the client prints one line, and the exit status is 1."""
+    """Without a master, the client prints one line, and its exit status is 1."""
     done = program("on_off_client", ROS_MASTER_URI="http://localhost:1")
     assert (done.returncode, done.stdout) == (1, "")
     assert "No ROS master at http://localhost:1" in done.stderr
@@ -145,7 +142,7 @@ def test_on_off_client_without_a_master() -> None:
 
 @pytest.fixture
 def switch(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg switch` until it can be called."""
+    """Run `rosrun course_pkg switch` until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         process.wait_for_service("/switch/reset")
         yield process
@@ -165,10 +162,7 @@ def trigger(name: str) -> tuple[bool, str]:
 
 @pytest.mark.usefixtures("switch")
 def test_set_moves_the_switch() -> None:
-    """At the start, the switch is closed.
-
-    A call moves it to the requested position, and the message says so.
-    """
+    """A call moves the closed switch to the requested position, and the message contains the position."""
     assert trigger("report") == (True, "closed")
     assert move(True) == (True, "opened")
     assert trigger("report") == (True, "open")
@@ -177,7 +171,7 @@ def test_set_moves_the_switch() -> None:
 
 @pytest.mark.usefixtures("switch")
 def test_set_to_the_present_position_does_not_move() -> None:
-    """If the switch is already in this position, success is False, and the message contains "already"."""
+    """If the switch already has the requested position, success is False."""
     assert move(False) == (False, "already closed")
     move(True)
     assert move(True) == (False, "already open")
@@ -186,20 +180,20 @@ def test_set_to_the_present_position_does_not_move() -> None:
 
 @pytest.mark.usefixtures("switch")
 def test_toggle_moves_the_switch_each_time() -> None:
-    """Each toggle changes the position, so two toggles restore it."""
+    """Two toggles restore the first position."""
     assert [trigger("toggle") for _ in range(3)] == [(True, "opened"), (True, "closed"), (True, "opened")]
 
 
 @pytest.mark.usefixtures("switch")
 def test_reset_closes_the_switch_with_an_empty_response() -> None:
-    """The response to a reset is empty, and the switch is closed after the reset."""
+    """After a reset, the switch is closed, and the response is empty."""
     move(True)
     BoundedProxy("/switch/reset", Empty)()
     assert trigger("report") == (True, "closed")
 
 
 def test_log_level_debug_shows_calls_without_effect(switch: NodeProcess) -> None:
-    """The node logs each move; it logs calls without effect only at the log level debug."""
+    """The node logs calls without effect only at the log level debug."""
     move(True)
     move(True)
     eventually(lambda: "Opened" in switch.output())
@@ -212,7 +206,7 @@ def test_log_level_debug_shows_calls_without_effect(switch: NodeProcess) -> None
 
 
 def test_services_are_in_the_namespace_of_the_node(master: PrivateMaster) -> None:
-    """Two switches with different node names have different services."""
+    """Two switches with different node names offer different services."""
     command = ["rosrun", "course_pkg", "switch"]
     with NodeProcess([*command, "__name:=left"]) as left, NodeProcess([*command, "__name:=right"]) as right:
         left.wait_for_service("/left/reset")
@@ -235,7 +229,7 @@ def test_simultaneous_toggles_are_all_counted() -> None:
     [("switch", "/switch/reset"), ("on_off_server", "/on_off"), ("add_two_ints_server", "/add_two_ints")],
 )
 def test_servers_end_after_ctrl_c(program: str, service: str, master: PrivateMaster) -> None:
-    """After Ctrl-C, each server ends without a traceback and unregisters."""
+    """After Ctrl-C, each server unregisters and exits without a traceback."""
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         process.wait_for_service(service)
         os.kill(process.pid, signal.SIGINT)
@@ -246,7 +240,7 @@ def test_servers_end_after_ctrl_c(program: str, service: str, master: PrivateMas
 
 @pytest.mark.parametrize("attempt", range(4))
 def test_an_end_that_comes_during_the_start(attempt: int, master: PrivateMaster) -> None:
-    """If Ctrl-C comes while the node registers its services, the node ends, and no registration is left."""
+    """After Ctrl-C during the start, a server exits and is not registered."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         eventually(lambda: "Serving" in process.output(), interval=0.001)
         os.kill(process.pid, signal.SIGINT)
@@ -256,7 +250,7 @@ def test_an_end_that_comes_during_the_start(attempt: int, master: PrivateMaster)
 
 @pytest.mark.parametrize("program", ["switch", "on_off_server", "add_two_ints_server"])
 def test_servers_wait_for_a_master(program: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master, a server prints that it waits for a master, and Ctrl-C ends the wait."""
+    """Without a master, a server waits and prints a message, and Ctrl-C ends the server."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         eventually(lambda: "Waiting for a master" in process.output())

@@ -1,4 +1,4 @@
-"""The programs of chapter 11: the server with a total for each session, its client, and the TCP echo."""
+"""The programs of chapter 11: the session server, its client, and the TCP echo."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ KIND = "course_pkg/AddUp"
 
 @pytest.fixture
 def server() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg session_server` until it can be called."""
+    """Run `rosrun course_pkg session_server` until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "session_server"]) as process:
         process.wait_for_service("/add_up", timeout=20)
         yield process
 
 
 def added(session: str, amount: int) -> tuple[int, int]:
-    """Add `amount` to a session; return the session's total and the number of its calls."""
+    """Add `amount` to a session. Return the session's total and its number of calls."""
     answer = BoundedProxy("/add_up", KIND, headers={"session": session}).call(amount)
     return answer.total, answer.calls
 
 
 @pytest.mark.usefixtures("server")
 def test_each_session_has_its_own_total() -> None:
-    """Two sessions of one node have separate totals, and another node can continue a session."""
+    """Each session has its own total, and another node can continue a session."""
     assert [added("alice", 5), added("bob", 100), added("alice", -7)] == [(5, 1), (100, 1), (-2, 2)]
     assert program("session_client", "alice", "10", "10").stdout.splitlines() == [
         "alice: 8 after 3 calls",
@@ -42,10 +42,7 @@ def test_each_session_has_its_own_total() -> None:
 
 @pytest.mark.usefixtures("server")
 def test_refusals_contain_the_reason() -> None:
-    """A call without a session is refused, and so is a total above the int32 range.
-
-    The total does not change.
-    """
+    """The server refuses a call without a session, and a total above the int32 range."""
     done = terminal("rosservice", "call", "/add_up", "5")
     assert done.returncode == 2
     assert "cannot process request: the connection header has no field session" in done.stderr
@@ -56,24 +53,21 @@ def test_refusals_contain_the_reason() -> None:
 
 @pytest.mark.usefixtures("server")
 def test_client_with_a_rate_repeats_its_amount() -> None:
-    """With _rate:=20, the client sends its amount again and again until it is stopped."""
+    """With _rate:=20, the client sends its amount repeatedly until it is stopped."""
     with NodeProcess(["rosrun", "course_pkg", "session_client", "steady", "1", "_rate:=20"]) as client:
         client.wait_for_output("after 5 calls")
     assert "Traceback" not in client.output()
 
 
 def test_arguments_are_read() -> None:
-    """The function returns a session and int32 numbers, or None if the arguments are invalid."""
+    """The function returns the session and the numbers, or None for invalid arguments."""
     assert read_arguments(["alice", "5", "-3"]) == ("alice", [5, -3])
     for words in ([], ["alice"], ["", "5"], ["alice", "five"], ["alice", str(2**31)]):
         assert read_arguments(words) is None
 
 
 def test_client_without_a_server_or_with_wrong_arguments() -> None:
-    """For wrong arguments, the client prints its usage, and the status is 2.
-
-    Without a server, it prints one line, and the status is 1.
-    """
+    """The exit status is 2 for wrong arguments, and 1 if there is no server."""
     done = program("session_client", "alice")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("usage: session_client")
@@ -82,7 +76,7 @@ def test_client_without_a_server_or_with_wrong_arguments() -> None:
 
 
 def test_echo_sends_back_every_byte(master: PrivateMaster) -> None:
-    """A parameter contains the port, and the program sends back every byte."""
+    """The program listens on the port in a parameter, and sends back every byte."""
     with NodeProcess(["rosrun", "course_pkg", "tcp_echo"]) as echo:
         echo.wait_for_output("Echoing")
         port = eventually(lambda: MasterClient(master.uri).get_param("/tcp_echo/port"))
@@ -95,10 +89,7 @@ def test_echo_sends_back_every_byte(master: PrivateMaster) -> None:
 
 @pytest.mark.usefixtures("server")
 def test_a_program_uses_the_master_of_its_argument() -> None:
-    """With __master:=, the server and the client use another master.
-
-    The server at the first master gets no call.
-    """
+    """With __master:=…, the server and the client use another master."""
     with PrivateMaster() as other:
         there = f"__master:={other.uri}"
         with NodeProcess(["rosrun", "course_pkg", "session_server", there]):

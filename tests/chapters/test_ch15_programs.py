@@ -1,4 +1,4 @@
-"""The course's own programs do what chapter 15 specifies."""
+"""The course's own programs meet the specification in chapter 15."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 node = join("student")
 """
-FOR_GOOD = 600.0  # s for which a customer stays; this is longer than any test
+FOR_GOOD = 600.0  # A customer stays this many seconds, which is longer than any test.
 LAUNCH = ("course_pkg", "robot_cashier.launch")
 
 
 def run(name: str, service: str) -> NodeProcess:
-    """Start a program of the system, and return it as soon as it serves `service`."""
+    """Start a program, and return it when `service` is available."""
     process = NodeProcess(["rosrun", "course_pkg", name])
     process.wait_for_service(service)
     return process
@@ -36,14 +36,14 @@ def run(name: str, service: str) -> NodeProcess:
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg counter_camera`, without customers."""
+    """Run the camera without customers."""
     with run("counter_camera", "/let_in") as process:
         yield process
 
 
 @pytest.fixture
 def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg customer_detector`; a camera and the node vision are running."""
+    """Run the detector with a running camera and the node vision."""
     with (
         run("vision", "/vision/get_loggers"),
         run("customer_detector", "/detect_customer") as process,
@@ -54,7 +54,7 @@ def detector(camera: NodeProcess) -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def till() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg till`; a printer with paper for twelve lines is running."""
+    """Run the till with a printer that has paper for twelve lines."""
     with (
         NodeProcess(["rosrun", "course_pkg", "receipt_printer", "_paper:=12"]) as printer,
         run("till", "/till/reset") as process,
@@ -74,7 +74,7 @@ def detect(patience: float = 0.0) -> bool:
 
 
 def answered() -> bool | None:
-    """Return whether the detector sees a customer at present, or None if it refuses the call."""
+    """Return whether the detector sees a customer, or None if the detector refuses the call."""
     try:
         return detect()
     except rospy.ServiceException:
@@ -83,10 +83,7 @@ def answered() -> bool | None:
 
 @pytest.mark.usefixtures("detector")
 def test_all_waiting_calls_find_a_customer() -> None:
-    """When a customer comes, all waiting calls return.
-
-    Without a customer, a call with patience = 0 returns False.
-    """
+    """When a customer comes, all waiting calls return."""
     assert not detect()
     with ThreadPoolExecutor(5) as pool:
         waits = [pool.submit(detect, 30.0) for _ in range(5)]
@@ -97,7 +94,7 @@ def test_all_waiting_calls_find_a_customer() -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_a_call_ends_when_its_patience_is_over() -> None:
-    """Without a customer, the response is False; it comes after the requested time."""
+    """Without a customer, the call returns False after the requested time."""
     started = time.monotonic()
     assert not detect(0.5)
     assert 0.5 <= time.monotonic() - started < 10.0
@@ -106,17 +103,14 @@ def test_a_call_ends_when_its_patience_is_over() -> None:
 @pytest.mark.usefixtures("detector")
 @pytest.mark.parametrize("patience", [-0.1, 60.1, float("nan"), float("inf")])
 def test_impossible_patience_is_refused(patience: float) -> None:
-    """The call is refused immediately, and the error message contains the word "patience"."""
+    """For an impossible patience, the error message contains the word "patience"."""
     with pytest.raises(rospy.ServiceException, match="cannot process request: patience"):
         detect(patience)
 
 
 @pytest.mark.usefixtures("detector")
 def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
-    """One second after the camera's last frame, the detector refuses calls.
-
-    This is true even if the frame showed a customer.
-    """
+    """One second after the camera's last frame, the detector refuses calls."""
     let_in(0.0)
     eventually(detect)
     camera.kill()
@@ -127,7 +121,7 @@ def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
 
 @pytest.mark.usefixtures("till")
 def test_a_till_adds_up_and_refuses() -> None:
-    """An item that is set twice counts once. An invalid item is refused, and nothing changes."""
+    """The till counts an item once even if it is set twice, and refuses an invalid item."""
     put = BoundedProxy("/till/set", TillSet)
     assert [put(item, cents).total for item, cents in (("milk", 120), ("bread", 340), ("milk", 110))] == [
         120,
@@ -143,10 +137,7 @@ def test_a_till_adds_up_and_refuses() -> None:
 
 @pytest.mark.usefixtures("till")
 def test_parallel_calls_add_up_and_a_reset_is_idempotent() -> None:
-    """The till adds the items of simultaneous calls. A second reset succeeds, too.
-
-    Its message says that the till is empty.
-    """
+    """The till adds the items of simultaneous calls, and a second reset also succeeds."""
     with ThreadPoolExecutor(8) as pool:
         list(pool.map(lambda number: BoundedProxy("/till/set", TillSet)(str(number), number), range(1, 9)))
     reset = BoundedProxy("/till/reset", Trigger)
@@ -158,10 +149,7 @@ def test_parallel_calls_add_up_and_a_reset_is_idempotent() -> None:
 
 @pytest.mark.usefixtures("till")
 def test_an_item_that_is_not_printed_does_not_count() -> None:
-    """After twelve lines, there is no paper left.
-
-    The till refuses the item, and the total does not change.
-    """
+    """When the printer has no more paper, the till refuses the item, and the total does not change."""
     put = BoundedProxy("/till/set", TillSet)
     for number in range(12):
         put(str(number), 1)
@@ -171,7 +159,7 @@ def test_an_item_that_is_not_printed_does_not_count() -> None:
 
 
 def test_the_launch_file_leaves_the_hardware_out() -> None:
-    """With hardware:=false, other nodes can replace the camera, the arm and the printer."""
+    """With hardware:=false, the launch file starts neither the camera nor the arm nor the printer."""
     nodes = [
         set(terminal("roslaunch", "--nodes", *LAUNCH, *more).stdout.split())
         for more in ([], ["hardware:=false"])
@@ -181,10 +169,7 @@ def test_the_launch_file_leaves_the_hardware_out() -> None:
 
 
 def test_whole_system_greets_once_and_mirrors_at_the_same_time(kernel: Kernel) -> None:
-    """The arm mirrors movements while a call waits.
-
-    Each customer is greeted once, and then the till is reset.
-    """
+    """The system greets each customer once, and the arm moves while a call waits."""
     kernel.run(LISTEN)
     with NodeProcess.roslaunch(*LAUNCH, "wait:=20") as system:
         for service in ("/detect_customer", "/let_in", "/till/reset", "/robot_cashier/get_loggers"):

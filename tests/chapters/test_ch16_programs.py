@@ -1,4 +1,4 @@
-"""The programs of chapter 16: the bridge for programs without ROS, and the robot that fetches things."""
+"""The programs of chapter 16: the websocket bridge, and the robot that fetches things."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SIDES = {"length": 1.5, "width": 2.0, "height": 3.0}
 
 @pytest.fixture
 def geometry() -> Iterator[NodeProcess]:
-    """The server of chapter 05."""
+    """Run the server of chapter 05."""
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         process.wait_for_service("/getGeometry")
         yield process
@@ -30,7 +30,7 @@ def geometry() -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def bridge() -> Iterator[NodeProcess]:
-    """`rosrun course_pkg bridge _port:=0`, ready for connections."""
+    """Run `rosrun course_pkg bridge _port:=0` until it accepts connections."""
     with NodeProcess(["rosrun", "course_pkg", "bridge", "_port:=0"]) as process:
         process.wait_for_output("ws://", timeout=20)
         yield process
@@ -38,7 +38,7 @@ def bridge() -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def line(bridge: NodeProcess) -> Iterator[websocket.WebSocket]:
-    """A websocket connection to the bridge."""
+    """Open a websocket connection to the bridge."""
     found = re.search(r"ws://\S+\d", bridge.output())
     assert found
     connection = websocket.create_connection(found[0], timeout=20)
@@ -54,7 +54,7 @@ def said(line: websocket.WebSocket, message: JSON) -> dict[str, JSON]:
 
 
 def call(service: str, args: JSON, **more: str) -> dict[str, JSON]:
-    """Return a message that requests a call."""
+    """Return a message that requests a service call."""
     return {"op": "call_service", "service": service, "args": args, **more}
 
 
@@ -62,7 +62,7 @@ def call(service: str, args: JSON, **more: str) -> dict[str, JSON]:
 def test_reply_to_a_call_contains_the_response(
     line: websocket.WebSocket, geometry: NodeProcess, args: object
 ) -> None:
-    """The reply contains the service, the given id, the fields of the response, and the result true."""
+    """The reply contains the service, the given id, the response, and the result true."""
     assert said(line, call("/getGeometry", args, id="mine")) == {
         "op": "service_response",
         "id": "mine",
@@ -87,7 +87,7 @@ def test_reply_to_a_call_contains_the_response(
 def test_failed_call_gets_its_error_message(
     line: websocket.WebSocket, geometry: NodeProcess, service: str, args: object, words: str
 ) -> None:
-    """The result is false, `values` contains the error message, and the next call works."""
+    """The reply contains the result false and the error message."""
     answer = said(line, call(service, args))
     assert answer["result"] is False
     assert words in answer["values"]
@@ -96,26 +96,26 @@ def test_failed_call_gets_its_error_message(
 
 @pytest.mark.parametrize("message", ["no JSON", "[]", "7", {"op": "publish"}, {"op": "call_service"}])
 def test_message_that_is_not_a_call_gets_a_status(line: websocket.WebSocket, message: object) -> None:
-    """The reply to a message that is not a call is a status with the level "error"."""
+    """The bridge replies to any other message with a status of the level "error"."""
     answer = said(line, message)
     assert (answer["op"], answer["level"]) == ("status", "error")
 
 
 def test_nested_message_becomes_an_object(line: websocket.WebSocket) -> None:
-    """A nested message becomes a nested object."""
+    """The reply contains a nested ROS message as a nested JSON object."""
     loggers = said(line, call("/bridge/get_loggers", {}))["values"]["loggers"]
     assert {"name", "level"} == set(loggers[0])
 
 
 def test_bridge_ends_with_an_open_connection(line: websocket.WebSocket, bridge: NodeProcess) -> None:
-    """Ctrl-C ends the bridge without a traceback, even with an open connection."""
+    """Ctrl-C ends the bridge without a traceback, even while a connection is open."""
     bridge.interrupt()
     assert bridge.wait() == 0
     assert "Traceback" not in bridge.output()
 
 
 def test_bridge_listens_only_on_loopback(bridge: NodeProcess) -> None:
-    """The bridge listens only on the loopback address."""
+    """The bridge does not accept connections from other machines."""
     port = int(bridge.output().rpartition(":")[2].split()[0])
     assert port in listening_ports(bridge.pid)
     with open("/proc/net/tcp") as table:
@@ -124,7 +124,7 @@ def test_bridge_listens_only_on_loopback(bridge: NodeProcess) -> None:
 
 
 def test_bridge_reports_a_port_in_use(bridge: NodeProcess) -> None:
-    """The exit status is 1, and the output contains the number of the port."""
+    """If the port is in use, the output contains the port number, and the exit status is 1."""
     port = bridge.output().rpartition(":")[2].split()[0]
     done = program("bridge", f"_port:={port}", "__name:=second")
     assert done.returncode == 1
@@ -156,17 +156,14 @@ def carry_out(goal):
 
 @pytest.fixture
 def asking(kernel: Kernel) -> Iterator[Kernel]:
-    """Start a kernel with an action client; the robot's node is running."""
+    """Start the robot's node, and a kernel with an action client."""
     with NodeProcess(["rosrun", "course_pkg", "fetcher"]):
         kernel.run(FETCHING)
         yield kernel
 
 
 def test_goal_succeeds_with_feedback(asking: Kernel) -> None:
-    """The robot fetches all things and sends feedback after each one.
-
-    The last feedback may come after the result.
-    """
+    """The robot fetches all things and sends feedback after each thing."""
     counts, fetched, succeeded = asking.run("""
         client.send_goal(FetchGoal(things=5, seconds=0.05), feedback_cb=tell)
         assert client.wait_for_result(rospy.Duration(20))
@@ -177,7 +174,7 @@ def test_goal_succeeds_with_feedback(asking: Kernel) -> None:
 
 
 def test_cancelled_goal_returns_the_number_so_far(asking: Kernel) -> None:
-    """After a cancellation, the result is the number of things that the robot had already fetched."""
+    """After a cancellation, the result is the number of things that the robot has fetched."""
     fetched, preempted = asking.run("""
         client.send_goal(FetchGoal(things=500, seconds=0.05), feedback_cb=tell)
         assert third.wait(20)
@@ -193,7 +190,7 @@ def test_cancelled_goal_returns_the_number_so_far(asking: Kernel) -> None:
     "goal", ["things=-1, seconds=0.1", "things=1, seconds=-1", "things=1, seconds=float('nan')"]
 )
 def test_impossible_goal_is_aborted_with_a_message(asking: Kernel, goal: str) -> None:
-    """An impossible goal is aborted with an error message, and the next goal succeeds."""
+    """An impossible goal is aborted with an error message."""
     aborted, words, after = asking.run(f"""
         carry_out(FetchGoal({goal}))
         result = [client.get_state() == GoalStatus.ABORTED, client.get_goal_status_text()]

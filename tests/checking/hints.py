@@ -1,6 +1,6 @@
-"""Finds the hints in the source code of checks; no check is run.
+"""Finds the hints in the source code of checks without running the checks.
 
-A hint is a sentence. Other sentences in a check are only in docstrings, goals and error messages.
+Each sentence in a check is a hint, except docstrings, goals and error messages.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from pathlib import Path
 from course_pkg.checking.parts import every_part, folder_of
 from tests.checking.example_answers import Answer
 
-# A string with several lines is a program or a file, and not a hint.
+# A string with several lines is a program or a file, not a hint.
 SENTENCE = re.compile(r"[^\n]* [^\n]*\S[.?]( [^\n]*)?")
 
 
 @dataclass(frozen=True)
 class Hint:
-    """A hint as a list of fixed texts; between them, an f-string inserts values."""
+    """A hint; an f-string is stored as a list of its fixed texts."""
 
-    place: str  # file and line, for error messages
+    place: str  # This string contains the file and the line for error messages.
     pieces: tuple[str, ...]
 
     def __str__(self) -> str:
@@ -47,24 +47,22 @@ def hints_of(chapter: str) -> list[Hint]:
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
-    """Return the hints from which no header in `answers` quotes a text."""
+    """Return the hints that no header in `answers` quotes."""
     shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
     return [hint for hint in hints if hint.pieces not in shown]
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the fixed texts of the hint that contains `text`.
+    """Return the fixed texts of the only hint that contains `text`.
 
-    If several hints contain it, return an empty set.
-
-    If `text` is a whole hint, this hint is returned, even if other hints contain the text.
+    If several hints contain `text`, return an empty set, except if `text` is a whole hint.
     """
     found = {hint.pieces for hint in hints if hint.contains(text)}
     return found & {(text,)} or (found if len(found) == 1 else set())
 
 
 def _strings(node: ast.AST) -> Iterator[tuple[int, tuple[str, ...]]]:
-    """Yield the line and the fixed texts of each string below `node` that may be a hint."""
+    """Yield the line and the fixed texts of each possible hint below `node`."""
     match node:
         case ast.Expr(ast.Constant()) | ast.Raise() | ast.keyword("goal"):
             return

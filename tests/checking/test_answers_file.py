@@ -1,4 +1,4 @@
-"""A file of right and wrong answers is read as documented, or the error contains the line of the mistake."""
+"""Tests of the reader for files with right and wrong example answers."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def _read(tmp_path: Path, text: str) -> list[Answer]:
 
 
 def test_right_and_wrong_answers_are_read_in_order(tmp_path: Path) -> None:
-    """Each answer has a part, a title, a hint and a source; the order of the answers is that of the file."""
+    """The answers are returned in the order of the file."""
     answers = _read(tmp_path, FILE)
     assert answers[0] == Answer("05.1", True, "with a variable", "", DOUBLE)
     assert [(each.check, each.right, each.title, each.hint) for each in answers[1:4]] == [
@@ -92,12 +92,12 @@ def test_right_and_wrong_answers_are_read_in_order(tmp_path: Path) -> None:
     ],
 )
 def test_source_is_a_program_a_string_or_a_change(tmp_path: Path, title: str, source: str) -> None:
-    """A change is applied to the part's first right answer, or to the answer in `based_on`."""
+    """An answer is a program, a string, or a change of another answer."""
     assert [each.source for each in _read(tmp_path, FILE) if each.title == title] == [source]
 
 
 def test_solution_is_the_exercise_cell_of_the_notebook(tmp_path: Path) -> None:
-    """`solution()` is the solution in the notebook; other answers can be changes of it."""
+    """`solution()` returns the solution in the notebook."""
     one, other = _read(
         tmp_path,
         """# %% 09.6 right: the solution
@@ -156,16 +156,13 @@ def test_a_change_that_does_not_fit_is_refused(tmp_path: Path, change: str, line
 
 
 def test_a_change_needs_a_right_answer(tmp_path: Path) -> None:
-    """Without `based_on`, the change is applied to the part's first right answer.
-
-    If there is no right answer, the file is refused.
-    """
+    """A change without `based_on` needs a right answer of the same part."""
     with pytest.raises(ValueError, match="line 1: no earlier answer"):
         _read(tmp_path, '# %% 05.1 wrong: x | hint: y\nreplace("2", "3")\n')
 
 
 def test_titles_of_a_part_differ(tmp_path: Path) -> None:
-    """The titles of a part's answers differ; an answer to another part may have the same title."""
+    """Two answers to one part must have different titles."""
     cell = "# %% {} right: a loop\nx = 1\n"
     assert len(_read(tmp_path, cell.format("05.1") + cell.format("05.2"))) == 2
     with pytest.raises(ValueError, match=r"line 3: another answer to 05\.1 has the title 'a loop'"):

@@ -1,4 +1,4 @@
-"""An assertion is reported once, the first failure ends the check, and hints depend on the actual value."""
+"""Tests of the assertions in a check."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from course_pkg.ros.protocol.json_channel import Json
     ],
 )
 def test_same(expected: Json, seen: Json, near: float) -> None:
-    """Numbers are compared by value, at any depth, within the tolerance."""
+    """Numbers with equal values are equal, within the tolerance and inside lists and dicts."""
     assert same(expected, seen, near)
 
 
@@ -44,10 +44,7 @@ def test_not_same(expected: Json, seen: Json) -> None:
 
 
 def test_hint_of_the_first_matching_condition() -> None:
-    """The hint of the first condition that holds is used.
-
-    A function that raises an exception does not hold.
-    """
+    """The first condition that is true selects the hint."""
     hints = [
         (3.5, "value"),
         (matches("boom.*bang"), "words"),
@@ -63,10 +60,7 @@ def test_hint_of_the_first_matching_condition() -> None:
 
 
 def test_assertion_is_reported_once_and_may_fail_later() -> None:
-    """An assertion about three inputs is one line of the report.
-
-    It fails if it fails for one of the inputs.
-    """
+    """An assertion about three inputs is one line of the report, and fails if one input fails."""
     results = Results()
     results.passes("a")
     results.passes("b")

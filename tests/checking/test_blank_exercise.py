@@ -11,10 +11,7 @@ from course_pkg.checking.plain_values import Value
 
 
 def made(source: str, name: str = "it", *, keep_source: bool = True) -> Value:
-    """Return the object that a cell with `source` defines.
-
-    The source is stored in the same way as by IPython.
-    """
+    """Return the object that a cell with `source` defines."""
     file = f"<cell {hash(source)} {keep_source}>"
     if keep_source:
         linecache.cache[file] = (len(source), None, source.splitlines(keepends=True), file)
@@ -36,7 +33,7 @@ def made(source: str, name: str = "it", *, keep_source: bool = True) -> Value:
     ],
 )
 def test_stubs(source: str) -> None:
-    """If a function, class or variable was not changed, it contains only a docstring and `...`."""
+    """A function, class or variable with only a docstring and `...` is blank."""
     assert is_blank(made(source))
 
 
@@ -60,6 +57,6 @@ def test_attempts(source: str) -> None:
 
 
 def test_without_source_the_code_decides() -> None:
-    """If the source is not available, a function counts as blank if its code does nothing."""
+    """Without the source, a function counts as blank if its code does nothing."""
     assert is_blank(made("def it(x):\n    ...", keep_source=False))
     assert not is_blank(made("def it(x):\n    return x + 1", keep_source=False))

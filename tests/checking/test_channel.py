@@ -1,4 +1,4 @@
-"""The channel transports plain data within limits; for any other data, it is closed."""
+"""The channel transports plain data, and closes after an invalid line."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from course_pkg.errors import ChannelBroken, ChannelClosed, ChannelTimeout
 
 @pytest.fixture
 def ends() -> Iterator[tuple[Channel, socket.socket]]:
-    """Return the runner's channel, and a socket through which a client may send anything."""
+    """Return the runner's channel and the client's socket."""
     ours, theirs = socket.socketpair()
     channel = Channel(ours)
     yield channel, theirs
@@ -25,7 +25,7 @@ def ends() -> Iterator[tuple[Channel, socket.socket]]:
 
 
 def test_an_answer_comes_back(ends: tuple[Channel, socket.socket]) -> None:
-    """A request is one line of JSON with a number; the reply has the same number."""
+    """A reply has the same number as its request."""
     channel, client = ends
     client.sendall(b'{"answer": 1, "value": [1, 2.5, null]}\n')
     assert channel.ask("read", timeout=1.0, name="x")["value"] == [1, 2.5, None]
@@ -33,7 +33,7 @@ def test_an_answer_comes_back(ends: tuple[Channel, socket.socket]) -> None:
 
 
 def test_lines_arrive_in_pieces(ends: tuple[Channel, socket.socket]) -> None:
-    """A line may arrive in several parts, and two lines may arrive together."""
+    """A line may arrive in several packets, and one packet may contain two lines."""
     channel, client = ends
     client.sendall(b'{"a": 1}\n{"b"')
     assert channel.receive(1.0) == {"a": 1}
@@ -55,7 +55,7 @@ def test_lines_arrive_in_pieces(ends: tuple[Channel, socket.socket]) -> None:
     ],
 )
 def test_invalid_line_closes_the_channel(ends: tuple[Channel, socket.socket], line: bytes) -> None:
-    """A line is not a valid reply if it is no JSON object, belongs to another request, or is an error."""
+    """An invalid reply closes the channel."""
     channel, client = ends
     client.sendall(line)
     with pytest.raises(ChannelBroken):
@@ -63,12 +63,12 @@ def test_invalid_line_closes_the_channel(ends: tuple[Channel, socket.socket], li
 
 
 def _flood(client: socket.socket) -> None:
-    with suppress(OSError):  # the check runner closes the channel
+    with suppress(OSError):  # The check runner closes the channel.
         client.sendall(b"x" * 4 * LIMIT)
 
 
 def test_a_line_has_a_limit(ends: tuple[Channel, socket.socket]) -> None:
-    """Neither end sends or accepts a line that is too long."""
+    """The channel neither sends nor accepts a line that is too long."""
     channel, client = ends
     with pytest.raises(ChannelBroken, match="longer than"):
         channel.send({"text": "x" * LIMIT})
@@ -91,6 +91,6 @@ def test_timeout_and_closed_channel_are_different_errors(ends: tuple[Channel, so
 
 
 def test_missing_check_runner_is_reported_with_its_address() -> None:
-    """The error message contains the address."""
+    """If the check runner is missing, the error message contains its address."""
     with pytest.raises(ChannelClosed, match="/nowhere/check_runner"):
         connect("/nowhere/check_runner")

@@ -1,4 +1,4 @@
-"""`check()` in a program that is a node, with a check runner in another process."""
+"""`check()` in a program that runs a node."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @contextmanager
 def program(cells: str, state: Path, **env: str) -> Iterator[subprocess.Popen[str]]:
-    """Run cells as a program, after the same set-up as in a notebook."""
+    """Run cells as a program, like in a notebook."""
     setup = """
     import sys
     import threading
@@ -61,7 +61,7 @@ def program(cells: str, state: Path, **env: str) -> Iterator[subprocess.Popen[st
 
 
 def output(cells: str, state: Path, **env: str) -> str:
-    """Return the program's output."""
+    """Return the output of a program with these cells."""
     with program(cells, state, **env) as process:
         out, err = process.communicate(timeout=30)
         assert process.returncode == 0, err
@@ -69,7 +69,7 @@ def output(cells: str, state: Path, **env: str) -> str:
 
 
 def check_runners(master: PrivateMaster) -> list[str]:
-    """Return the nodes of check runners on the graph."""
+    """Return the nodes of check runners on the ROS graph."""
     nodes = MasterClient(master.uri).system_state().nodes
     return [name for name in nodes if name.startswith("/check_runner_")]
 
@@ -81,7 +81,7 @@ def record(state: Path) -> dict[str, Json]:
 
 
 def test_pass_has_the_same_text_each_time_and_is_recorded(master: PrivateMaster, tmp_path: Path) -> None:
-    """Two passes have the same text, the record contains the points, and no check runner is left."""
+    """Two passes print the same text, and the record contains the points."""
     out = output(SERVE + '    print(check("05.1"))\n    print(check("05.1"))', tmp_path)
     first, second = out[: len(out) // 2], out[len(out) // 2 :]
     assert first == second
@@ -92,7 +92,7 @@ def test_pass_has_the_same_text_each_time_and_is_recorded(master: PrivateMaster,
 
 
 def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
-    """If COURSE_SEED is the seed in a record, the same failure occurs again."""
+    """If COURSE_SEED is the seed from a record, the check fails in the same way again."""
     cells = '    node.serve("/getGeometry", geometry, lambda r: (r.length, 0))\n    handle_geometry = 1\n'
     cells += '    print(check("05.1"))'
     first = output(cells, tmp_path)
@@ -119,15 +119,12 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
     ],
 )
 def test_report_says_what_to_do_first(tmp_path: Path, cells: str, words: str) -> None:
-    """The report says what the student should do, and contains no traceback."""
+    """The report says what the student should do next."""
     assert words in output(cells, tmp_path)
 
 
 def test_the_topics_of_a_check_end_with_it(master: PrivateMaster, tmp_path: Path) -> None:
-    """The check removes a subscription that the student's function made during the check.
-
-    An earlier subscription stays.
-    """
+    """After a check, the subscriptions that the student's function made are removed."""
     cells = """
     import time
     from std_msgs.msg import UInt32
@@ -150,7 +147,7 @@ def test_the_topics_of_a_check_end_with_it(master: PrivateMaster, tmp_path: Path
 
 
 def test_the_check_runner_ends_with_a_killed_kernel(master: PrivateMaster, tmp_path: Path) -> None:
-    """If the kernel is killed during a check, the check runner also leaves the graph."""
+    """If the kernel is killed during a check, the check runner ends too."""
     with program(HANG + '    check("05.1")', tmp_path) as process:
         eventually(lambda: check_runners(master))
         process.send_signal(signal.SIGKILL)
@@ -159,7 +156,7 @@ def test_the_check_runner_ends_with_a_killed_kernel(master: PrivateMaster, tmp_p
 
 
 def test_an_interrupt_ends_the_check_and_the_check_runner(master: PrivateMaster, tmp_path: Path) -> None:
-    """The cell ends at once, the program continues, and the check runner leaves the graph."""
+    """After an interrupt, the cell ends, the program continues, and the check runner ends."""
     cells = HANG + (
         "    try:\n"
         '        check("05.1")\n'

@@ -1,7 +1,4 @@
-"""check() in a notebook's kernel.
-
-The cells use plain rospy, older versions of code, and functions that do not end.
-"""
+"""`check()` in a notebook's kernel with different mistakes of students."""
 
 from __future__ import annotations
 
@@ -42,7 +39,7 @@ class Switch:
 
 @pytest.fixture
 def notebook(master: PrivateMaster, tmp_path: Path) -> Iterator[NotebookKernel]:
-    """Return a kernel that is a node, with a separate folder for the student's record."""
+    """Return a kernel that runs a node and has its own record."""
     with NotebookKernel({"COURSE_STATE": str(tmp_path)}) as kernel:
         assert not kernel.run(SETUP, "setup").ename
         yield kernel
@@ -56,7 +53,7 @@ def report(notebook: NotebookKernel, part: str = "05.1") -> str:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """If a check creates a second object of the class, it passes, and the student's object still serves."""
+    """A class that offers its service in __init__ passes, and the student's own object still responds."""
     notebook.run(SWITCH, "class")
     notebook.run("switch = Switch()", "object")
     for _ in range(2):
@@ -66,7 +63,7 @@ def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
 
 
 def test_syntax_error_in_the_new_version(notebook: NotebookKernel) -> None:
-    """The old handler still runs: the report says so, and the corrected cell passes."""
+    """After a syntax error, the report says that the old handler still runs."""
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
     assert report(notebook).startswith("05.1 passed")
@@ -81,7 +78,7 @@ def test_syntax_error_in_the_new_version(notebook: NotebookKernel) -> None:
 
 
 def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
-    """The cell with the handler ran again, but not the cell that creates the service."""
+    """The report says that the service still uses the handler from an earlier run."""
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
     notebook.run(HANDLER.replace("area *", "2 * area *"), "handler")
@@ -95,7 +92,7 @@ def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
 
 
 def test_handler_that_did_not_change(notebook: NotebookKernel) -> None:
-    """Only another part of the handler's cell has changed, so the running handler is not an older version."""
+    """If the running handler did not change, the report does not mention an older version."""
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
     notebook.run(HANDLER + "print('ready')", "handler")
@@ -103,7 +100,7 @@ def test_handler_that_did_not_change(notebook: NotebookKernel) -> None:
 
 
 def test_function_that_its_cell_no_longer_defines(notebook: NotebookKernel) -> None:
-    """The student has renamed the function; the old name still refers to the earlier version."""
+    """If the student renames a function, the report says that the old name is from an earlier run."""
     notebook.run(HANDLER, "handler")
     notebook.run(HANDLER.replace("handle_geometry", "handle_box"), "handler")
     assert "This last run did not define handle_geometry." in " ".join(report(notebook).split())
@@ -123,7 +120,7 @@ def count_missed(topic, pause):
 
 
 def test_function_that_never_ends(notebook: NotebookKernel) -> None:
-    """If a function has a loop with a bare `except`, the deadline still ends the check."""
+    """The time limit ends a function with a loop and a bare `except`."""
     notebook.run(ENDLESS, "count_missed")
     started = time.monotonic()
     text = report(notebook, "00.3")
@@ -148,7 +145,7 @@ def test_stop_button_during_such_a_function(notebook: NotebookKernel, tmp_path: 
 
 
 def test_errors_of_a_handler_are_in_the_report(notebook: NotebookKernel) -> None:
-    """If a handler raises an error during a check, it is shown in the report, and not below another cell."""
+    """If a handler raises an error, the report contains this error."""
     notebook.run(HANDLER.replace("request.width *", "request.wide *"), "handler")
     notebook.run(SERVICE, "service")
     shown = notebook.run("result = check('05.1')\nresult.printed")
@@ -158,7 +155,7 @@ def test_errors_of_a_handler_are_in_the_report(notebook: NotebookKernel) -> None
 
 
 def test_check_leaves_nothing(notebook: NotebookKernel) -> None:
-    """Everything that the student's code creates during a check is removed at the end; nothing is printed."""
+    """After a check, the nodes, topics and services that the check created are removed."""
     notebook.run(SWITCH, "class")
     notebook.run("switch = Switch()", "object")
     shown = notebook.run("passed = check('05.4')", "check")

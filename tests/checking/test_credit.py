@@ -1,4 +1,4 @@
-"""The points of a part are divided among its goals, exactly and without a reward for nothing."""
+"""The points of a part are divided among its goals."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ from course_pkg.checking.report import Assertion, Report, Verdict, report_from
 def test_shares_have_two_decimals_and_add_up(
     points: float, weights: list[float], shares: list[float]
 ) -> None:
-    """The largest rests get the remaining hundredths."""
+    """The points of the goals have at most two decimals, and their sum is exact."""
     assert divided(points, weights) == shares
     assert round(sum(shares), 2) == points
 
 
 @pytest.mark.parametrize("given", [["one"], ["a", "a"], {"a": 1, "b": 0}, {"a": 1, "b": -1}])
 def test_a_wrong_declaration_is_refused(given: list[str] | dict[str, float]) -> None:
-    """An author gives at least two different goals, with positive weights."""
+    """A part needs at least two different goals with positive weights."""
     with pytest.raises(ValueError, match=r"05\.1: give at least two different goals"):
         goals_of("05.1", 2, given)
 
 
 def test_the_goals_of_each_part_have_its_points() -> None:
-    """No part gives more or fewer points to its goals than it has, and each goal has points."""
+    """The points of the goals add up to the points of the part."""
     for part in every_part():
         assert not part.goals or total(part.goals) == part.points, part.check
         assert all(goal.points > 0 for goal in part.goals), part.check
 
 
 def test_a_mark_counts_after_a_failure_and_a_separate_goal_does_not() -> None:
-    """A goal that was examined separately counts only with a mark or at the end of the check."""
+    """A separate goal counts only with a mark or at the end of the check."""
     results = Results()
     results.marked.add("first")
     results.goal_ended("separate", fulfilled=True)
@@ -56,7 +56,7 @@ def test_a_mark_counts_after_a_failure_and_a_separate_goal_does_not() -> None:
 
 
 def test_a_report_shows_the_first_failure_of_an_assertion() -> None:
-    """In a loop, a separate goal may fail several times; the report shows the first one."""
+    """If an assertion fails several times in a loop, the report shows the first failure."""
     results = Results()
     for actual in ("1", "2"):
         with pytest.raises(AssertionFailed):
@@ -65,7 +65,7 @@ def test_a_report_shows_the_first_failure_of_an_assertion() -> None:
 
 
 def test_a_report_lists_the_points_of_each_goal() -> None:
-    """The list is shown only if the part did not pass; it survives the way through JSON."""
+    """The report lists the points of each goal if the part did not pass."""
     goals = with_fulfilled(goals_of("05.1", 2, {"Measure a box.": 3, "Refuse a box.": 1}), ["Measure a box."])
     failed = Report("05.1", Verdict.FAILED, "", earned(goals), 2, (Assertion("x", False),), goals=goals)
     text = str(failed)

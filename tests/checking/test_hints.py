@@ -1,4 +1,4 @@
-"""For every hint of a check, a test shows that the check refuses an example answer with this hint."""
+"""Each hint of a check must be the hint of an example answer."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def area(context):
 
 @pytest.mark.parametrize("chapter", chapters())
 def test_every_hint_has_an_example_answer(chapter: str) -> None:
-    """The header of an example answer quotes a text that only this hint of the chapter contains."""
+    """For each hint of the chapter, an example answer quotes a text from it."""
     hints = hints_of(chapter)
     assert hints
     assert not _lines(not_shown(hints, read_answers(folder_of(chapter) / "answers.py")))
 
 
 def test_every_common_hint_has_an_example_answer() -> None:
-    """Each hint that several chapters use is shown for an example answer in one of these chapters."""
+    """For each hint that several chapters use, an example answer quotes a text from it."""
     hints = hints_in(Path(course_pkg.checking.common_hints.__file__))
     assert hints
     assert not _lines(not_shown(hints, every_answer()))
@@ -42,17 +42,14 @@ def _lines(hints: list[Hint]) -> str:
 
 
 def test_hints_are_the_sentences_of_a_check(tmp_path: Path) -> None:
-    """Docstrings, goals, titles of assertions, patterns and errors are not hints."""
+    """Docstrings, goals and error messages are not hints."""
     path = tmp_path / "checks.py"
     path.write_text(CHECK, "utf-8")
     assert [hint.pieces for hint in hints_in(path)] == [("The area is 0.",), ("Not ", ": ", " is too much.")]
 
 
 def test_a_part_of_several_hints_shows_none_of_them() -> None:
-    """A header has to quote a text that only one hint of the chapter contains.
-
-    A whole hint is always enough.
-    """
+    """A text that occurs in several hints does not count for any of them, but a whole hint always counts."""
     one, two = Hint("", ("Return it.",)), Hint("", ("Return it. It was ", " before."))
     assert shown_by("before", [one, two]) == {two.pieces}
     assert not shown_by("Return", [one, two])

@@ -16,10 +16,9 @@ from course_pkg.errors import UnknownCheck
 from course_pkg.waiting import MOST
 from tests.selection import chapter_paths
 
-COMPILED = ("13.", "14.")  # a compiler runs before the check, and the machine may be busy
-# Deadlines in s. A check that builds a package and runs it six times needs 9 s of CPU time; a check that
-# compiles six programs needs 25 s. During grading, two submissions run for each core. With 15 running
-# processes on two cores, 60 s were not enough.
+COMPILED = ("13.", "14.")  # In these chapters, a compiler runs before the check.
+# The deadlines are in s. A check that compiles six programs needs 25 s of CPU time. During grading, two
+# submissions run on each core, so a check may need several times this duration.
 USUAL, BUILT = 60, 180
 
 
@@ -37,7 +36,7 @@ def test_ids_are_unique_and_belong_to_their_chapter() -> None:
 
 
 def test_every_part_has_points_and_a_goal() -> None:
-    """Each part has points, a goal of one sentence, the names that it needs, and a sensible deadline."""
+    """Each part has points, a goal, its names and a deadline."""
     for part in every_part():
         assert part.points > 0
         assert part.goal.endswith(".")
@@ -47,7 +46,7 @@ def test_every_part_has_points_and_a_goal() -> None:
 
 
 def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:
-    """The package of a chapter exports all parts in its modules."""
+    """The package of a chapter exports all parts from its modules."""
     checks = [f"{chapters.__name__}.{folder_of(number).name}.checks" for number in numbers()]
     modules = [
         importlib.import_module(found.name)
@@ -62,10 +61,7 @@ def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:
 
 
 def test_a_chapter_depends_on_those_that_it_imports_from() -> None:
-    """Chapter 14 uses checks of chapter 09, and these use checks of chapter 07.
-
-    For an unknown chapter, there is no error.
-    """
+    """Chapter 14 imports checks of chapter 09, and chapter 09 imports checks of chapter 07."""
     needed = {number: [folder.name[2:4] for folder in folders_for(number)] for number in numbers()}
     assert needed["14"] == ["07", "09", "14"]
     assert needed["15"] == ["07", "15"]
@@ -74,7 +70,7 @@ def test_a_chapter_depends_on_those_that_it_imports_from() -> None:
 
 
 def test_imports_are_followed_in_each_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An import from another chapter is also found in a subfolder's module and inside a function."""
+    """The search finds an import in a subfolder's module and inside a function."""
     texts = {
         "ch01_one": "def f():\n    from course_pkg.chapters.ch02_two.checks import g\n",
         "ch02_two": "import course_pkg.chapters.ch03_three\n# from course_pkg.chapters.ch05_five import h\n",
@@ -92,7 +88,7 @@ def test_imports_are_followed_in_each_form(tmp_path: Path, monkeypatch: pytest.M
 
 
 def test_tests_of_a_chapter_depend_on_what_it_imports() -> None:
-    """`--changed` runs the tests of chapter 14 after a change of chapter 07."""
+    """After a change of chapter 07, `--changed` runs the tests of chapter 14."""
     names = {Path(path).name[:4] for path in chapter_paths("14")}
     assert names == {"ch07", "ch09", "ch14", "14_d"}
     assert {Path(path).name[:4] for path in chapter_paths("05")} == {"ch05", "05_w"}
@@ -100,5 +96,5 @@ def test_tests_of_a_chapter_depend_on_what_it_imports() -> None:
 
 
 def test_check_client_waits_longer_than_every_deadline() -> None:
-    """The kernel does not end before the check, even if it receives no message until the deadline."""
+    """The kernel waits longer for the check than every check's deadline."""
     assert max(part.deadline for part in every_part()) * MOST < TIMEOUT

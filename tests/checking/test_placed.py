@@ -1,4 +1,4 @@
-"""The kernel uses objects of the check runner through proxies."""
+"""In the kernel, a proxy passes calls to an object of the check runner."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from course_pkg.checking.placed.host import CALLS, CONNECTIONS, LIMIT, PlacedObj
 from course_pkg.checking.plain_values import Value
 from course_pkg.waiting import wait_until
 
-SOON = 10.0  # maximum time in s for a reaction on a busy machine
+SOON = 10.0  # A reaction may take at most this many seconds on a busy machine.
 
 
 class Stuck(Exception):
-    """An error class that the kernel does not know."""
+    """An error class that does not exist in the kernel."""
 
 
 class Drawer:
-    """An object that a check places into the kernel."""
+    """An object of a check that the kernel uses through a proxy."""
 
     def __init__(self) -> None:
         self.things = 0
@@ -82,13 +82,13 @@ class Drawer:
         return 7
 
     def close(self) -> None:
-        """End the waiting calls."""
+        """End all waiting calls."""
         self.closed.set()
 
 
 @pytest.fixture
 def placed() -> Iterator[PlacedObjects]:
-    """Return the object that executes the calls of the proxies."""
+    """Return the server that executes the calls of the proxies."""
     with PlacedObjects() as placed:
         yield placed
 
@@ -100,13 +100,13 @@ def drawer() -> Drawer:
 
 
 def proxy(placed: PlacedObjects, item: object) -> Value:
-    """Return a proxy for the object `item`."""
+    """Return a proxy for `item`."""
     where = placed.place(item)
     return ObjectProxies(int(str(where["port"])), str(where["key"])).proxy(dict(where["item"]))  # type: ignore[arg-type]
 
 
 def connect(placed: PlacedObjects, *, key: str = "") -> socket.socket:
-    """Return a socket that has sent the right key, or the key `key`."""
+    """Return a socket that has sent the key."""
     where = placed.place(Drawer())
     sock = socket.create_connection(("127.0.0.1", int(str(where["port"]))), timeout=SOON)
     sock.sendall(json.dumps({"key": key or where["key"]}).encode() + b"\n")
@@ -122,7 +122,7 @@ def ended(sock: socket.socket) -> bool:
 
 
 def test_methods_and_attributes_are_those_of_the_real_object(placed: PlacedObjects, drawer: Drawer) -> None:
-    """A call, a read and a write reach the real object; arguments may be positional or named."""
+    """A proxy passes calls, reads and writes to the real object."""
     other = proxy(placed, drawer)
     assert other.add(2) == 2
     assert other.add(count=1, twice=True) == 4
@@ -132,7 +132,7 @@ def test_methods_and_attributes_are_those_of_the_real_object(placed: PlacedObjec
 
 
 def test_only_remote_attributes_exist(placed: PlacedObjects, drawer: Drawer) -> None:
-    """An attribute without @remote cannot be used, either through the proxy or through the connection."""
+    """The kernel cannot use an attribute without @remote."""
     other = proxy(placed, drawer)
     with pytest.raises(AttributeError, match="'Drawer' object has no attribute 'hidden'"):
         _ = other.hidden
@@ -160,7 +160,10 @@ def test_a_changed_class_changes_nothing_in_the_real_object(placed: PlacedObject
 
 
 def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: Drawer) -> None:
-    """A built-in error keeps its class; for any other error, there is a new class with the same name."""
+    """A built-in error has the same class in the kernel.
+
+    Any other error gets a new class with the same name.
+    """
     other = proxy(placed, drawer)
     with pytest.raises(KeyError, match="the drawer is stuck"):
         other.stick("known")
@@ -174,13 +177,13 @@ def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: D
 
 
 def test_an_object_that_is_returned_is_a_proxy(placed: PlacedObjects, drawer: Drawer) -> None:
-    """If a remote method returns an object, it stays in the check runner, and the kernel gets a proxy."""
+    """If a remote method returns an object, the kernel gets a proxy."""
     other = proxy(placed, drawer)
     assert other.itself() is other
 
 
 def test_each_thread_has_its_own_thread_in_the_check_runner(placed: PlacedObjects, drawer: Drawer) -> None:
-    """For each thread of the kernel, there is a thread in the check runner, and both end together."""
+    """Each thread of the kernel has its own thread in the check runner."""
     other = proxy(placed, drawer)
     with ThreadPoolExecutor(3) as pool:
         assert sorted(pool.map(lambda _: other.meet(), range(3))) == [0, 1, 2]
@@ -209,7 +212,7 @@ def test_each_thread_has_its_own_thread_in_the_check_runner(placed: PlacedObject
 def test_a_malformed_line_ends_its_connection_only(
     placed: PlacedObjects, drawer: Drawer, line: bytes
 ) -> None:
-    """If a line is invalid or too long, its connection ends; other connections still work."""
+    """An invalid line closes only its own connection."""
     other = proxy(placed, drawer)
     with connect(placed) as sock:
         sock.sendall(line)
@@ -218,14 +221,14 @@ def test_a_malformed_line_ends_its_connection_only(
 
 
 def test_another_key_is_refused(placed: PlacedObjects) -> None:
-    """A program that does not know the key cannot use any object."""
+    """Without the key, a program cannot use any object."""
     for key in ("another", "\ud800"):
         with connect(placed, key=key) as sock:
             assert ended(sock)
 
 
 def test_connections_and_calls_are_limited(placed: PlacedObjects, drawer: Drawer) -> None:
-    """Connections and calls are refused if there are more than a check needs."""
+    """The check runner limits the numbers of connections and of waiting calls."""
     other = proxy(placed, drawer)
     socks = [connect(placed) for _ in range(CONNECTIONS)]
     assert wait_until(lambda: len(placed._open) == CONNECTIONS, SOON)
@@ -241,10 +244,7 @@ def test_connections_and_calls_are_limited(placed: PlacedObjects, drawer: Drawer
 
 
 def test_a_call_that_waits_ends_with_the_check(drawer: Drawer) -> None:
-    """At the end, a waiting call and all later calls raise an error.
-
-    No thread is left in the check runner.
-    """
+    """When the check ends, a waiting call and all later calls raise an error."""
     before = threading.active_count()
     with ThreadPoolExecutor(1) as pool:
         with PlacedObjects() as placed:
@@ -258,7 +258,7 @@ def test_a_call_that_waits_ends_with_the_check(drawer: Drawer) -> None:
 
 
 def test_a_killed_kernel_leaves_no_thread(placed: PlacedObjects, drawer: Drawer) -> None:
-    """When the kernel is killed, its connections are closed, and no thread is left."""
+    """When the kernel is killed, its threads in the check runner end."""
     where = placed.place(drawer)
     program = (
         "from course_pkg.checking.kernel.object_proxy import ObjectProxies\n"

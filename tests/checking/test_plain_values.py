@@ -1,4 +1,4 @@
-"""Each value of the student's code can be converted to plain data."""
+"""Values from the student's code are converted to plain data."""
 
 from __future__ import annotations
 
@@ -49,22 +49,19 @@ class Colour(enum.IntEnum):
     ],
 )
 def test_values_become_plain(value: Value, expected: Json) -> None:
-    """A message becomes a dict, a sequence becomes a list, and a NumPy number becomes a number.
-
-    Any other value becomes the name of its type.
-    """
+    """A message becomes a dict, a sequence becomes a list, and an unknown object becomes its type's name."""
     assert plain(value) == expected
     json.dumps(plain(value))
 
 
 def test_number_with_a_wrong_eq_becomes_a_plain_number() -> None:
-    """A number whose __eq__ is wrong becomes a plain number, so that it is compared correctly."""
+    """A number with a wrong __eq__ becomes a plain number."""
     assert type(plain(Everything(3.0))) is float
     assert plain(Everything(3.0)) != 4.0
 
 
 def test_endless_values_are_cut() -> None:
-    """A list that contains itself is cut off, and a long string is cut off."""
+    """A list that contains itself is cut off, and so is a long string."""
     endless: list[Value] = []
     endless.append(endless)
     assert "nested too deeply" in json.dumps(plain(endless))

@@ -1,4 +1,4 @@
-"""The student's own record: no result is lost, and a check also works without a record."""
+"""The student's record of results."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ assert (folder / "05.1.json").read_text() == before
 
 @pytest.fixture
 def record(tmp_path: Path) -> StudentRecord:
-    """Return a record in a folder that does not exist yet."""
+    """Return a record in a folder that does not exist."""
     return StudentRecord(tmp_path / "state" / "results")
 
 
 def test_a_pass_stays_a_pass(record: StudentRecord) -> None:
-    """If a later check fails or cannot run, only the last result changes; the part is still passed."""
+    """If a later check fails, the part is still passed."""
     assert record.store("05.1", FAILED) == ""
     first, _ = record.read(["05.1"])
     assert (first["05.1"].verdict, first["05.1"].passed, first["05.1"].checks) == ("not yet", "", 1)
@@ -67,7 +67,7 @@ def test_a_pass_stays_a_pass(record: StudentRecord) -> None:
     "content", ["", "{", "[]", '{"check": "05.1"}', '{"check": "05.2"}', "\udcff", "9" * 5000, "[" * 100_000]
 )
 def test_a_damaged_file_is_kept_and_named(record: StudentRecord, content: str) -> None:
-    """A reader gets one message; the next check stores its result, and the damaged file is kept."""
+    """The report contains one message about a damaged file, and the file is not deleted."""
     record.folder.mkdir(parents=True)
     path = record.folder / "05.1.json"
     damaged = content.encode("utf-8", "surrogateescape")
@@ -84,10 +84,7 @@ def test_a_damaged_file_is_kept_and_named(record: StudentRecord, content: str) -
 
 
 def test_second_damaged_file_replaces_no_file(record: StudentRecord) -> None:
-    """Each damaged file gets a new name.
-
-    A folder with the name of a file is treated in the same way.
-    """
+    """Each damaged file gets a new name."""
     record.folder.mkdir(parents=True)
     path = record.folder / "05.1.json"
     path.write_text("first")
@@ -100,7 +97,7 @@ def test_second_damaged_file_replaces_no_file(record: StudentRecord) -> None:
 
 
 def test_many_damaged_files_are_one_message(record: StudentRecord) -> None:
-    """If the folder cannot be read, or if a hundred files are damaged, there is one short message."""
+    """If many files are damaged, the report contains one short message."""
     record.folder.parent.mkdir()
     record.folder.write_text("a file in the place of the folder")
     checks = [f"05.{number}" for number in range(1, 100)]
@@ -111,7 +108,7 @@ def test_many_damaged_files_are_one_message(record: StudentRecord) -> None:
 
 
 def test_kernels_that_check_at_the_same_time_lose_nothing(record: StudentRecord) -> None:
-    """Three programs store 30 results each: all results are counted, and no temporary file is left."""
+    """Three programs store 30 results each, and the record contains all 90 results."""
     programs = [subprocess.Popen([sys.executable, "-c", MANY, record.folder]) for _ in range(3)]
     assert [program.wait(60) for program in programs] == [0, 0, 0]
     assert record.read(["05.1"])[0]["05.1"].checks == 90
@@ -119,7 +116,7 @@ def test_kernels_that_check_at_the_same_time_lose_nothing(record: StudentRecord)
 
 
 def test_lock_that_is_not_released_leads_to_a_message(record: StudentRecord) -> None:
-    """If another program does not release the lock, the check continues and adds a message."""
+    """If another program does not release the lock, the report contains a message."""
     with locked(record.folder), pytest.raises(TimeoutError), locked(record.folder, timeout=0.0):
         pass
     with locked(record.folder):
@@ -129,7 +126,7 @@ def test_lock_that_is_not_released_leads_to_a_message(record: StudentRecord) -> 
 
 
 def test_full_disk_leads_to_a_message(tmp_path: Path) -> None:
-    """If the disk is full, the earlier result stays, and the message says why the new one is missing."""
+    """If the disk is full, the report contains a message, and the earlier result stays in the record."""
     if not shutil.which("bwrap"):
         pytest.skip("bubblewrap makes the small disk")
     small = ["bwrap", "--dev-bind", "/", "/", "--size", "8192", "--tmpfs", str(tmp_path)]
@@ -142,7 +139,7 @@ def test_full_disk_leads_to_a_message(tmp_path: Path) -> None:
 
 @pytest.mark.usefixtures("master")
 def test_a_check_reports_a_problem_with_its_record_and_still_counts(tmp_path: Path) -> None:
-    """After the usual lines, the report contains one message about the problem."""
+    """If the record cannot be written, the report contains a message and the check's result."""
     (tmp_path / FOLDER).mkdir()
     (tmp_path / FOLDER / "05.1.json").write_text('{"check": "05')
     out = output(SERVE + '    print(check("05.1"))\n    print(check("05.1"))', tmp_path)
@@ -153,10 +150,7 @@ def test_a_check_reports_a_problem_with_its_record_and_still_counts(tmp_path: Pa
 
 @pytest.mark.usefixtures("master")
 def test_check_without_a_record_still_passes(tmp_path: Path) -> None:
-    """If the state folder cannot be created, the check still passes.
-
-    Its report contains the path of the folder.
-    """
+    """If the state folder cannot be created, the check passes, and the report contains the folder's path."""
     (tmp_path / "file").write_text("")
     out = output(SERVE + '    print(check("05.1"))', tmp_path / "file")
     assert out.startswith("05.1 passed: 2 of 2 points")

@@ -1,4 +1,4 @@
-"""A report has the same content as text, as HTML, and after the channel has transported it."""
+"""A report has the same content as text and as HTML."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ FAILED = Report(
 
 
 def test_pass_contains_no_values() -> None:
-    """The text of a pass contains no random value, because nbval compares the text."""
+    """The text of a pass contains no random values."""
     assertion = Assertion("it answers", True, asked="f(0.123)", expected="1", actual="1", hint="none")
     text = str(Report("05.1", Verdict.PASSED, "Answer.", 2, 2, (assertion,), printed="0.123"))
     assert text == "05.1 passed: 2 of 2 points\n  ✓ it answers"
 
 
 def test_failure_contains_call_expected_and_actual_value_and_hint() -> None:
-    """A failure shows all details; no line is too long."""
+    """A failure shows the call, the expected value, the actual value and the hint."""
     text = str(FAILED)
     for word in (
         "0 of 2 points",
@@ -42,7 +42,7 @@ def test_failure_contains_call_expected_and_actual_value_and_hint() -> None:
 
 
 def test_a_failure_starts_with_what_is_right_and_then_names_one_thing_to_fix() -> None:
-    """Text and HTML first show the assertions that hold, then what to correct next, and then the goal."""
+    """A failure first shows the assertions that hold, then what to correct, and then the goal."""
     lines = str(FAILED).splitlines()
     assert lines[:4] == [
         "05.1 not yet: 0 of 2 points",
@@ -58,21 +58,21 @@ def test_a_failure_starts_with_what_is_right_and_then_names_one_thing_to_fix() -
 
 
 def test_a_failure_at_once_has_one_thing_to_fix_first() -> None:
-    """If the first assertion fails, there is no list of assertions that hold."""
+    """If the first assertion fails, the report lists no assertions that hold."""
     report = Report("05.1", Verdict.FAILED, "Answer.", 0, 2, FAILED.assertions[1:])
     assert str(report).splitlines()[1:3] == ["  Fix this first:", "  ✗ <b>area</b>"]
     assert "Right so far" not in report.html()
 
 
 def test_a_part_that_is_not_attempted_has_one_thing_to_do() -> None:
-    """The line after the headline says what to do, and then comes the goal."""
+    """The report says first what to do, and then shows the goal."""
     report = Report("05.1", Verdict.NOT_ATTEMPTED, "Answer.", 0, 2, note="Replace the ... in f.")
     assert str(report).splitlines()[1:] == ["  Replace the ... in f.", "  The goal: Answer."]
     assert "<ul" not in report.html()
 
 
 def test_the_html_of_a_pass_has_no_heading() -> None:
-    """Stored solutions contain this HTML; if it changes, all solutions must be executed again."""
+    """The HTML of a pass does not change, because the solutions contain this HTML."""
     report = Report("05.1", Verdict.PASSED, "Answer.", 2, 2, FAILED.assertions[:1])
     assert report.html() == (
         '<section class="course-report" style="border-left:4px solid #2e7d32;padding:0.2em 1em">'
@@ -83,7 +83,7 @@ def test_the_html_of_a_pass_has_no_heading() -> None:
 
 
 def test_html_is_escaped() -> None:
-    """Text from a student's code is escaped, so that it cannot be markup."""
+    """HTML characters in a student's text are escaped."""
     html = FAILED.html()
     assert "<script>" not in html
     assert "<b>" not in html
@@ -91,5 +91,5 @@ def test_html_is_escaped() -> None:
 
 
 def test_report_does_not_change_in_the_channel() -> None:
-    """The client shows the same report that the check runner has sent."""
+    """The client prints the same report that the check runner has sent."""
     assert report_from(json.loads(json.dumps(FAILED.as_dict()))) == FAILED

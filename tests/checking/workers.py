@@ -1,4 +1,4 @@
-"""Several sandbox workers that work at the same time. An answer often waits for nodes and messages."""
+"""Runs several sandbox workers at the same time."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from course_pkg.sandbox.worker_client import SandboxWorker
 
 
 class WorkerPool:
-    """Runs jobs in `count` sandboxes at the same time; a context manager."""
+    """A context manager that runs jobs in `count` sandboxes at the same time."""
 
     def __init__(self, count: int) -> None:
         self._futures: dict[PartJob, Future[PartResult]] = {}
@@ -33,18 +33,19 @@ class WorkerPool:
             worker.close()
 
     def submit(self, jobs: Iterable[PartJob]) -> None:
-        """Add the jobs to the queue that are not in it yet; jobs with long deadlines come first."""
+        """Add new jobs to the queue. Jobs with long deadlines run first."""
         for job in sorted(jobs, key=lambda each: -each.deadline):
             if job not in self._futures:
                 self._futures[job] = self._threads.submit(self._run, job)
 
     def result(self, job: PartJob) -> PartResult:
-        """Wait for the end of `job`, and return its result."""
+        """Wait until `job` has finished, and return its result."""
         self.submit([job])
         return self._futures[job].result()
 
     def _run(self, job: PartJob) -> PartResult:
-        if not hasattr(self._own, "worker"):  # a sandbox worker ends when the thread that started it ends
+        # Each thread needs its own worker, because a worker ends together with the thread that started it.
+        if not hasattr(self._own, "worker"):
             self._own.worker = SandboxWorker(sandboxed=self._sandboxed)
             self._workers.append(self._own.worker)
         worker: SandboxWorker = self._own.worker

@@ -1,10 +1,6 @@
 """The table of common mistakes with ROS 1 services.
 
-Each row names the fault or the build that shows the mistake.
-
-A row contains a mistake and the part of its symptom that is always the same. A mistake at run time refers to
-the faults of BreakIt that cause it. A mistake in a build refers to a package with this mistake, or to a
-command.
+Each row names the faults of BreakIt or the builds that show the mistake.
 """
 
 from __future__ import annotations
@@ -16,9 +12,9 @@ from dataclasses import dataclass
 class Shows:
     """The symptom of a fault.
 
-    `said` is a part of the client's output, and `server` is a part of the server's output. `hangs` is true if
-    the client waits for ever. `cause` is a part of the course's explanation of the output; "" means that no
-    explanation is expected.
+    The client's output contains `said`, and the server's output contains `server`. If `hangs` is true, the
+    client waits forever. The course's explanation contains `cause`; if `cause` is "", the course gives no
+    explanation.
     """
 
     fault: str
@@ -30,10 +26,10 @@ class Shows:
 
 @dataclass(frozen=True)
 class Builds:
-    """A build that fails because of one mistake.
+    """A mistake that makes a build fail.
 
-    `slip` is its name in the tables of test_mistakes.py. `said` is a part of the output, and `cause` is a
-    part of the explanation.
+    `slip` is the name of the mistake in the tables of test_mistakes.py. The build's output contains `said`,
+    and the explanation contains `cause`.
     """
 
     slip: str
@@ -43,7 +39,7 @@ class Builds:
 
 @dataclass(frozen=True)
 class Row:
-    """One row: the section of the table, the mistake, and the faults and builds that show it."""
+    """A row of the table: the section, the mistake, and the faults and builds that show the mistake."""
 
     section: str
     slip: str
@@ -449,6 +445,5 @@ NODES_AND_MASTERS = (
 )
 
 ROWS = (*BUILDING, *SERVING, *CALLING, *NODES_AND_MASTERS)
-# The number of rows in each section of the table; a new row must also be counted here. A new row must be
-# counted here, too.
+# Each section of the table has this number of rows.
 COUNTS = {"Building": 10, "Serving": 13, "Calling": 15, "Nodes and masters": 14}

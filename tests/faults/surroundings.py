@@ -1,4 +1,4 @@
-"""The state that must be the same after a fault: graph, processes, listening ports and environment."""
+"""Compares the state of the machine before and after a fault: ROS graph, processes, ports and environment."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.ros.process.supervisor import descendants
 
 @dataclass(frozen=True)
 class Surroundings:
-    """The state at one moment; the graph is that of the master at ROS_MASTER_URI."""
+    """The state at one moment, for the master at ROS_MASTER_URI."""
 
     graph: Snapshot = field(default_factory=look)
     processes: frozenset[int] = field(default_factory=lambda: frozenset(descendants(os.getpid())))
@@ -20,9 +20,9 @@ class Surroundings:
     environment: dict[str, str] = field(default_factory=lambda: dict(os.environ))
 
     def left_behind(self) -> dict[str, object]:
-        """Return the differences between this state and the present state.
+        """Return the differences between this state and the current state.
 
-        A new child of an older process, such as a browser, is not a difference.
+        New child processes of an older process are ignored.
         """
         now = Surroundings()
         others = {pid for before in self.processes for pid in descendants(before)}

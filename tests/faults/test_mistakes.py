@@ -1,4 +1,4 @@
-"""The test makes each mistake of the table, and the course explains its symptom."""
+"""The test makes each mistake in the table, and `explain` explains the symptom."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
 
 
 def test_the_table_is_complete() -> None:
-    """Each section has all its rows, and each row has a fault or a build."""
+    """Each section has the expected number of rows, and each row has a fault or a build."""
     assert Counter(row.section for row in ROWS) == COUNTS
     assert all(row.shown for row in ROWS)
 
 
 def test_the_table_names_exactly_the_faults_of_the_course() -> None:
-    """Each fault of the course is in the table, and each fault of the table exists."""
+    """The table and the course contain the same faults."""
     assert sorted(each.fault for each in SHOWN) == sorted(names())
 
 
 def test_each_fault_prints_something_or_hangs() -> None:
-    """For each fault, the table has an expected text of an output, or the client hangs."""
+    """For each fault, the table names an output or says that the client hangs."""
     assert all(each.said or each.server or each.hangs for each in SHOWN)
 
 
 @pytest.mark.parametrize("shows", SHOWN, ids=lambda shows: shows.fault)
 def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, shows: Shows) -> None:
-    """The fault has the symptom of the table, `explain` explains it, and nothing is left afterwards."""
+    """Each fault has the symptom in the table, and `explain` explains the symptom."""
     assert master.uri
     before = Surroundings()
     with caused(shows.fault) as stage:
@@ -55,7 +55,7 @@ def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, show
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Create a workspace with a package that can be built, and with scripts that rosrun cannot run."""
+    """Create a workspace with a package that builds, and with scripts that rosrun cannot run."""
     folder = tmp_path_factory.mktemp("mistakes")
     scripts = {"scripts/plain.py": "print(1)\n", "scripts/shell.py": "import os\n"}
     write(folder, {**GOOD, **scripts})
@@ -86,7 +86,7 @@ LINES = {
 
 
 def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
-    """Make the mistake, and return the output of the build or of the command."""
+    """Make the mistake, and return the output of the command."""
     if built.slip in LINES:
         line, sourced = LINES[built.slip]
         return shell(workspace, line, sourced=sourced)
@@ -105,7 +105,7 @@ def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
 
 @pytest.mark.parametrize("built", BUILT, ids=lambda built: built.slip)
 def test_a_mistake_in_a_build_is_explained(built: Builds, workspace: Path, tmp_path: Path) -> None:
-    """The output of catkin_make, or of the tool, contains the expected text, and `explain` explains it."""
+    """The command's output contains the expected text, and `explain` explains the output."""
     text = printed(built, workspace, tmp_path)
     assert " ".join(built.said.split()) in " ".join(text.split())
     explained = explain.explain(text)
@@ -114,7 +114,7 @@ def test_a_mistake_in_a_build_is_explained(built: Builds, workspace: Path, tmp_p
 
 
 def test_two_cases_run_on_one_graph(master: PrivateMaster) -> None:
-    """Two cases can run at the same time in different namespaces, and each shows its own symptom."""
+    """Two cases can run at the same time in different namespaces."""
     client = MasterClient(master.uri)
     with caused("stale") as one, caused("returns_none") as other:
         assert one.namespace != other.namespace

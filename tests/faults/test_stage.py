@@ -1,4 +1,4 @@
-"""A stage causes a fault; after it is undone, the graph is the same as before."""
+"""A stage causes a fault and then undoes it."""
 
 from __future__ import annotations
 
@@ -28,16 +28,13 @@ result = [str(stage._resources.folder) for stage in stages]
 
 
 def nodes(master: PrivateMaster) -> list[str]:
-    """Return the nodes on the graph whose names begin with /lab."""
+    """Return all nodes whose names begin with /lab."""
     return [node for node in MasterClient(master.uri).system_state().nodes if node.startswith("/lab")]
 
 
 @pytest.mark.parametrize("name", ["stale", "stopped", "hung_master", "two_providers"])
 def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
-    """After SIGKILL of the kernel, no process, registration or folder of its case is left.
-
-    This includes the registrations of nodes that the case killed.
-    """
+    """After SIGKILL of the kernel, the processes, registrations and folders of its case are removed."""
     (folder,) = kernel.run(CAUSE.format(names=[name]))
     pids = descendants(kernel.pid)
     assert pids
@@ -48,7 +45,7 @@ def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, n
 
 
 def test_a_kernel_that_ends_undoes_its_case(master: PrivateMaster, kernel: Kernel) -> None:
-    """When a kernel ends, no node of its case is on the graph any more."""
+    """When a kernel ends, the nodes of its case end."""
     kernel.run(CAUSE.format(names=["stale"]))
     assert nodes(master)
     kernel.exit()
@@ -56,7 +53,7 @@ def test_a_kernel_that_ends_undoes_its_case(master: PrivateMaster, kernel: Kerne
 
 
 def test_a_case_that_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
-    """If the server of a case does not start, `cause` raises NodeFailed, and no node is left."""
+    """If the server of a case does not start, `cause` raises NodeFailed, and no node remains."""
 
     def play(stage: Stage) -> None:
         stage.serve("raise SystemExit(3)")
@@ -68,14 +65,14 @@ def test_a_case_that_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
 
 
 def test_a_stage_needs_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master, a stage raises MasterUnreachable and starts no program."""
+    """Without a master, a stage raises MasterUnreachable."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with pytest.raises(MasterUnreachable, match="No ROS master"):
         Stage(named("stale"))
 
 
 def test_a_second_undo_changes_nothing(master: PrivateMaster) -> None:
-    """A second call of `undo` raises no error, and no node is left."""
+    """A second call of `undo` raises no error."""
     stage = Stage(named("returns_none"))
     stage.cause()
     stage.undo()
@@ -84,7 +81,7 @@ def test_a_second_undo_changes_nothing(master: PrivateMaster) -> None:
 
 
 def test_a_fault_can_be_repaired_by_hand(master: PrivateMaster) -> None:
-    """A stopped server continues after SIGCONT, and the tool "Call again" shows its response."""
+    """After SIGCONT, a stopped server responds to the tool "Call again"."""
     assert master.uri
     with caused("stopped") as stage:
         assert stage.keeper is not None
@@ -93,10 +90,7 @@ def test_a_fault_can_be_repaired_by_hand(master: PrivateMaster) -> None:
 
 
 def test_the_tools_show_the_real_state(master: PrivateMaster) -> None:
-    """Each tool shows the output of a real command.
-
-    The clean-up tool removes stale registrations of the case.
-    """
+    """Each tool shows the output of a real command."""
     assert master.uri
     with caused("stale") as stage:
         said = {tool: probe(stage, tool).said for tool in TOOLS if tool != "again"}
@@ -110,7 +104,7 @@ def test_the_tools_show_the_real_state(master: PrivateMaster) -> None:
 
 
 def test_names_and_groups_are_found() -> None:
-    """Faults are selected by name or by group. The error for an unknown name lists all groups and faults."""
+    """Faults are selected by name or by group, and the error message for an unknown name lists all names."""
     assert select() == every_fault()
     assert [each.name for each in select("stale", "stopped")] == ["stale", "stopped"]
     assert {each.group for each in select("serving")} == {"serving"}
@@ -121,7 +115,7 @@ def test_names_and_groups_are_found() -> None:
 
 
 def test_the_texts_of_each_fault_are_unique() -> None:
-    """Names, diagnoses and reasons are unique. Each text ends with a full stop, and `unlike` names faults."""
+    """The names, diagnoses and reasons of all faults are unique. Each text is a sentence."""
     faults = every_fault()
     for texts in (
         [each.name for each in faults],
@@ -135,7 +129,7 @@ def test_the_texts_of_each_fault_are_unique() -> None:
 
 
 def test_a_fault_needs_no_rospy_in_the_kernel() -> None:
-    """The package does not import rospy, because the faulty programs run as separate processes."""
+    """The package does not import rospy."""
     code = "import sys, course_pkg.faults as f; f.caused, f.probe, f.names(); print('rospy' in sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True

@@ -1,4 +1,4 @@
-"""Makes submissions in all layouts; they are made from the real notebooks."""
+"""Makes submissions from the course's notebooks, in the layouts of all platforms."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def handed_out(chapter: str = "05") -> Notebook:
 
 
 def raw(notebook: Notebook) -> bytes:
-    """Return the content of a notebook's file as bytes."""
+    """Return the bytes of a notebook file."""
     return json.dumps(notebook).encode()
 
 
@@ -38,7 +38,7 @@ def folder(root: Path, files: Mapping[str, bytes]) -> Path:
 
 
 def zipped(path: Path, files: Mapping[str, bytes], **changes: int | str | bytes) -> Path:
-    """Write `files` into a zip; `changes` are attributes of each member."""
+    """Write `files` into a zip; `changes` are attributes of each ZipInfo."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
             member = zipfile.ZipInfo("placeholder", (2026, 1, 1, 0, 0, 0))

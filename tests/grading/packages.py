@@ -1,4 +1,4 @@
-"""Catkin packages in the form in which students hand them in."""
+"""Catkin packages as students hand them in."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NO_SERVER = "#!/usr/bin/env python3\nimport rospy\n\nrospy.init_node('SERVER_NOD
 
 
 def my_geometry(changes: Mapping[str, str] | None = None) -> dict[str, bytes]:
-    """Return the package my_geometry of chapter 07's solution; `changes` maps paths to new contents."""
+    """Return the package my_geometry of chapter 07's solution. `changes` maps paths to new contents."""
     files = dict(MY_GEOMETRY.files)
     for cell in code_cells(reference("07")):
         first, _, text = cell["source"].partition("\n")
@@ -26,7 +26,7 @@ def my_geometry(changes: Mapping[str, str] | None = None) -> dict[str, bytes]:
 
 
 def write_package(root: Path, place: str, files: Mapping[str, bytes]) -> Path:
-    """Write a package to `place`, such as "s01/my_geometry", with executable scripts; return its folder."""
+    """Write a package to `place`, such as "s01/my_geometry", and return the package's folder."""
     folder(root, {f"{place}/{path}": content for path, content in files.items()})
     for path in filter(is_script, files):
         (root / place / path).chmod(0o755)
@@ -34,7 +34,7 @@ def write_package(root: Path, place: str, files: Mapping[str, bytes]) -> Path:
 
 
 def work_files(files: Mapping[str, bytes], name: str = "my_geometry") -> tuple[WorkFile, ...]:
-    """Return the files of a package as a job needs them."""
+    """Return the files of a package in the format of a grading job."""
     return tuple(
         work_file(f"src/{name}/{path}", content, executable=is_script(path))
         for path, content in files.items()

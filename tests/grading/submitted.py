@@ -23,7 +23,10 @@ geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
 def hand_in(
     folder: Path, student: str, chapter: str = "05", answers: Mapping[str, str] | None = None
 ) -> Path:
-    """Write a student's copy of a chapter's solution; `answers` are by part, and "" leaves a cell blank."""
+    """Write a student's copy of a chapter's solution.
+
+    `answers` replaces the answers by part, and "" makes a blank cell.
+    """
     notebook = reference(chapter)
     for cell in code_cells(notebook):
         part = exercise_of(cell)

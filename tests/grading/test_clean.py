@@ -1,4 +1,4 @@
-"""Text from a submission is harmless in every report."""
+"""Tests that clean texts from submissions."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NASTY = {
 
 @pytest.mark.parametrize(("given", "kept"), NASTY.values(), ids=NASTY)
 def test_harmful_characters_are_removed(given: str, kept: str) -> None:
-    """The result contains no terminal codes and no invisible characters. It is valid in XML and in UTF-8."""
+    """The result contains no terminal codes and no invisible characters."""
     assert clean.text(given) == kept
     assert clean.text(clean.text(given)) == kept
 
@@ -33,7 +33,7 @@ def test_harmful_characters_are_removed(given: str, kept: str) -> None:
     "given", ["x" * 10_000_000, "\n" * 100_000, "\x1b[" * 100_000, "\x1b]" * 100_000 + "y"]
 )
 def test_length_is_bounded(given: str) -> None:
-    """A long text is cut; if the result is cleaned again, it does not change."""
+    """A long text is cut, and cleaning the result again does not change it."""
     kept = clean.text(given)
     assert len(kept) <= clean.LONG
     assert kept.count("\n") <= clean.LINES
@@ -41,7 +41,7 @@ def test_length_is_bounded(given: str) -> None:
 
 
 def test_cut_text_has_a_mark() -> None:
-    """A mark shows that a text was cut."""
+    """A cut text ends with a mark."""
     assert clean.text("x" * 5000).endswith("… (cut)")
 
 
@@ -54,20 +54,17 @@ def test_a_line_is_one_line() -> None:
     "start", ["=", "+", "-", "@", "\t=", "\r=", "\n=", " =", "\x00=", "\u200b=", "\uff1d"]
 )
 def test_no_cell_is_a_formula(start: str) -> None:
-    """If a text begins like a formula, a spreadsheet shows it as text.
-
-    This is so even with invisible characters before the sign.
-    """
+    """A spreadsheet shows a text that begins like a formula as text."""
     assert clean.cell(start + "HYPERLINK(1)").startswith("'")
 
 
 def test_markup_is_text() -> None:
-    """Markup is escaped; a page shows it as text, even in an attribute."""
+    """Markup is escaped, even in an attribute."""
     assert clean.html("<script>'\"&") == "&lt;script&gt;&#x27;&quot;&amp;"
 
 
 def test_data_of_any_shape_is_cleaned() -> None:
-    """Strings and keys in lists and dicts are cleaned, numbers do not change, and long lists are cut."""
+    """Strings and keys in lists and dicts are cleaned, and long lists are cut."""
     given = {"a\x1b[1m": ["\x00x", 1.5, None, True, {"k": "\ud800"}], "n": list(range(5000))}
     cleaned = clean.record(given)
     assert cleaned["a"] == ["x", 1.5, None, True, {"k": "\ufffd"}]
@@ -76,7 +73,7 @@ def test_data_of_any_shape_is_cleaned() -> None:
 
 @pytest.mark.parametrize("name", ["s01", "anna.b-c_1", "0"])
 def test_a_plain_name_stays(name: str) -> None:
-    """A usual name does not change, so its file is easy to find."""
+    """A usual student name does not change in a file name."""
     assert clean.file_name(name) == name
 
 
@@ -101,10 +98,7 @@ WILD = [
 
 
 def test_unusual_name_stays_in_its_folder() -> None:
-    """File names contain no separators, device names or leading dots.
-
-    They have a limited length, and stay different.
-    """
+    """A file name contains no separators, device names or leading dots."""
     names = [clean.file_name(name) for name in WILD]
     for name in names:
         assert clean.PLAIN_NAME.fullmatch(name), name
@@ -115,16 +109,16 @@ def test_unusual_name_stays_in_its_folder() -> None:
 
 
 def test_changed_names_stay_different() -> None:
-    """If a student's name is equal to the changed name of another student, it is changed, too."""
+    """Two students always have different file names."""
     changed = clean.file_name("S01")
     assert changed != clean.file_name("s01")
     assert clean.file_name(changed) != changed
 
 
 def test_a_student_keeps_the_name() -> None:
-    """A name is stored in a normalised form of Unicode.
+    """A student's name is stored in a normalised form of Unicode.
 
-    Different names stay different even if characters are removed from them.
+    Two different names are different after cleaning.
     """
     assert clean.identity("Größe_12") == clean.identity("Gro\u0308ße_12") == "Größe_12"
     assert clean.identity("a\x00") != clean.identity("a")

@@ -1,7 +1,4 @@
-"""Whole runs of `course grade`.
-
-They run without an interruption, killed and continued, with threads, and with a cluster.
-"""
+"""Whole runs of `course grade`."""
 
 from __future__ import annotations
 
@@ -30,10 +27,7 @@ COURSE = Places.of().checkout / "course"
 
 @pytest.fixture(scope="module")
 def submissions(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write four submissions.
-
-    They are a right one, one with a wrong part, a copy of the first one, and a damaged file.
-    """
+    """Write four submissions: a right one, a wrong one, a copy and a damaged file."""
     folder = tmp_path_factory.mktemp("submissions")
     hand_in(folder, "s01")
     hand_in(folder, "s02", answers={"05.1": WRONG})
@@ -45,7 +39,7 @@ def submissions(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def grade(submissions: Path, out: Path, *words: str | Path) -> subprocess.CompletedProcess[str]:
-    """Run the command, and wait for its end."""
+    """Run the command, and wait until it exits."""
     command = [COURSE, "grade", submissions, "--out", out, "--validate", "none", *words]
     return subprocess.run(command, capture_output=True, text=True, timeout=200, check=False)
 
@@ -58,7 +52,7 @@ def points(out: Path) -> dict[str, float]:
 
 @pytest.fixture(scope="module")
 def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Grade all submissions, and return the folder with the reports."""
+    """Grade all submissions, and return the report folder."""
     out = tmp_path_factory.mktemp("grades")
     done = grade(submissions, out)
     assert done.returncode == NEED_A_LOOK, done.stderr
@@ -68,7 +62,7 @@ def undisturbed(submissions: Path, tmp_path_factory: pytest.TempPathFactory) -> 
 
 
 def test_students_get_the_right_points(undisturbed: Path) -> None:
-    """Two students get all points, one gets all points without one part, and one gets none, with a reason."""
+    """Each student gets the expected points."""
     earned = points(undisturbed)
     assert earned["s01"] == earned["s03"] > earned["s02"] > earned["s04"] == 0
     record = json.loads((undisturbed / "results" / "s04" / "05.json").read_text())
@@ -76,7 +70,7 @@ def test_students_get_the_right_points(undisturbed: Path) -> None:
 
 
 def test_every_report_is_there(undisturbed: Path) -> None:
-    """There are files for spreadsheets, platforms, students and the instructor."""
+    """The run writes files for spreadsheets, platforms, students and the instructor."""
     names = {str(path.relative_to(undisturbed)) for path in undisturbed.rglob("*") if path.is_file()}
     assert {
         "grades.csv",
@@ -91,7 +85,7 @@ def test_every_report_is_there(undisturbed: Path) -> None:
 
 
 def test_second_run_uses_the_stored_grades(submissions: Path, undisturbed: Path) -> None:
-    """If the same command is run again, it reads all grades from the first run."""
+    """A second run of the same command uses the grades of the first run."""
     before = points(undisturbed)
     done = grade(submissions, undisturbed)
     assert "4 of 4 notebooks are graded from an earlier run" in done.stderr
@@ -102,7 +96,7 @@ def test_second_run_uses_the_stored_grades(submissions: Path, undisturbed: Path)
 def test_a_run_that_was_killed_goes_on(
     submissions: Path, undisturbed: Path, tmp_path: Path, after: float
 ) -> None:
-    """SIGKILL leaves no process, and the next run gives the same grades as a run without an interruption."""
+    """After SIGKILL no process remains, and the next run gives the same grades."""
     with subprocess.Popen(
         [COURSE, "grade", submissions, "--out", tmp_path, "--validate", "none"], stderr=subprocess.DEVNULL
     ) as process:
@@ -128,10 +122,7 @@ def test_a_cluster_gives_the_same_grades(submissions: Path, undisturbed: Path, t
 
 
 def test_private_parts_count_and_are_not_shown(submissions: Path, tmp_path: Path) -> None:
-    """An instructor's private checks and their points count in the grade.
-
-    The students' pages do not show them.
-    """
+    """The points of private checks count, but the students' pages do not show these checks."""
     private = tmp_path / "private"
     private.mkdir()
     (private / "private_05.py").write_text("""
@@ -159,7 +150,7 @@ def flat(context: CheckContext) -> None:
 
 
 def test_without_walls_every_report_says_so(submissions: Path, tmp_path: Path) -> None:
-    """With --unsafe-no-sandbox, the grades are the same, and each report contains a warning."""
+    """With --unsafe-no-sandbox, each report contains a warning."""
     done = grade(submissions, tmp_path, "--unsafe-no-sandbox")
     assert done.returncode == NEED_A_LOOK, done.stderr
     assert points(tmp_path)["s01"] > points(tmp_path)["s02"]
@@ -168,7 +159,7 @@ def test_without_walls_every_report_says_so(submissions: Path, tmp_path: Path) -
 
 
 def test_a_roster_and_a_worksheet(submissions: Path, undisturbed: Path, tmp_path: Path) -> None:
-    """The terminal lists missing students; the copy of the worksheet contains the grade."""
+    """The terminal lists missing students, and the copy of the worksheet contains the grade."""
     out = tmp_path / "out"
     shutil.copytree(undisturbed, out)
     roster, sheet = tmp_path / "roster.csv", tmp_path / "sheet.csv"
@@ -185,7 +176,7 @@ def test_a_roster_and_a_worksheet(submissions: Path, undisturbed: Path, tmp_path
 
 
 def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
-    """`course grade-one` writes only this file."""
+    """`course grade-one` writes only the given file."""
     notebook = submissions / "s02" / "05_write_a_server.ipynb"
     out = tmp_path / "grade.json"
     subprocess.run(
@@ -216,7 +207,7 @@ def test_one_notebook_into_one_file(submissions: Path, tmp_path: Path) -> None:
 def test_wrong_options_lead_to_one_message(
     submissions: Path, tmp_path: Path, words: list[str], said: str
 ) -> None:
-    """The message contains no traceback, and says what to do next."""
+    """The error message contains no traceback and says what to do next."""
     given = [word.format(here=submissions) for word in words]
     command = [COURSE, "grade", *given, *([] if "--out" in given else ["--out", tmp_path / "out"])]
     done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)

@@ -1,4 +1,4 @@
-"""Each part of a submission earns its points, and each missing point has a reason."""
+"""Each part of a submission earns its points, or the report contains a reason."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from course_pkg.sandbox.worker_client import SandboxWorker
 from tests.grading.submitted import WRONG, hand_in
 
 pytestmark = pytest.mark.usefixtures("sandbox")
-USUAL = ("00", "05", "08")  # chapters whose solution is graded in every run
+USUAL = ("00", "05", "08")  # The solutions of these chapters are graded in every test run.
 CLIENT = """
 import json, os, socket
 host, port = os.environ["COURSE_CHECK_RUNNER"].split(":")
@@ -30,7 +30,7 @@ lines = socket.create_connection((host, int(port))).makefile("rw")
 def send(text):
     lines.write(text + "\\n")
     lines.flush()
-"""  # a check client of the student's own, which replaces the course's
+"""  # This student's check client replaces the course's check client.
 BREAKERS = {
     "another protocol": CLIENT + 'send(json.dumps({"protocol": 1, "check": "05.1"}))\nlines.readline()',
     "another check": CLIENT + 'send(json.dumps({"protocol": 3, "check": "00.1"}))\nlines.readline()',
@@ -45,7 +45,7 @@ BREAKERS = {
         "import os, xmlrpc.client\nhandle_geometry = 1\n"
         'xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).shutdown("/x", "")'
     ),
-}  # by what the student's process does
+}  # The keys describe what the student's process does.
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +70,7 @@ def graded(worker: SandboxWorker, path: Path, chapter: str = "05") -> Grade:
 )
 @pytest.mark.timeout(300)
 def test_the_solution_earns_full_marks(worker: SandboxWorker, tmp_path: Path, chapter: str) -> None:
-    """The solution as a submission passes every part in the sandbox."""
+    """The solution of a chapter passes every part in the sandbox."""
     grade = graded(worker, hand_in(tmp_path, "s01", chapter), chapter)
     assert {report.check: report.verdict for report in grade.reports} == {
         each.part.check: Verdict.PASSED for each in plan(chapter).parts
@@ -79,7 +79,7 @@ def test_the_solution_earns_full_marks(worker: SandboxWorker, tmp_path: Path, ch
 
 
 def test_each_part_has_its_own_points(worker: SandboxWorker, tmp_path: Path) -> None:
-    """A wrong answer, an answer that ends its process, and a blank answer lose only their own points."""
+    """A wrong answer, a blank answer, or an answer that ends its process loses only its own points."""
     answers = {"05.1": WRONG, "05.2": "import os; os._exit(1)", "05.3": ""}
     grade = graded(worker, hand_in(tmp_path, "s01", answers=answers))
     verdicts = [report.verdict for report in grade.reports]
@@ -97,7 +97,7 @@ def test_each_part_has_its_own_points(worker: SandboxWorker, tmp_path: Path) -> 
 
 
 def test_a_worker_that_fails_costs_no_points(worker: SandboxWorker, tmp_path: Path) -> None:
-    """The part is reported as not examined and is not stored: the next run of the command tries again."""
+    """If the worker fails, the part is reported as not examined, and the next run examines the part again."""
 
     def run(job: PartJob) -> PartResult:
         if job.check == "05.2":
@@ -117,7 +117,7 @@ def test_a_worker_that_fails_costs_no_points(worker: SandboxWorker, tmp_path: Pa
 
 @pytest.mark.parametrize("breaker", BREAKERS)
 def test_a_student_cannot_choose_not_examined(worker: SandboxWorker, tmp_path: Path, breaker: str) -> None:
-    """The part fails, its points stay possible, and the grade is stored."""
+    """If an answer breaks the check, the part fails, and the grade is stored."""
     path = hand_in(tmp_path, "s01", answers={"05.1": BREAKERS[breaker]})
     submission = Submission("s01", "05", path.read_bytes(), path.name)
     first = replace(plan("05"), parts=plan("05").parts[:1])
@@ -140,7 +140,7 @@ def test_error_of_a_cell_is_in_the_feedback(worker: SandboxWorker, tmp_path: Pat
 
 
 def test_answer_may_use_cells_above(worker: SandboxWorker, tmp_path: Path) -> None:
-    """An answer can use a function of an earlier answer, and the imports of the course."""
+    """An answer can use a function from an earlier answer and the imports of the course."""
     first = (
         "import math\n\ndef product(*sides):\n    return math.prod(sides)\n\n\n"
         "def handle_geometry(request):\n    area = product(request.width, request.length)\n"
@@ -161,7 +161,7 @@ def test_answer_may_use_cells_above(worker: SandboxWorker, tmp_path: Path) -> No
 
 
 def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
-    """For a deleted exercise, only its own points are lost, with a reason."""
+    """A deleted exercise loses only its own points."""
     path = hand_in(tmp_path, "s01")
     notebook = json.loads(path.read_text())
     gone = next(cell for cell in code_cells(notebook) if "def handle_checked" in cell["source"])
@@ -174,7 +174,7 @@ def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
 
 
 def test_what_is_no_notebook_earns_nothing_and_says_why(worker: SandboxWorker, tmp_path: Path) -> None:
-    """The grade contains each part, with the reason."""
+    """For a file that is not a notebook, the grade contains each part with the reason."""
     path = tmp_path / "05.ipynb"
     path.write_text("<html>not a notebook</html>")
     grade = graded(worker, path)

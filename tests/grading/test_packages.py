@@ -1,4 +1,4 @@
-"""The grade of a package: its files are examined in the sandbox instead of the notebook's cells."""
+"""Tests of grades for packages, whose files are examined instead of the notebook's cells."""
 
 from __future__ import annotations
 
@@ -21,24 +21,25 @@ from course_pkg.sandbox.worker_client import SandboxWorker
 from tests.grading.packages import NO_SERVER, SERVER, my_geometry, work_files, write_package
 from tests.grading.submitted import hand_in
 
-MINE = ("07.1", "07.2", "07.3", "07.4", "07.5", "07.6", "07.7")  # the parts that examine my_geometry
+# These parts examine the package my_geometry.
+MINE = ("07.1", "07.2", "07.3", "07.4", "07.5", "07.6", "07.7")
 
 
 @pytest.fixture(scope="module")
 def seven() -> Plan:
-    """The plan of chapter 07."""
+    """Return the plan of chapter 07."""
     return plan("07")
 
 
 @pytest.fixture(scope="module")
 def worker(sandbox: None) -> Iterator[SandboxWorker]:
-    """One sandbox worker for all tests."""
+    """Return one sandbox worker for all tests."""
     with SandboxWorker() as started:
         yield started
 
 
 class Jobs:
-    """Replaces a sandbox worker: stores the jobs, and returns a pass for each job."""
+    """A replacement for a sandbox worker that stores the jobs and returns a pass for each job."""
 
     def __init__(self) -> None:
         self.given: dict[str, PartJob] = {}
@@ -62,7 +63,7 @@ def verdicts(grade: Grade) -> dict[str, Verdict]:
 
 
 def test_package_is_examined_instead_of_the_cells(tmp_path: Path, seven: Plan) -> None:
-    """No cell runs for a part whose files are in the package; all other parts use the cells."""
+    """If a part's files are in the package, no cell of this part runs."""
     hand_in(tmp_path, "s01", "07", answers={"07.4": "import os; os._exit(1)"})
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     jobs = Jobs()
@@ -78,7 +79,7 @@ def test_package_is_examined_instead_of_the_cells(tmp_path: Path, seven: Plan) -
 
 
 def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
-    """The cell that writes the missing file is used; if the cell is blank, the report names the file."""
+    """If a file is missing in the package, the cell that writes this file is used."""
     files = {path: content for path, content in my_geometry().items() if path not in ("README.md", SERVER)}
     hand_in(tmp_path, "s01", "07", answers={"07.7": ""})
     write_package(tmp_path, "s01/my_geometry", files)
@@ -92,7 +93,7 @@ def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
-    """The parts of the package are examined; the reports of all other parts say that there is no notebook."""
+    """The parts of the package are examined, and the other reports say that there is no notebook."""
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
     assert [check for check, each in verdicts(grade).items() if each is Verdict.PASSED] == list(MINE)
@@ -101,7 +102,7 @@ def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
-    """If the notebook cannot be read, the package in the same folder is still examined."""
+    """If the notebook cannot be read, the package is still examined."""
     hand_in(tmp_path, "s01", "07").write_text("{")
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
@@ -110,7 +111,7 @@ def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
-    """A change of a file or of a permission changes the key of the grade."""
+    """A change of a file or of a permission changes the grade's key."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     keys = set()
     for change in (lambda: None, lambda: (package / SERVER).chmod(0o644), (package / "README.md").unlink):
@@ -121,7 +122,7 @@ def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("path", ["../x", "/x", "a/../../x", "a//x", "./x", "", "a/" * 300 + "x"])
 def test_a_path_that_leads_out_is_not_written(tmp_path: Path, path: str) -> None:
-    """The supervisor does not write a file outside of the part's folder."""
+    """A file whose path leads out of the folder is not written."""
     with pytest.raises(ValueError, match="is not the path of a file"):
         work_file(path, b"x").write(tmp_path / "work")
     assert os.listdir(tmp_path) == []
@@ -131,7 +132,7 @@ def test_a_path_that_leads_out_is_not_written(tmp_path: Path, path: str) -> None
 def test_the_solution_as_a_package_earns_full_marks(
     tmp_path: Path, seven: Plan, worker: SandboxWorker
 ) -> None:
-    """The solution's package gets all points; with a wrong server, only the server's points are lost."""
+    """A package with the solution gets all points, and a package with a wrong server loses points."""
     write_package(tmp_path / "right", "s01/my_geometry", my_geometry())
     right = graded(tmp_path / "right", seven, worker)
     assert [report.check for report in right.reports if report.verdict is Verdict.PASSED] == list(MINE), right
@@ -204,7 +205,7 @@ def counter(context: CheckContext) -> None:
 @pytest.mark.timeout(300)
 @pytest.mark.parametrize(("calls", "earned"), [("++calls", 3), ("calls", 0)])
 def test_a_program_in_cpp(tmp_path: Path, sandbox: None, calls: str, earned: int) -> None:
-    """A C++ program is compiled and run in the sandbox, for a part that an instructor has added."""
+    """A C++ program is compiled and run in the sandbox."""
     (tmp_path / "private_07.py").write_text(PRIVATE)
     tmp_path.chmod(0o755)
     files = {path: text.replace("++calls", calls).encode() for path, text in CPP.items()}

@@ -1,4 +1,4 @@
-"""points.json: an instructor divides the points otherwise, and no check runs again."""
+"""points.json changes the points of the parts, and no check runs again."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _graded(*fulfilled: str, verdict: Verdict = Verdict.FAILED) -> Grade:
 def test_points_follow_the_table(
     tmp_path: Path, table: dict[str, object], partly: float, possible: float
 ) -> None:
-    """A pass earns all points; otherwise, each goal that is fulfilled earns its points."""
+    """A pass earns all points. Otherwise, each fulfilled goal earns its points."""
     points = read_points(_read(tmp_path, json.dumps(table)))
     assert points.weighed(_graded(MEASURED)).earned == partly
     passed = points.weighed(_graded(MEASURED, REFUSED, NAMED, verdict=Verdict.PASSED))
@@ -62,7 +62,7 @@ def test_points_follow_the_table(
 
 
 def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
-    """All or nothing, and then again the author's points: the result is the same as before."""
+    """After a change of the points and back, the grades are the same as before."""
     strict = read_points(_read(tmp_path, '{"all parts": "all-or-nothing"}'))
     before = _graded(MEASURED, REFUSED)
     changed = strict.weighed(before)
@@ -97,14 +97,14 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
     ],
 )
 def test_a_wrong_file_is_explained(tmp_path: Path, text: str, message: str) -> None:
-    """Each message names the file and the place, and what to do."""
+    """Each error message contains the file, the position in it, and what to do."""
     with pytest.raises(GradingError, match=message) as raised:
         read_points(_read(tmp_path, text))
     assert str(tmp_path / "points.json") in str(raised.value)
 
 
 def test_the_written_file_changes_nothing(tmp_path: Path) -> None:
-    """`course points` writes the author's division of all parts, and overwrites nothing."""
+    """`course points` writes the author's points of all parts, and overwrites no file."""
     path = tmp_path / "points.json"
     write_points(path)
     assert read_points(path) == read_points(None)
@@ -118,7 +118,7 @@ def test_the_written_file_changes_nothing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("chapter", chapters())
 def test_the_notebook_that_was_handed_out_earns_nothing(chapter: str) -> None:
-    """No part of an unchanged notebook is examined, so no goal earns points."""
+    """An unchanged notebook earns no points."""
 
     def run(job: PartJob) -> NoReturn:
         raise AssertionError(job.check)

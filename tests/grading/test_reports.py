@@ -1,4 +1,4 @@
-"""Each report contains the points and the reasons, but no harmful text."""
+"""Tests of the contents of all reports."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from course_pkg.grading.reports.asked import Asked, Column
 from course_pkg.grading.reports.gradebook import WITHOUT_SANDBOX, Book, attention
 from tests.grading.grades import HINTS, NASTY, class_of, nasty, refused, report
 
-OPEN = {"meta", "br", "rect", "img", "link", "input", "hr"}  # tags without an end tag
+OPEN = {"meta", "br", "rect", "img", "link", "input", "hr"}  # These tags have no end tag.
 
 
 class Outline(HTMLParser):
-    """Collects the tags of a page, and asserts that each end tag closes the last open tag."""
+    """Collects the tags of a page. Asserts that each end tag closes the last open tag."""
 
     def __init__(self, page: str) -> None:
         super().__init__()
@@ -45,7 +45,7 @@ class Outline(HTMLParser):
             self._open.append(tag)
 
     def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Store a tag that closes itself."""
+        """Store a tag without an end tag."""
         self.tags.append((tag, dict(attrs)))
 
     def handle_endtag(self, tag: str) -> None:
@@ -58,7 +58,7 @@ class Outline(HTMLParser):
         self.text.append(data)
 
     def all(self, *names: str) -> list[dict[str, str | None]]:
-        """Return the attributes of all tags of these names."""
+        """Return the attributes of all tags with these names."""
         return [attributes for tag, attributes in self.tags if tag in names]
 
 
@@ -72,7 +72,7 @@ def _files(out: Path) -> Iterator[Path]:
 
 
 def _two() -> list[Grade]:
-    """Return the grades of two students: one has all points but is late, the other has each verdict once."""
+    """Return the grades of two students: one is late with all points, and one has each verdict once."""
     verdicts = (Verdict.PASSED, Verdict.FAILED, Verdict.NOT_ATTEMPTED, Verdict.UNDECIDED, Verdict.PASSED)
     mixed = tuple(report(f"05.{number}", verdict) for number, verdict in enumerate(verdicts, 1))
     full = tuple(report(f"05.{number}") for number in range(1, 6))
@@ -85,7 +85,7 @@ def _two() -> list[Grade]:
 
 
 def test_the_table(tmp_path: Path) -> None:
-    """The table has a row for each student and a column for each part. Missing work is an empty cell.
+    """The table has a row for each student and a column for each part.
 
     Late days reduce the totals.
     """
@@ -112,7 +112,7 @@ def test_the_table(tmp_path: Path) -> None:
 
 
 def test_the_records(tmp_path: Path) -> None:
-    """The records contain the whole grades, under the students' names."""
+    """Each record contains the whole grade of a student."""
     grades = [*_two(), refused("s03", "", "x.pdf is no notebook."), refused("s03", "06")]
     write_reports(grades, tmp_path)
     assert read_grades(tmp_path) == sorted(grades, key=lambda grade: (grade.student, grade.chapter))
@@ -121,7 +121,7 @@ def test_the_records(tmp_path: Path) -> None:
 
 
 def test_reports_from_records(tmp_path: Path) -> None:
-    """Reports can be written from the records that a killed run has left."""
+    """Reports can be written from the records of a killed run."""
     for grade in class_of(3):
         write_record(tmp_path, grade)
     write_reports(read_grades(tmp_path), tmp_path)
@@ -130,7 +130,7 @@ def test_reports_from_records(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["{", "[]", '{"student": "s01"}', '"x"'])
 def test_invalid_record(tmp_path: Path, content: str) -> None:
-    """The message names the file, and not the student."""
+    """The error message contains the file name, but not the student's name."""
     path = record_path(tmp_path, "s01", "05")
     path.parent.mkdir(parents=True)
     path.write_text(content)
@@ -140,7 +140,7 @@ def test_invalid_record(tmp_path: Path, content: str) -> None:
 
 
 def test_gradescope(tmp_path: Path) -> None:
-    """The file follows Gradescope's format: tests with scores and texts, and a score reduced by lateness."""
+    """The file has Gradescope's format."""
     write_reports(_two(), tmp_path)
     results = json.loads((tmp_path / "gradescope/s01/results.json").read_text())
     assert results["score"] == 12.1
@@ -157,7 +157,7 @@ def test_gradescope(tmp_path: Path) -> None:
 
 
 def test_canvas(tmp_path: Path) -> None:
-    """The file has columns that identify a student, the possible points, and no grade for missing work."""
+    """The file has Canvas's format, and no grade for missing work."""
     canvas = replace(
         _two()[0], student="lastfirst_4711", origin="lastfirst_LATE_4711_99_05_write_a_server.ipynb"
     )
@@ -174,7 +174,7 @@ def test_canvas(tmp_path: Path) -> None:
 
 
 def test_moodle(tmp_path: Path) -> None:
-    """Students are identified by user name, address or full name; each grade has its feedback."""
+    """The file has Moodle's format, and a student may be identified by user name, address or name."""
     five = _two()[2]
     moodle = replace(five, student="Full Name_12", origin="Full Name_12_assignsubmission_file_/05.ipynb")
     write_reports([five, replace(five, student="a@b.example"), moodle], tmp_path)
@@ -187,7 +187,7 @@ def test_moodle(tmp_path: Path) -> None:
 
 
 def test_junit(tmp_path: Path) -> None:
-    """A part that was not examined is an error, and no part is skipped."""
+    """A part that was not examined is an error in the JUnit file."""
     write_reports([*_two(), refused("s03", "")], tmp_path)
     root = ElementTree.parse(tmp_path / "junit.xml").getroot()  # noqa: S314 -- our own file
     assert {key: root.get(key) for key in ("tests", "failures", "errors")} == {
@@ -205,7 +205,7 @@ def test_junit(tmp_path: Path) -> None:
 
 
 def test_feedback_teaches(tmp_path: Path) -> None:
-    """The page shows assertion, inputs, expected and actual values, hint, and unusual events."""
+    """The feedback page shows the assertion, the inputs, both values and the hint."""
     write_reports(_two(), tmp_path)
     page = " ".join("".join(Outline((tmp_path / "feedback/s02.html").read_text()).text).split())
     for words in (
@@ -221,7 +221,7 @@ def test_feedback_teaches(tmp_path: Path) -> None:
 
 
 def test_the_class_page(tmp_path: Path) -> None:
-    """The page shows the results of each part, the frequent hints, and the students who need attention."""
+    """The class page shows the results of each part, and the students who need help."""
     write_reports([*class_of(30), refused("s31")], tmp_path)
     outline = Outline((tmp_path / "class.html").read_text())
     page = " ".join("".join(outline.text).split())
@@ -236,7 +236,7 @@ def test_the_class_page(tmp_path: Path) -> None:
 
 
 def test_what_was_asked_for_counts_as_possible(tmp_path: Path) -> None:
-    """A chapter counts even if a student, or everybody, did not hand it in; see README for exceptions."""
+    """A chapter counts in the totals even if a student did not hand it in."""
     five, six = (Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06"))
     gone = replace(five, student="s03", absent=True)
     asked = Asked(
@@ -257,7 +257,7 @@ def test_what_was_asked_for_counts_as_possible(tmp_path: Path) -> None:
 
 
 def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
-    """A hint is counted once, even if several assertions gave it."""
+    """The same hint is counted only once for a student."""
     failed = report("05.1", Verdict.FAILED)
     twice = replace(failed, assertions=(*failed.assertions, failed.assertions[-1]))
     write_reports([Grade("s01", "05", (twice,)), Grade("s02", "05", (failed,))], tmp_path)
@@ -266,7 +266,7 @@ def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
 
 
 def test_failed_assertion_without_a_hint_is_counted(tmp_path: Path) -> None:
-    """The page also lists failed assertions without a hint, so that the author of the check sees them."""
+    """The page also lists failed assertions without a hint."""
     failed = report("05.1", Verdict.FAILED)
     plain = replace(failed, assertions=tuple(replace(rule, hint="") for rule in failed.assertions))
     write_reports([Grade("s01", "05", (plain,))], tmp_path)
@@ -274,7 +274,7 @@ def test_failed_assertion_without_a_hint_is_counted(tmp_path: Path) -> None:
 
 
 def test_empty_class_and_files_without_a_student(tmp_path: Path) -> None:
-    """An empty class, and files without a student, can be reported."""
+    """Reports can be written for an empty class, and for files without a student."""
     write_reports([], tmp_path)
     assert "nothing to show" in (tmp_path / "class.html").read_text()
     write_reports([refused("", "", "x.ipynb: its student is unknown it is.")], tmp_path)
@@ -284,7 +284,7 @@ def test_empty_class_and_files_without_a_student(tmp_path: Path) -> None:
 
 
 def test_students_who_need_attention() -> None:
-    """Problems, unexamined parts, no submission and no points need attention; lateness and notes do not."""
+    """A student with a problem, an unexamined part or no points is listed, but not a late student."""
     empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
     book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
     assert attention(book, "s01") == []
@@ -304,7 +304,7 @@ def test_without_walls_every_report_says_so(tmp_path: Path) -> None:
 
 
 def test_feedback_shows_the_code_and_sentences_about_cells(tmp_path: Path) -> None:
-    """A student sees the own code, and for each cell with another result its first line and a sentence."""
+    """The feedback page shows the student's code, and a sentence for each cell with a different output."""
     raised = CellOutcome("c7", "failed", "The cell raised NameError: name 'x' is not defined", "print(x)")
     write_reports(
         [Grade("s01", "05", (report("05.1"),), cells=(raised,), code={"05.1": "if a < b:\n    pass"})],
@@ -317,7 +317,7 @@ def test_feedback_shows_the_code_and_sentences_about_cells(tmp_path: Path) -> No
 
 
 def test_private_parts_stay_private(tmp_path: Path) -> None:
-    """A student's page does not show details of a private check, but the instructor's page does."""
+    """Only the instructor's page shows the details of a private check."""
     secret = report("05.1", Verdict.FAILED, goal="secret goal", note="secret note", printed="secret print")
     secret = replace(
         secret,
@@ -331,7 +331,7 @@ def test_private_parts_stay_private(tmp_path: Path) -> None:
 
 
 def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
-    """Reports contain no control character, no markup, no formula, and write no file outside the folder."""
+    """Reports contain no control characters, markup or formulas from a submission."""
     out = tmp_path / "deep" / "out"
     write_reports([nasty(), nasty("=cmd()"), nasty("CON"), nasty("con"), nasty("s01")], out)
     assert [path.name for path in tmp_path.iterdir()] == ["deep"]
@@ -354,7 +354,7 @@ def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
 
 
 def test_similar_names_have_different_files(tmp_path: Path) -> None:
-    """Each student has a page and a record, even on a file system that ignores capitals."""
+    """Students with similar names have different files, even if the file system ignores capitals."""
     names = ["s01", "S01", "s01 ", "s-01", "../s01", "s01/", "Ś01"]
     write_reports([replace(class_of(1)[0], student=name) for name in names], tmp_path)
     for folder in ("results", "feedback", "gradescope"):
@@ -367,7 +367,7 @@ def _pages(out: Path) -> list[str]:
 
 
 def test_pages_stand_alone(tmp_path: Path) -> None:
-    """A page contains no scripts and loads no other files; its policy permits only its own style."""
+    """A page contains no scripts and loads no other files."""
     for page in _pages(tmp_path):
         outline = Outline(page)
         names = {tag for tag, _ in outline.tags}
@@ -381,7 +381,7 @@ def test_pages_stand_alone(tmp_path: Path) -> None:
 
 
 def test_pages_can_be_read_by_everybody(tmp_path: Path) -> None:
-    """A page has a language, a title, one main part, ordered headings, headers with a scope, and labels."""
+    """The page's structure is accessible: language, title, headings, table headers and labels."""
     for page in _pages(tmp_path):
         outline = Outline(page)
         assert outline.wrong == []
@@ -406,7 +406,7 @@ def test_reports_print_and_log_nothing(
 
 
 def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
-    """The message names the report that failed, and states that nothing is lost."""
+    """The error message contains the name of the report that could not be written."""
     (tmp_path / "out").write_text("")
     with pytest.raises(GradingError, match="not lost"):
         write_reports(class_of(1), tmp_path / "out")

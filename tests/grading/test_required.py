@@ -1,4 +1,4 @@
-"""`course grade` does not start if a solution that it needs is missing."""
+"""Tests that `course grade` does not start if a needed solution is missing."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ CHECKOUT = Places.of().checkout
 
 @pytest.fixture
 def checkout(tmp_path: Path) -> Path:
-    """Copy the solutions and the fixtures of the course into a new checkout."""
+    """Copy the solutions and fixtures into a new checkout."""
     for path in [*CHECKOUT.glob("solutions/*.ipynb"), *CHECKOUT.glob("course_pkg/chapters/*/fixtures.py")]:
         copy = tmp_path / path.relative_to(CHECKOUT)
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -26,7 +26,7 @@ def checkout(tmp_path: Path) -> Path:
 
 
 def test_everything_is_there(checkout: Path) -> None:
-    """If nothing is missing, grading can start."""
+    """With all files, grading can start."""
     require_references(root=checkout)
 
 
@@ -34,7 +34,7 @@ def test_everything_is_there(checkout: Path) -> None:
     "missing", ["solutions/05_write_a_server.ipynb", "course_pkg/chapters/ch05_write_a_server/fixtures.py"]
 )
 def test_a_missing_file_is_named(checkout: Path, missing: str) -> None:
-    """The message contains the file; other chapters can be graded."""
+    """The error message contains the missing file, and other chapters can be graded."""
     (checkout / missing).unlink()
     with pytest.raises(GradingError, match=f"Nothing was graded.*missing: {missing}\\. .*--chapters"):
         require_references(root=checkout)
@@ -44,13 +44,13 @@ def test_a_missing_file_is_named(checkout: Path, missing: str) -> None:
 
 
 def test_many_missing_files_are_one_message(tmp_path: Path) -> None:
-    """The message lists three files and the number of all other missing files."""
+    """The error message lists three missing files and the number of the others."""
     with pytest.raises(GradingError, match=r"00_start_the_graph\.ipynb.* and 31 more\. "):
         require_references(root=tmp_path)
 
 
 def test_no_submission_is_read_without_solutions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Both commands end with the message, and write no grades."""
+    """Without solutions, both commands print the error message and write no grades."""
     monkeypatch.setattr("course_pkg.__file__", str(tmp_path / "course_pkg" / "__init__.py"))
     with pytest.raises(GradingError, match="Nothing was graded"):
         grade(Options(tmp_path, tmp_path / "out"))

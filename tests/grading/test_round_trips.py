@@ -1,7 +1,7 @@
-"""From a platform and back: submissions in its layout, their grades, and a file for its import.
+"""Tests from a platform's submissions to the file that the platform imports.
 
-The importers here follow the sources that the modules name: Moodle's importgradeslib.php and locallib.php,
-Canvas's gradebook_importer.rb, and the format of Gradescope's autograders.
+Sources: Moodle's importgradeslib.php and locallib.php, Canvas's gradebook_importer.rb, and Gradescope's
+autograder format.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def notebook() -> bytes:
 
 
 def _graded(source: Path, lists: Lists, out: Path) -> tuple[list[Grade], ClassList]:
-    """Grade the submissions in `source`: Jane Doe gets 7 of 9 points, and all others get 9."""
+    """Grade the submissions in `source`. Jane Doe gets 7 of 9 points, and all other students get 9 points."""
     found = submissions(source)
     right = [report(check) for check in GOALS if check.startswith("05")]
     wrong = [report("05.1", Verdict.FAILED), *right[1:]]
@@ -83,10 +83,7 @@ def _named(path: Path) -> list[dict[str, str]]:
 def _moodle_imports(
     content: bytes, grade: str, identifier: str, feedback: str, separator: str
 ) -> dict[str, tuple[float | None, str]]:
-    """Return the grade and the feedback for each participant's number.
-
-    They are read as Moodle reads a worksheet.
-    """
+    """Return the grade and the feedback that Moodle would import, by participant number."""
     text = content.decode().removeprefix("\ufeff")
     head, *rows = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
     imported = {}
@@ -119,7 +116,7 @@ def test_moodle(
     maximum: int,
     columns: tuple[str, str, str, str],
 ) -> None:
-    """Moodle imports scaled grades and feedback for the right participants, and nothing else changes."""
+    """Moodle imports the scaled grades and the feedback for the right participants."""
     name = "Participant" if sheet is ANONYMOUS else "Jane Doe"
     files = {
         f"{name}_101_assignsubmission_file_/{NAMES['05']}": notebook,
@@ -149,7 +146,7 @@ def test_moodle(
 
 
 def test_moodle_with_a_roster(tmp_path: Path, notebook: bytes) -> None:
-    """With a roster, moodle.csv contains user names, and a folder made by hand is found in the worksheet."""
+    """With a roster, moodle.csv contains user names."""
     source = folder(
         tmp_path / "in",
         {
@@ -185,7 +182,7 @@ def test_moodle_with_a_roster(tmp_path: Path, notebook: bytes) -> None:
 
 
 def test_a_worksheet_without_a_maximum_grade_and_without_feedback(tmp_path: Path, notebook: bytes) -> None:
-    """The terminal says that the points are not scaled, and how the instructor can upload feedback."""
+    """The terminal says that the points are not scaled, and how to upload feedback."""
     source = folder(tmp_path / "in", {f"Participant_101_assignsubmission_file_/{NAMES['05']}": notebook})
     lists = read_lists(None, _write(tmp_path / "sheet.csv", ANONYMOUS))
     _, found = _graded(source, lists, tmp_path / "out")
@@ -196,7 +193,7 @@ def test_a_worksheet_without_a_maximum_grade_and_without_feedback(tmp_path: Path
 
 
 def test_anonymous_submissions_of_an_instructor_who_sees_names(tmp_path: Path, notebook: bytes) -> None:
-    """If the folders' names contain no students' names, the students are found by their numbers."""
+    """In a worksheet with anonymous submissions, the participant numbers identify the students."""
     source = folder(tmp_path / "in", {f"Participant_102_assignsubmission_file_/{NAMES['05']}": notebook})
     lists = read_lists(_write(tmp_path / "roster.csv", ROSTER), _write(tmp_path / "sheet.csv", ENGLISH))
     _, found = _graded(source, lists, tmp_path / "out")
@@ -207,7 +204,7 @@ def test_anonymous_submissions_of_an_instructor_who_sees_names(tmp_path: Path, n
 
 
 def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> None:
-    """If a number belongs to another name, this is reported, and the student gets no grade."""
+    """If a participant number belongs to another name, the student gets no grade."""
     source = folder(tmp_path / "in", {f"Jo New_101_assignsubmission_file_/{NAMES['05']}": notebook})
     out = tmp_path / "out"
     _, found = _graded(source, read_lists(None, _write(tmp_path / "sheet.csv", ENGLISH)), out)
@@ -218,10 +215,7 @@ def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> N
 
 
 def _canvas_imports(rows: list[list[str]], users: Mapping[str, tuple[str, str, str]]) -> dict[str, list[str]]:
-    """Return the cells of the assignments for each Canvas user id, as Canvas reads them from a gradebook.
-
-    `users` are (SIS user id, login, name), by Canvas user id.
-    """
+    """Return the imported cells by Canvas user id. `users` maps these ids to (SIS user id, login, name)."""
     head, possible, *students = rows
     assert "Student" in head[0]
     assert "ID" in head[1]
@@ -246,7 +240,7 @@ USERS = {
 
 @pytest.mark.parametrize("roster", [ROSTER, CANVAS_EXPORT], ids=["roster.csv", "exported gradebook"])
 def test_canvas(tmp_path: Path, notebook: bytes, roster: str) -> None:
-    """Each user gets the right grade, with files from Canvas and with folders made by hand."""
+    """Canvas imports the right grade for each user."""
     source = folder(
         tmp_path / "in",
         {
@@ -276,14 +270,14 @@ def test_canvas(tmp_path: Path, notebook: bytes, roster: str) -> None:
 
 
 def test_canvas_forgets_chapters_of_an_earlier_run(tmp_path: Path) -> None:
-    """Files of earlier runs are removed; otherwise, an instructor could import them by mistake."""
+    """Old files for Canvas are removed so that an instructor does not import them."""
     write_reports([Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06")], tmp_path)
     write_reports([Grade("s01", "06", (report("06.1"),))], tmp_path)
     assert [path.name for path in (tmp_path / "canvas").iterdir()] == ["06.csv"]
 
 
 def test_a_student_who_is_unclear_is_in_no_file_of_a_platform(tmp_path: Path) -> None:
-    """Students with the same name get no row, because Canvas would give both grades to the first of them."""
+    """Students with the same name get no row in the files for platforms."""
     twice = "name,id\nSam Smith,21\nSam Smith,22\nJane Doe,17\n"
     lists = read_lists(_write(tmp_path / "roster.csv", twice), None)
     grades = [Grade(name, "05", (report("05.1"),), origin=f"{name}/05.ipynb") for name in ("Sam Smith", "17")]
@@ -296,7 +290,7 @@ def test_a_student_who_is_unclear_is_in_no_file_of_a_platform(tmp_path: Path) ->
 
 
 def test_an_id_that_is_no_number(tmp_path: Path) -> None:
-    """If an id cannot be a Canvas user id, it is written into the column SIS User ID."""
+    """An id that is not a Canvas user id is written into the column SIS User ID."""
     lists = read_lists(_write(tmp_path / "roster.csv", "name,id\nJane Doe,S17\n"), None)
     grades = [Grade("Jane Doe", "05", (report("05.1"),), origin="Jane Doe/05.ipynb")]
     write_reports(grades, tmp_path / "out", lists.matched(origins_of(grades)))
@@ -304,7 +298,7 @@ def test_an_id_that_is_no_number(tmp_path: Path) -> None:
 
 
 def test_a_roster_can_do_no_harm(tmp_path: Path) -> None:
-    """Markup, formulas and control characters in a roster are shown as text, and the page is complete."""
+    """Markup, formulas and control characters from a roster are shown as text."""
     cells = ["<script>alert(1)</script>", "=cmd()", "\x1b[31mred\u202e", "@sum"]
     path = tmp_path / "roster.csv"
     with path.open("w", newline="") as file:
@@ -322,7 +316,7 @@ def test_a_roster_can_do_no_harm(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("with_roster", [False, True])
 def test_gradescope(tmp_path: Path, notebook: bytes, with_roster: bool) -> None:
-    """For an export with a group, results.json and a table contain the students' identities."""
+    """results.json and the table contain the students' names and ids."""
     source = folder(
         tmp_path / "in",
         {
@@ -359,7 +353,7 @@ def test_gradescope(tmp_path: Path, notebook: bytes, with_roster: bool) -> None:
 
 
 def test_who_is_missing_is_in_the_table_and_on_the_page(tmp_path: Path, notebook: bytes) -> None:
-    """grades.csv has a row for each student of the roster; class.html lists missing and unknown students."""
+    """grades.csv contains all students of the roster, and class.html lists missing students."""
     source = folder(tmp_path / "in", {f"{name}/{NAMES['05']}": notebook for name in ("jdoe", "s99")})
     out = tmp_path / "out"
     _graded(source, read_lists(_write(tmp_path / "roster.csv", ROSTER), None), out)

@@ -1,4 +1,4 @@
-"""Editions for students, which the tests release, and commands that run in them."""
+"""Helpers for tests: student editions, and commands that run in them."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ ROOT = Path(__file__).parents[2]
 
 
 def make_release(out: Path, path: str = "", chapters: tuple[str, ...] = ()) -> Path:
-    """Write an edition to `out`, as `course release` does, and return the folder."""
+    """Run `course release` into the folder `out`, and return the folder."""
     assert release(Options(out, path, chapters), NO_COMMANDS) == 0
     return out
 
 
 def files_of(folder: Path) -> dict[str, bytes]:
-    """Return the files of an edition by their paths, without git's files."""
+    """Return the files of an edition by path, without git's files."""
     found = (path for path in folder.rglob("*") if path.is_file())
     names = {str(path.relative_to(folder)): path for path in found}
     return {name: path.read_bytes() for name, path in names.items() if not name.startswith(".git/")}
@@ -33,7 +33,7 @@ def git(folder: Path, *arguments: str) -> str:
 
 
 def python_in(edition: Path, program: str, **variables: str) -> str:
-    """Run a program that imports the edition, in the environment of the tests, and return its output."""
+    """Run a program that imports the edition, and return its output."""
     paths = os.environ["PYTHONPATH"].split(os.pathsep)
     env = {
         **os.environ,

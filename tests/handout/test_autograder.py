@@ -1,4 +1,4 @@
-"""`course autograder` writes a zip with everything that grading needs, and nothing else."""
+"""Tests of the zip from `course autograder`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from course_pkg.handout.autograder.bundle import Options, write_autograder
 
 
 def test_the_zip_contains_the_scripts_and_the_course(tmp_path: Path) -> None:
-    """The scripts are executable; answers, tests and notebooks are not in the zip."""
+    """The zip contains the executable scripts and the course, but no answers, tests or notebooks."""
     private = tmp_path / "private"
     private.mkdir()
     (private / "points.json").write_text('{"05.1": 4}', "utf-8")
@@ -37,7 +37,7 @@ def test_the_zip_contains_the_scripts_and_the_course(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("out", "minutes"), [("autograder.tar", 9.0), ("autograder.zip", 0.0)])
 def test_wrong_options_write_nothing(tmp_path: Path, out: str, minutes: float) -> None:
-    """A wrong ending or time limit is an error."""
+    """A wrong file extension or time limit is an error."""
     with pytest.raises(HandoutError):
         write_autograder(Options(tmp_path / out, ("05",), minutes=minutes))
     assert not list(tmp_path.iterdir())

@@ -1,4 +1,4 @@
-"""The workflow for GitHub Classroom; these tests do not run it."""
+"""The workflow for GitHub Classroom is valid; these tests do not run the workflow."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WORKFLOW = Path("deploy", "github-classroom", "classroom.yml")
 
 
 def test_the_workflow_is_valid_and_calls_commands_that_exist() -> None:
-    """The file is YAML, its scripts are shell scripts, and its Python can be compiled."""
+    """The workflow is valid YAML with valid shell and Python scripts."""
     job = yaml.safe_load((Places.of().checkout / WORKFLOW).read_text("utf-8"))["jobs"]["grade"]
     scripts = [step["run"] for step in job["steps"] if "run" in step]
     for script in scripts:

@@ -1,4 +1,4 @@
-"""`course collect`: it collects work from home folders with each student's rights."""
+"""Tests of `course collect`, which collects work from home folders with each student's permissions."""
 
 from __future__ import annotations
 
@@ -27,17 +27,14 @@ from tests.setup.test_course import course
 
 ROOT = os.geteuid() == 0
 NOTEBOOK = "05_write_a_server.ipynb"
-TIME = 1_700_000_000  # s since 1970
-FIRST_UID = 54_321  # this machine has no user with this id
+TIME = 1_700_000_000  # This time is in s since 1970.
+FIRST_UID = 54_321  # No user of this machine has this id.
 WANTED = Wanted(["05", "06", "07"])
 
 
 @pytest.fixture
 def homes() -> Iterator[Path]:
-    """Create a folder for homes.
-
-    Every user can enter it, but other users cannot enter pytest's own folders.
-    """
+    """Create a folder for home folders that every user can enter."""
     folder = Path(tempfile.mkdtemp(prefix="course-homes-"))
     folder.chmod(0o755)
     yield folder
@@ -45,7 +42,7 @@ def homes() -> Iterator[Path]:
 
 
 def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "ros-course") -> Path:
-    """Create a student's home with files in the course's folder; other users cannot read them."""
+    """Create a student's home folder with files that other users cannot read."""
     home = homes / student
     for name, content in files.items():
         path = home / course / name
@@ -58,10 +55,7 @@ def add_home(homes: Path, student: str, files: dict[str, bytes], course: str = "
 
 
 def give(path: Path, uid: int) -> None:
-    """Make a user the owner of everything below `path`, if this process has permission to do so.
-
-    Other users cannot read it.
-    """
+    """Change the owner of all files below `path`, if this process has the permission."""
     for each in [path, *path.rglob("*")]:
         if ROOT:
             os.chown(each, uid, uid, follow_symlinks=False)
@@ -70,13 +64,13 @@ def give(path: Path, uid: int) -> None:
 
 
 def packaged() -> dict[str, bytes]:
-    """Return the files of chapter 07's package in a workspace, with those that catkin writes there."""
+    """Return the files of chapter 07's package and the files that catkin writes."""
     files = {f"workspace/src/my_geometry/{path}": content for path, content in my_geometry().items()}
     return {**files, "workspace/build/x/package.xml": b"<package/>", "workspace/src/CMakeLists.txt": b""}
 
 
 def run(homes: Path, out: Path, **options: object) -> int:
-    """Run the collection for all homes."""
+    """Run the collection for all home folders."""
     return collect(Options("ros-course", out, homes, **options))  # type: ignore[arg-type]
 
 
@@ -89,10 +83,10 @@ def times(out: Path) -> list[list[str]]:
 def test_work_is_where_the_grader_looks(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Notebooks and packages are stored by student, with their times; students without work are listed."""
+    """Notebooks and packages are stored by student, and students without work are listed."""
     notebook = raw(handed_out("05"))
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": notebook, **packaged(), "notebooks/own.ipynb": b"{}"})
-    add_home(homes, "ben", {NOTEBOOK: notebook})  # he moved it
+    add_home(homes, "ben", {NOTEBOOK: notebook})  # This student has moved the notebook.
     add_home(homes, "carla", {"notebooks/notes.txt": b""})
     add_home(homes, "dora", {}, "elsewhere")
     out = tmp_path / "out"
@@ -119,7 +113,7 @@ def test_work_is_where_the_grader_looks(
 
 
 def test_the_command_line(homes: Path, tmp_path: Path) -> None:
-    """The command does the same as the function; for an error, it prints one message."""
+    """The command does the same as the function, and prints one error message."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     words = ["collect", "ros-course", str(tmp_path / "out"), "--chapters", "5", "--homes"]
     done = course(*words, str(homes))
@@ -134,7 +128,7 @@ def test_the_command_line(homes: Path, tmp_path: Path) -> None:
 
 
 def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Path, tmp_path: Path) -> None:
-    """A new notebook or a new package completely replaces the old one; other chapters do not change."""
+    """New notebooks and packages replace the old ones, and other chapters do not change."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1", **packaged()})
     run(homes, tmp_path / "out")
     (home / "ros-course" / "notebooks" / NOTEBOOK).write_bytes(b"2")
@@ -152,22 +146,23 @@ def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Pat
 
 @pytest.mark.skipif(not ROOT, reason="only root can read with another user's rights")
 def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> None:
-    """Root has the student's rights, so no link or path leads to a file of root or of another student."""
+    """Root reads only files that the student may read."""
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
-    os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)  # as if the file system allowed this link
+    # The test creates this link because the file system could allow it.
+    os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)
     [home] = [each for each in homes_in(homes) if each.student == "ben"]
     files, problems = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
     assert [file.path for file in files] == ["06_write_a_client.ipynb"]
     assert problems == [f"{NOTEBOOK}: it cannot be read (Permission denied)"]
-    homes.chmod(0o700)  # root could enter
+    homes.chmod(0o700)  # Only root can enter the folder now.
     files, problems = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
     assert (files, problems) == ([], ["ros-course: it cannot be read (Permission denied)"])
 
 
 def home_of(homes: Path, student: str) -> Home:
-    """Return a home that is read with this process's own rights."""
+    """Return a home folder that this process reads with its own permissions."""
     return Home(student, homes / student, os.getuid(), os.getgid())
 
 
@@ -178,7 +173,7 @@ def test_no_link_is_followed(homes: Path, place: str) -> None:
     link = homes / "anna" / place
     link.parent.mkdir(parents=True)
     link.symlink_to(homes / "other" / place)
-    give(homes, FIRST_UID)  # the user can read all of it
+    give(homes, FIRST_UID)  # The user can read all files in the folder.
     [home] = [each for each in homes_in(homes) if each.student == "anna"]
     files, [problem] = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
     assert files == []
@@ -186,7 +181,7 @@ def test_no_link_is_followed(homes: Path, place: str) -> None:
 
 
 def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None:
-    """A link in a package is left out, and a link to a package is not collected; both are reported."""
+    """A link in a package and a link to a package are reported and not collected."""
     home = add_home(homes, "anna", packaged())
     sources = home / "ros-course" / "workspace" / "src"
     (sources / "my_geometry" / "passwords").symlink_to("/etc/passwd")
@@ -207,7 +202,7 @@ def test_links_in_packages_and_linked_packages_are_reported(homes: Path) -> None
 def test_pipes_large_files_and_large_packages_are_left_out(
     homes: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A named pipe does not block the collection; there are limits for notebooks and packages."""
+    """Named pipes, large notebooks and large packages are not collected."""
     monkeypatch.setattr("course_pkg.grading.intake.archive.LARGEST", 1 << 20)
     home = add_home(
         homes, "anna", {"notebooks/06_write_a_client.ipynb": b"x" * ((1 << 20) + 1), **packaged()}
@@ -226,7 +221,7 @@ def test_pipes_large_files_and_large_packages_are_left_out(
 
 
 def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the time limit, the process is killed, and the home is reported."""
+    """If a home folder does not respond within the time limit, the home is reported."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: signal.pause())
     [home] = homes_in(homes)
@@ -235,7 +230,7 @@ def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytes
 
 
 def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The names that the child process sends are not trusted."""
+    """A path from the child process that leads out of the home is refused."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     file = WorkFile("../../ben/05_write_a_server.ipynb", b"", 0, 0)
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: iter([file]))
@@ -248,7 +243,7 @@ def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest
 def test_a_time_that_was_set_back_is_listed(
     homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """A file's owner can set its time, but the time of its last change shows this."""
+    """If a student has set back the time of a file, the file is reported."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     home = add_home(homes, "ben", {f"notebooks/{NOTEBOOK}": b"1"})
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK)
@@ -259,16 +254,16 @@ def test_a_time_that_was_set_back_is_listed(
 
 
 def test_a_time_that_is_no_date_does_no_harm(homes: Path, tmp_path: Path) -> None:
-    """A file's owner can set a time that is not a valid date."""
+    """A file time that is not a valid date causes no error."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK, (10**12, 10**12))
     assert run(homes, tmp_path / "out") == 0
     [_, row] = times(tmp_path / "out")
-    assert datetime.fromisoformat(row[3]).year <= 2446  # the last year that some file systems can store
+    assert datetime.fromisoformat(row[3]).year <= 2446  # Some file systems cannot store a later year.
 
 
 def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The command returns 1, and its message asks whether the name of the folder is right."""
+    """If no student has any work, the command returns 1 and asks for the folder's name."""
     add_home(homes, "anna", {}, "other")
     assert run(homes, tmp_path / "out") == 1
     assert "Is ros-course the course's folder in each of them?" in capsys.readouterr().out
@@ -284,7 +279,7 @@ def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path
 
 @pytest.mark.parametrize("folder", ["/home/anna/ros-course", "../ben", "."])
 def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Path) -> None:
-    """An absolute path is refused, and so is a path that leads out of the home."""
+    """An absolute path, or a path that leads out of the home folder, is refused."""
     with pytest.raises(HandoutError, match="Give its path below the home folder"):
         collect(Options(folder, tmp_path / "out", homes))
 
@@ -295,10 +290,7 @@ def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Pa
 def test_a_list_of_students(
     text: str, homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """With a text file or a roster, only the listed students are collected.
-
-    A student without a home is reported.
-    """
+    """Only the listed students are collected, and a listed student without a home folder is reported."""
     (tmp_path / "students").write_text(text)
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     add_home(homes, "teacher", {f"notebooks/{NOTEBOOK}": b"1"})
@@ -318,7 +310,7 @@ def test_a_list_of_students(
     ],
 )
 def test_a_list_that_cannot_be_used_is_refused(text: str, said: str, tmp_path: Path) -> None:
-    """The message contains the number of the line, and no student's name."""
+    """The error message contains the line number, but no student's name."""
     path = tmp_path / "students.csv"
     path.write_text(text, "utf-8", "surrogateescape")
     with pytest.raises(HandoutError, match=said):
@@ -326,7 +318,7 @@ def test_a_list_that_cannot_be_used_is_refused(text: str, said: str, tmp_path: P
 
 
 def test_a_killed_collection_leaves_nothing_behind(tmp_path: Path) -> None:
-    """If a collection is killed, the next one removes its temporary files of a package."""
+    """The next collection removes the temporary files of a killed collection."""
     folder = tmp_path / "anna"
     file = WorkFile("package.xml", b"new", TIME, TIME, package="my_geometry", asked="my_geometry")
     store(folder, [file])

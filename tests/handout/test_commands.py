@@ -1,4 +1,4 @@
-"""`course release` and `course collect` as an instructor types them."""
+"""Tests of the command lines of `course release` and `course collect`."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from course_pkg.cli import parse
 
 
 def test_chapters_have_two_digits() -> None:
-    """`--chapters 5, 6` means 05 and 06, for both commands."""
+    """`--chapters 5, 6` selects the chapters 05 and 06 for both commands."""
     assert parse(["release", "out", "--chapters", "5, 6"]).chapters == ("05", "06")
     assert parse(["collect", "ros-course", "out", "--chapters", "5"]).chapters == ("05",)
 
 
 def test_a_path_and_chapters_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
-    """Only one of the two options can select the chapters."""
+    """A path and `--chapters` cannot be used together."""
     with pytest.raises(SystemExit):
         parse(["release", "out", "--chapters", "05", "--path", "The lab session"])
     assert "not allowed with argument" in capsys.readouterr().err

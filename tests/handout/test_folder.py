@@ -1,4 +1,4 @@
-"""The folder, the repository and the zip of an edition: what a release overwrites, and what it refuses."""
+"""Tests of the folder, the repository and the zip of a student edition."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ HUB, REPOSITORY = "https://hub.example.edu/", "https://git.example.edu/ros/cours
 
 
 def files(**texts: str) -> dict[str, File]:
-    """Return the files of a small edition; one of them is a program called `course`."""
+    """Return the files of a small edition that contains a program called `course`."""
     found = {name: File(text.encode()) for name, text in texts.items()}
     found["course"] = File(b"#!/bin/sh\n", executable=True)
     record = {"chapters": ["05"], "files": [*found, RECORD]}
@@ -35,10 +35,7 @@ def write(folder: Path, **texts: str) -> Release:
 
 
 def test_a_second_release_makes_a_commit_only_if_something_changed(tmp_path: Path) -> None:
-    """The same files lead to no commit, and a new text leads to one.
-
-    A file that is no longer released is removed.
-    """
+    """A second release makes a commit only if a file has changed or was removed."""
     folder = tmp_path / "out"
     assert write(folder, a="1", b="1").commit
     assert write(folder, a="1", b="1") == Release("", 0)
@@ -49,7 +46,7 @@ def test_a_second_release_makes_a_commit_only_if_something_changed(tmp_path: Pat
 
 
 def test_an_interrupted_release_is_completed(tmp_path: Path) -> None:
-    """The next release commits the files that an interrupted release has written."""
+    """The next release commits the files of an interrupted release."""
     folder = tmp_path / "out"
     folder.mkdir()
     (folder / RECORD).write_bytes(files(a="1")[RECORD].content)
@@ -60,7 +57,7 @@ def test_an_interrupted_release_is_completed(tmp_path: Path) -> None:
 
 
 def test_other_files_of_the_folder_stay(tmp_path: Path) -> None:
-    """An instructor's own files, committed or not, are neither removed nor committed."""
+    """An instructor's own files are neither removed nor committed."""
     folder = tmp_path / "out"
     write(folder, a="1")
     (folder / "syllabus.md").write_text("Week 1")
@@ -70,7 +67,7 @@ def test_other_files_of_the_folder_stay(tmp_path: Path) -> None:
 
 
 def test_a_folder_that_no_release_made_is_refused(tmp_path: Path) -> None:
-    """The folder does not change; an empty folder is used."""
+    """A folder with files of another origin is refused and does not change."""
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("")
     with pytest.raises(
@@ -85,10 +82,7 @@ def test_a_folder_that_no_release_made_is_refused(tmp_path: Path) -> None:
 
 
 def test_changes_by_hand_are_not_overwritten(tmp_path: Path) -> None:
-    """If a released file has an uncommitted change, the release stops.
-
-    After a commit of the change, it continues.
-    """
+    """An uncommitted change of a released file stops the release."""
     folder = tmp_path / "out"
     write(folder, a="1", b="1")
     (folder / "a").write_text("by hand")
@@ -100,16 +94,13 @@ def test_changes_by_hand_are_not_overwritten(tmp_path: Path) -> None:
 
 
 def test_a_folder_inside_the_course_is_refused() -> None:
-    """A release inside the checkout would become part of the next release."""
+    """A folder inside the checkout is refused."""
     with pytest.raises(HandoutError, match="Give a folder outside of"):
         refuse_inside(ROOT / "out", ROOT)
 
 
 def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
-    """The zip of an earlier release is replaced; the same files give the same zip.
-
-    Another file is not replaced.
-    """
+    """Only the zip of an earlier release is overwritten."""
     folder = tmp_path / "out"
     path = zip_path(folder)
     write_zip(path, "out", files(a="1"))
@@ -132,7 +123,7 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
         ("course_pkg/chapters/ch05_write_a_server/answers/first.py", False),
         ("course_pkg/chapters/ch05_write_a_server/fixtures.py", False),
         ("solutions/05_write_a_server.ipynb", False),
-        # they are derived again, because an author may have worked in them
+        # An author may have changed these files, so the release derives them again.
         ("notebooks/05_write_a_server.ipynb", False),
         ("roster.csv", False),
         ("grades/class.html", False),
@@ -140,12 +131,12 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
     ],
 )
 def test_which_files_are_copied(name: str, released: bool) -> None:
-    """Only files in the package's own folders are copied, and none of them contains answers."""
+    """Only files of the package without answers are copied."""
     assert is_released(name) is released
 
 
 def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
-    """A download of the course without git's data gives the same edition."""
+    """Without git's data, the release writes the same edition."""
     for name in git(ROOT, "ls-files", "--cached", "--others", "--exclude-standard").splitlines():
         if (ROOT / name).is_file() and not name.startswith("tests/"):
             (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -158,10 +149,7 @@ def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
 
 
 def test_paths_and_chapters() -> None:
-    """A path is found by its name, in upper or lower case, with both of its ends.
-
-    An error lists all names.
-    """
+    """A path is selected by its name, and the error message for an unknown path lists all names."""
     assert chosen_chapters("the lab session") == chosen_chapters("Lab-Session") == ("00", "05", "06", "07")
     assert chosen_chapters("The turtle tutorial") == ("00", "02", "05", "06", "07", "09", "13", "14")
     assert chosen_chapters("The whole course") == chosen_chapters()
@@ -175,7 +163,7 @@ def test_paths_and_chapters() -> None:
 def test_the_link_for_nbgitpuller() -> None:
     """The link contains the repository, the branch and the notebook.
 
-    nbgitpuller's documentation describes the format.
+    The format is described in nbgitpuller's documentation.
     """
     link = urlsplit(pull_link(HUB, REPOSITORY, "main", "notebooks/05_write_a_server.ipynb"))
     assert (link.netloc, link.path) == ("hub.example.edu", "/hub/user-redirect/git-pull")
@@ -190,15 +178,15 @@ def test_the_link_for_nbgitpuller() -> None:
     ("hub", "repository"), [("hub.example.edu", REPOSITORY), (HUB, "git@git.example.edu:a/b")]
 )
 def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository: str) -> None:
-    """The message contains the name of the option and the required beginning of an address."""
+    """The error message contains the option and the required beginning of an address."""
     with pytest.raises(HandoutError, match=r"--(hub|repository) .* begins with https://"):
         pull_link(hub, repository, "main", "x.ipynb")
 
 
 def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
-    """The record lists the chapters.
+    """The record in the folder lists the released chapters.
 
-    Without a record and without solutions, the message says what the user needs.
+    Without a record and without solutions, an error message says what the user needs.
     """
     assert released_chapters(tmp_path) is None
     with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get that folder"):
@@ -210,7 +198,7 @@ def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
 
 
 def test_a_packed_module_is_the_same_module(tmp_path: Path) -> None:
-    """A packed module has the same names and the same docstring. A text search does not find its source."""
+    """A packed module has the same names and docstring, but its source cannot be found by a text search."""
     source = '"""Text."""\n\nfrom __future__ import annotations\n\nANSWER = "lock order"\n'
     module: dict[str, object] = {"__file__": "x.py", "__name__": "x"}
     exec(compile(pack(source), "x.py", "exec"), module)  # noqa: S102 -- it is the text above

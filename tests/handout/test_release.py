@@ -1,4 +1,4 @@
-"""`course release`: the students' edition has no solutions, and works without them."""
+"""Tests of `course release`: the students' edition has no solutions."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from course_pkg.checking.parts import chapters, parts_of
 from course_pkg.ros import PrivateMaster
 from tests.handout.releases import ROOT, files_of, git, make_release, python_in
 
-SHORT = 8  # characters; a shorter line is too common to identify an answer
-MOST = 0.8  # the part of an answer's lines that another file may contain by chance
-# the goal contains the whole content of this file
+SHORT = 8  # A line with fewer characters is too common to identify an answer.
+MOST = 0.8  # Another file may contain at most this fraction of an answer's lines.
+# The goal of this part contains the whole file.
 BY_ASSIGNMENT = {"srv/geometry.srv": "07.2", "srv/ServiceExample.srv": "07.8"}
 ANSWER = """
 from course_pkg import check, join
@@ -41,13 +41,13 @@ def edition(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def lines_of(source: str) -> list[str]:
-    """Return the lines of a source that are long enough to identify an answer."""
+    """Return the lines that are long enough to identify an answer."""
     stripped = (line.strip() for line in source.splitlines())
     return [line for line in stripped if len(line) >= SHORT and not line.startswith("%%")]
 
 
 def answers(edition: Path) -> dict[str, list[str]]:
-    """Return, for each part, the lines of the solution that the cell in the edition does not contain."""
+    """For each part, return the lines of the solution that are missing in the edition's cell."""
     found = {}
     for path in NotebookStore().solutions():
         released = {cell["id"]: cell["source"] for cell in read(edition / "notebooks" / path.name)["cells"]}
@@ -59,7 +59,7 @@ def answers(edition: Path) -> dict[str, list[str]]:
 
 
 def test_no_file_contains_the_answer_to_an_exercise(edition: Path) -> None:
-    """No released file contains a solution's lines, except definitions that are in a goal."""
+    """No released file contains the lines of a solution, except lines that a goal contains."""
     wanted = {part: lines for part, lines in answers(edition).items() if lines}
     assert len(wanted) > 95
     found = {}
@@ -77,10 +77,7 @@ def test_no_file_contains_the_answer_to_an_exercise(edition: Path) -> None:
 
 
 def test_what_students_must_not_have_is_left_out(edition: Path) -> None:
-    """The edition has no solutions, tests, example answers, fixtures, recordings or private checks.
-
-    It has no git history.
-    """
+    """The edition has no solutions, tests, example answers, fixtures, private checks or git history."""
     names = [*files_of(edition), *zipped(edition)]
     secret = re.compile(
         r"(solutions|tests|\.ci)/|.*/chapters/(.*(answers|fixtures)\.py|.*recordings\.json|private_)"
@@ -98,13 +95,13 @@ def test_the_notebooks_are_those_that_students_get(edition: Path) -> None:
 
 
 def zipped(edition: Path) -> dict[str, zipfile.ZipInfo]:
-    """Return the members of the edition's zip, by their paths in its folder."""
+    """Return the files in the edition's zip by path."""
     with zipfile.ZipFile(f"{edition}.zip") as archive:
         return {info.filename.removeprefix(f"{edition.name}/"): info for info in archive.infolist()}
 
 
 def test_folder_repository_and_zip_have_the_same_files(edition: Path, tmp_path: Path) -> None:
-    """A clone and the unpacked zip have the same files as the folder, and `course` is executable in each."""
+    """A clone and the unpacked zip have the same files as the folder."""
     git(tmp_path, "clone", "--quiet", str(edition), "clone")
     subprocess.run(["unzip", "-q", f"{edition}.zip", "-d", tmp_path / "zip"], check=True)
     unpacked = tmp_path / "zip" / edition.name
@@ -114,7 +111,7 @@ def test_folder_repository_and_zip_have_the_same_files(edition: Path, tmp_path: 
 
 
 def test_the_readme_is_for_students(edition: Path) -> None:
-    """README contains the first command, but no command that needs the solutions, and no broken link."""
+    """README contains the first command, no command that needs solutions, and no broken link."""
     text = (edition / "README.md").read_text("utf-8")
     assert "./course lab" in text
     assert [
@@ -139,10 +136,7 @@ def test_the_readme_is_for_students(edition: Path) -> None:
     ],
 )
 def test_what_needs_the_solutions_says_so_in_one_message(edition: Path, words: list[str]) -> None:
-    """The message comes before the set-up.
-
-    It contains "students' edition", and says where the command works.
-    """
+    """For a command that needs solutions, the error message contains "students' edition"."""
     nowhere = {**os.environ, "XDG_CACHE_HOME": "/proc/nowhere"}
     done = subprocess.run(
         [edition / "course", *words], env=nowhere, capture_output=True, text=True, check=False
@@ -173,13 +167,13 @@ print(json.dumps([course_pkg.__file__, [[part.check, part.points, part.goal] for
 
 
 def test_a_check_passes_a_right_answer(edition: Path, master: PrivateMaster, tmp_path: Path) -> None:
-    """In the edition, `check("05.1")` checks a real service, and the check passes."""
+    """In the edition, `check("05.1")` passes for a right answer."""
     printed = python_in(edition, ANSWER, COURSE_STATE=str(tmp_path), ROS_MASTER_URI=str(master.uri))
     assert printed.startswith("05.1 passed"), printed
 
 
 def test_some_chapters(tmp_path: Path) -> None:
-    """--chapters releases only these notebooks; README, links and progress contain no others."""
+    """--chapters releases only these notebooks, and README contains no links to other notebooks."""
     edition = make_release(tmp_path / "some", chapters=("05", "06"))
     names = [path.name for path in sorted((edition / "notebooks").iterdir())]
     assert names == ["05_write_a_server.ipynb", "06_write_a_client.ipynb"]
@@ -195,7 +189,7 @@ def test_some_chapters(tmp_path: Path) -> None:
 
 
 def links(notebook: Notebook) -> list[str]:
-    """Return the notebooks to which a notebook links."""
+    """Return the notebooks that a notebook links to."""
     text = "\n".join(cell["source"] for cell in notebook["cells"])
     return re.findall(r"\]\((\d\d_\w+\.ipynb)", text)
 
@@ -205,7 +199,7 @@ def links(notebook: Notebook) -> list[str]:
 def test_the_edition_sets_itself_up_and_passes_all_answers_of_a_chapter(
     edition: Path, tmp_path: Path
 ) -> None:
-    """`./course run` works in a new clone, and all checks pass in its notebook with the right answers."""
+    """In a new clone, `./course run` works, and right answers pass all checks of a chapter."""
     git(tmp_path, "clone", "--quiet", str(edition), "clone")
     clone = tmp_path / "clone"
     notebook = clone / "notebooks" / "05_write_a_server.ipynb"

@@ -1,4 +1,4 @@
-"""Functions that run `course` as a user does, and that find the processes that `course` leaves behind."""
+"""Functions that run `course` like a user, and find the processes that remain."""
 
 from __future__ import annotations
 
@@ -19,20 +19,21 @@ ADDRESS = re.compile(r"http://\S+")
 
 
 def user_environment() -> dict[str, str]:
-    """Return this environment without the variables for ROS that the test suite has set."""
+    """Return the environment without the test suite's ROS variables."""
     return {name: value for name, value in os.environ.items() if not name.startswith("ROS_")}
 
 
 @contextmanager
 def running(*arguments: str, **variables: str) -> Iterator[subprocess.Popen[str]]:
-    """Start `course lab` or `course run` with its output in a pipe, and end it after the block."""
+    """Run `course lab` or `course run` during the `with` block."""
     with subprocess.Popen(
         [ROOT / "course", *arguments],
         env={**user_environment(), **variables},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
-        start_new_session=True,  # so that a Ctrl-C that ends the tests does not reach this process
+        # In a new session, the process does not receive the Ctrl-C that stops the tests.
+        start_new_session=True,
     ) as process:
         try:
             yield process
@@ -44,13 +45,13 @@ def running(*arguments: str, **variables: str) -> Iterator[subprocess.Popen[str]
 
 @contextmanager
 def lab(*arguments: str, **variables: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Start `course lab`; yield the process and the address that it prints."""
+    """Start `course lab`, and yield the process and the printed address."""
     with running("lab", "--no-browser", *arguments, **variables) as process:
         yield process, address_of(process)
 
 
 def address_of(process: subprocess.Popen[str]) -> str:
-    """Read the output up to the line with the address, and return the address."""
+    """Read the output until the line with the address, and return the address."""
     seen = []
     assert process.stdout
     for line in process.stdout:
@@ -61,12 +62,12 @@ def address_of(process: subprocess.Popen[str]) -> str:
 
 
 def below(process: subprocess.Popen[str]) -> list[int]:
-    """Return the processes that `process` has started, directly or indirectly."""
+    """Return the child processes of `process` at all levels."""
     return descendants(process.pid)
 
 
 def all_gone(pids: list[int]) -> bool:
-    """Wait until none of `pids` runs."""
+    """Return whether all processes `pids` exit in time."""
     return eventually(lambda: not [pid for pid in pids if alive(pid)], timeout=20)
 
 
@@ -80,10 +81,10 @@ def alive(pid: int) -> bool:
 
 
 def having(pattern: bytes, pids: list[int]) -> list[int]:
-    """Return the processes of `pids` whose command line contains `pattern`; NUL separates the arguments."""
+    """Return the processes of `pids` whose command line contains `pattern`."""
     found = []
     for pid in pids:
-        with suppress(OSError):  # the process may have ended
+        with suppress(OSError):  # The process may have exited.
             if pattern in Path(f"/proc/{pid}/cmdline").read_bytes():
                 found.append(pid)
     return found

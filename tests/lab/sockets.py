@@ -1,4 +1,4 @@
-"""A Jupyter Server extension for tests. /sockets returns whether each kernel websocket has TCP_NODELAY."""
+"""A Jupyter Server extension for tests: /sockets returns whether each kernel websocket has TCP_NODELAY."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from jupyter_server.services.kernels.websocket import KernelWebsocketHandler
 
 
 class SocketsHandler(JupyterHandler):  # type: ignore[misc]
-    """Reports the options of the server's sockets."""
+    """Returns the socket options of the server."""
 
     def get(self) -> None:
-        """Respond with a JSON list that has one Boolean for each open kernel websocket."""
+        """Respond with a JSON list that contains a Boolean for each open kernel websocket."""
         handlers = [
             it
             for it in gc.get_objects()
-            # isinstance() would fail for a weakref.proxy whose object does not exist any more
+            # isinstance() would raise an error for a weakref.proxy of a deleted object.
             if issubclass(type(it), KernelWebsocketHandler) and it.ws_connection
         ]
         streams = [handler.ws_connection.stream for handler in handlers]

@@ -1,4 +1,4 @@
-"""The shell of `course run bash` and of the terminals in JupyterLab."""
+"""Tests of the shell in `course run bash` and in JupyterLab's terminals."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PS1='mine> '
 
 @pytest.fixture
 def home(tmp_path: Path) -> Path:
-    """Create a home folder whose ~/.bashrc sets another Python, another master and an alias."""
+    """Create a home folder with a ~/.bashrc that sets another Python, another master and an alias."""
     (tmp_path / ".bashrc").write_text(HOSTILE)
     (tmp_path / "shims").mkdir()
     for name in ("python3", "rosservice"):
@@ -28,7 +28,7 @@ def home(tmp_path: Path) -> Path:
 
 
 def shell(home: Path, commands: str) -> str:
-    """Type `commands` into an interactive `course run bash`, and return the output."""
+    """Type `commands` into an interactive shell, and return the output."""
     cache = {"XDG_CACHE_HOME": user_environment().get("XDG_CACHE_HOME", str(Path("~/.cache").expanduser()))}
     typed = ["script", "-qec", f"{ROOT / 'course'} run bash", "/dev/null"]
     answer = subprocess.run(
@@ -43,10 +43,7 @@ def shell(home: Path, commands: str) -> str:
 
 
 def test_the_course_overrides_the_settings_in_bashrc(home: Path) -> None:
-    """The shell uses the course's Python, tools and master, but the user's aliases and prompt.
-
-    The user's aliases and prompt stay.
-    """
+    """The shell uses the course's Python, tools and master, and the user's aliases."""
     look = "echo py:$(python3 -c 'print(3)') uri:$ROS_MASTER_URI ip:${ROS_IP-none}"
     seen = shell(home, f"{look}; mine; rosservice list")
     assert "py:3 uri:http://localhost:" in seen
@@ -57,7 +54,7 @@ def test_the_course_overrides_the_settings_in_bashrc(home: Path) -> None:
 
 
 def test_tab_completes_the_tools_of_ros(home: Path) -> None:
-    """The Tab key completes arguments of rosrun and rosservice, and lists the course's package."""
+    """The Tab key completes the arguments of rosrun and rosservice."""
     tab = "COMP_WORDS=(rosrun course_p) COMP_CWORD=1; _roscomplete_exe; echo found:${COMPREPLY[*]}"
     seen = shell(home, f"complete -p rosrun rosservice rossrv roslaunch; {tab}")
     for tool in ("rosrun", "rosservice", "rossrv", "roslaunch"):

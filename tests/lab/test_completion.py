@@ -1,4 +1,4 @@
-"""The Tab key in a terminal, as chapter 08 describes it."""
+"""Tests of the Tab key in a terminal."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ TAB = "\t"
 
 
 def test_tab_completes_services_and_requests(tmp_path: Path) -> None:
-    """The Tab key completes the name of a service. Then it completes the request with zero for each value."""
+    """The Tab key completes the name of a service, and then the request."""
     lines = [SWITCH, f"rosservice call /sw{TAB}rep{TAB}", f"rosservice call /switch/set {TAB}", "kill %1"]
     seen = shell(tmp_path, "\n".join(lines))
-    assert 'message: "closed"' in seen  # this is the response of /switch/report
+    assert 'message: "closed"' in seen  # This text is the response of /switch/report.
     assert '/switch/set "data: false"' in seen
     assert 'message: "already closed"' in seen

@@ -1,4 +1,4 @@
-"""The server extension: Tests of TCP_NODELAY on a kernel's websocket, and of the checkpoints in the cache."""
+"""Tests of the server extension: TCP_NODELAY on a kernel's websocket, and the storage of checkpoints."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ class Log:
 
 
 def completed(work: Coroutine[None, None, object]) -> object:
-    """Run `work` on another thread. The browser of another test may use the event loop of this thread."""
+    """Run `work` on another thread. The browser of another test may use this thread's event loop."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, work).result()
 
 
 @contextmanager
 def server(folder: Path, *extensions: str) -> Iterator[str]:
-    """Run a Jupyter Server with `extensions`; yield its host and port."""
+    """Run a Jupyter Server with `extensions`, and yield its host and port."""
     names = dict.fromkeys(("tests.lab.sockets", *extensions), True)
     port = free_port()
     options = ["--no-browser", "--allow-root", "--IdentityProvider.token=t", f"--ServerApp.port={port}"]
@@ -59,7 +59,7 @@ def server(folder: Path, *extensions: str) -> Iterator[str]:
 
 
 async def ask(host: str, path: str, method: str = "GET") -> object:
-    """Repeat a request until the server answers, and return the JSON of the response."""
+    """Send a request until the server responds, and return the JSON of the response."""
     request = HTTPRequest(f"http://{host}{path}?token=t", method=method, allow_nonstandard_methods=True)
     while True:
         try:
@@ -69,7 +69,7 @@ async def ask(host: str, path: str, method: str = "GET") -> object:
 
 
 async def options_of_a_page(host: str) -> object:
-    """Open a kernel's websocket in the same way as a page, and return the options of the server's sockets."""
+    """Open a kernel's websocket, and return the server's socket options."""
     kernel = await ask(host, "/api/kernels", "POST")
     assert isinstance(kernel, dict)
     page = await websocket_connect(f"ws://{host}/api/kernels/{kernel['id']}/channels?token=t&session_id=s")
@@ -83,20 +83,20 @@ async def options_of_a_page(host: str) -> object:
 def test_only_the_extension_sets_the_socket_option(
     extensions: tuple[str, ...], seen: list[bool], tmp_path: Path
 ) -> None:
-    """With the extension, a kernel's websocket has TCP_NODELAY; without the extension, it does not."""
+    """A kernel's websocket has TCP_NODELAY only if the extension is loaded."""
     with server(tmp_path, *extensions) as host:
         assert completed(asyncio.wait_for(options_of_a_page(host), 60)) == seen
 
 
 def test_a_server_without_the_setting_does_not_change() -> None:
-    """If the server has no setting for the connection's class, the extension only logs a warning."""
+    """For a server without the setting, the extension only logs a warning."""
     log = Log()
     extension._load_jupyter_server_extension(SimpleNamespace(log=log, web_app=SimpleNamespace(settings={})))
     assert len(log.warnings) == 1
 
 
 def test_a_connection_works_if_the_option_cannot_be_set() -> None:
-    """If the option cannot be set, the connection works without it, and a warning is logged."""
+    """If the option cannot be set, the connection works, and the extension logs a warning."""
 
     class Stock:
         log, websocket_handler, connected = Log(), object(), False
@@ -112,7 +112,7 @@ def test_a_connection_works_if_the_option_cannot_be_set() -> None:
 
 @pytest.fixture
 def kept(tmp_path: Path) -> CachedCheckpoints:
-    """Return a store of checkpoints for a checkout with two notebooks of the same name."""
+    """Return a checkpoint store for a checkout with two notebooks of the same name."""
     for chapter in ("notebooks", "solutions"):
         folder = tmp_path / "checkout" / chapter
         folder.mkdir(parents=True)
@@ -121,13 +121,13 @@ def kept(tmp_path: Path) -> CachedCheckpoints:
 
 
 def make(kept: CachedCheckpoints, path: str) -> None:
-    """Create a checkpoint in the same way as the server."""
+    """Create a checkpoint like the server."""
     manager = SimpleNamespace(_get_os_path=lambda name: str(Path(kept.root_dir, name)))
     completed(kept.create_checkpoint(manager, path))
 
 
 def test_two_notebooks_of_one_name_have_separate_checkpoints(kept: CachedCheckpoints, tmp_path: Path) -> None:
-    """A chapter and its solution have different checkpoint files, which are not in the checkout."""
+    """A chapter and its solution have separate checkpoint files outside the checkout."""
     before = sorted((tmp_path / "checkout").rglob("*"))
     for chapter in ("notebooks", "solutions"):
         make(kept, f"{chapter}/05_x.ipynb")
@@ -143,27 +143,28 @@ def test_no_path_leads_out_of_the_checkout(kept: CachedCheckpoints) -> None:
 
 
 def names(manager: CourseContents, path: str) -> set[str]:
-    """Return the names that the file browser lists in a folder."""
+    """Return the names in a folder that the file browser lists."""
     model = completed(manager.get(path))
     assert isinstance(model, dict)
     return {each["name"] for each in model["content"]}
 
 
 def test_the_root_folder_lists_only_files_for_students(tmp_path: Path) -> None:
-    """Only the list of the root folder hides files of the repository; it shows all files of a student."""
+    """The root folder lists only the files for students."""
     for folder in (*HIDDEN, "notebooks", "figures", "workspace/src/my_arm/tests"):
         (tmp_path / folder).mkdir(parents=True)
     (tmp_path / "my_notes.md").touch()
     manager = CourseContents(root_dir=str(tmp_path))
     assert names(manager, "") == names(manager, "/") == {"notebooks", "figures", "workspace", "my_notes.md"}
     assert names(manager, "workspace/src/my_arm") == {"tests"}
-    assert names(manager, "solutions") == set()  # the folder is hidden, but a user can open it by its path
+    # The file browser does not list the folder, but a user can open its path.
+    assert names(manager, "solutions") == set()
     manager.everything = True
     assert names(manager, "") >= set(HIDDEN)
 
 
 def test_a_notebook_comes_with_the_language_of_its_kernel() -> None:
-    """The notebook has the kernel's language_info, so that JupyterLab does not mark it as changed."""
+    """The loaded notebook has the kernel's language_info."""
     said = IPythonKernel.language_info
     assert kernel_language() == said
     manager = CourseContents(root_dir=str(ROOT))
@@ -173,7 +174,7 @@ def test_a_notebook_comes_with_the_language_of_its_kernel() -> None:
 
 
 def test_every_file_of_the_repository_is_listed_or_hidden_on_purpose() -> None:
-    """Each file in the repository's root folder is listed in HIDDEN, or students need it."""
+    """Each file in the repository's root folder is either in HIDDEN or needed by students."""
     tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
     top = {path.partition("/")[0] for path in tracked.splitlines()}
     assert {name for name in top if not name.startswith(".")} == {*HIDDEN, "notebooks", "figures"}

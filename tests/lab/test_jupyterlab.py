@@ -1,4 +1,4 @@
-"""`course lab` starts JupyterLab with a master, and ends both."""
+"""Tests that start `course lab` with JupyterLab and a master."""
 
 from __future__ import annotations
 
@@ -47,14 +47,14 @@ class Service:
         return self.get("/api/kernels")
 
     def post(self, path: str) -> None:
-        """Send a POST request to `path`, which creates a terminal or a checkpoint."""
+        """Send a POST request to `path`."""
         request = Request(self._base + path, data=b"", headers=self._headers)  # noqa: S310
         urlopen(request, timeout=20).close()  # noqa: S310
 
 
 @pytest.fixture(scope="module")
 def notebook(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Create an empty notebook in the checkout, because the server opens only files there."""
+    """Create an empty notebook in the checkout."""
     path = ROOT / "tests" / "lab" / f"empty-{os.getpid()}.ipynb"
     path.write_text(json.dumps({"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}))
     yield str(path)
@@ -63,10 +63,7 @@ def notebook(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def served(notebook: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """Start one server for all tests that do not end it.
-
-    Two extensions are installed in the same way as by pip.
-    """
+    """Start one server with two installed extensions for all tests that do not stop it."""
     folder = tmp_path_factory.mktemp("installed")
     enabled = folder / "jupyter_server_config.d" / "sockets.json"
     front_end = folder / "labextensions" / "example" / "package.json"
@@ -82,7 +79,7 @@ def served(notebook: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
 
 
 def test_the_address_opens_the_notebook_and_its_kernel_runs(served: Service, notebook: str) -> None:
-    """The printed address opens the notebook, and its kernel is already running."""
+    """The printed address opens the notebook, and the notebook's kernel runs."""
     name = str(Path(notebook).relative_to(ROOT))
     assert f"/lab/tree/{name}?token=" in served.address
     assert [session["path"] for session in served.get("/api/sessions")] == [name]
@@ -90,13 +87,13 @@ def test_the_address_opens_the_notebook_and_its_kernel_runs(served: Service, not
 
 
 def test_extensions_that_a_user_installs_are_loaded(served: Service) -> None:
-    """A server extension answers requests, and the page contains a front-end extension."""
+    """An installed server extension responds, and the page loads an installed front-end extension."""
     assert served.get("/sockets") == []
     assert "example-extension" in served.text(served.path)
 
 
 def test_each_start_opens_only_its_notebook(served: Service, notebook: str) -> None:
-    """The workspace of the page contains a tab for this notebook, and no tab of an earlier start."""
+    """The page opens only the notebook of this start."""
     name = f"notebook:{Path(notebook).relative_to(ROOT)}"
     with lab(str(ROOT / "notebooks" / "00_start_the_graph.ipynb")) as (process, address):
         data = Service(process, address).get("/lab/api/workspaces/default")["data"]
@@ -117,7 +114,7 @@ def test_nothing_listens_beyond_this_host(served: Service) -> None:
 
 
 def test_a_checkpoint_is_kept_outside_of_the_checkout(served: Service, notebook: str) -> None:
-    """A new checkpoint is listed, but there is no folder .ipynb_checkpoints next to the notebook."""
+    """A checkpoint is stored outside the checkout."""
     at = f"/api/contents/{Path(notebook).relative_to(ROOT)}/checkpoints"
     served.post(at)
     assert [found["id"] for found in served.get(at)] == ["checkpoint"]
@@ -131,7 +128,7 @@ def test_the_terminal_is_the_courses_shell(served: Service) -> None:
 
 
 def test_the_page_asks_for_no_news_and_no_build(served: Service) -> None:
-    """In the default settings, JupyterLab does not fetch news and does not check for updates."""
+    """JupyterLab does not fetch news and does not check for updates."""
     settings = {entry["id"]: entry for entry in served.get("/lab/api/settings")["settings"]}
     defaults = settings["@jupyterlab/apputils-extension:notification"]["schema"]["properties"]
     assert defaults["fetchNews"]["default"] == "false"
@@ -140,7 +137,7 @@ def test_the_page_asks_for_no_news_and_no_build(served: Service) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_everything(number: signal.Signals, notebook: str) -> None:
-    """Ctrl-C and SIGTERM end JupyterLab, its kernels and the master, with status 0 and within seconds."""
+    """After Ctrl-C or SIGTERM, JupyterLab, its kernels and the master exit with status 0."""
     with lab(notebook) as (process, address):
         eventually(Service(process, address).kernels)
         family = below(process)
@@ -151,7 +148,7 @@ def test_a_signal_ends_everything(number: signal.Signals, notebook: str) -> None
 
 
 def test_nothing_outlives_a_killed_lab(notebook: str) -> None:
-    """After SIGKILL of `course lab`, no process is left, its ports are free, and the next start works."""
+    """After SIGKILL of `course lab`, all its processes exit, and the next start works."""
     port = str(free_port())
     for _ in range(2):
         with lab(notebook, "--port", port) as (process, address):
@@ -173,7 +170,7 @@ def test_a_killed_kernel_is_replaced(served: Service) -> None:
 
 
 def test_a_killed_server_ends_the_command(notebook: str) -> None:
-    """If the server is killed, `course lab` ends with a status other than 0, and no process is left."""
+    """If the server is killed, `course lab` exits with an error status, and no process remains."""
     with lab(notebook) as (process, address):
         eventually(Service(process, address).kernels)
         family = below(process)
@@ -195,7 +192,7 @@ def test_a_killed_server_ends_the_command(notebook: str) -> None:
     ],
 )
 def test_wrong_options_are_refused_at_once(words: list[str], message: str) -> None:
-    """For a wrong port, address or notebook, `course lab` prints the reason, and ends with status 1."""
+    """For a wrong option, `course lab` prints the reason and exits with status 1."""
     with socket.socket() as busy:
         busy.bind(("127.0.0.1", 0))
         busy.listen()
@@ -210,7 +207,7 @@ def test_wrong_options_are_refused_at_once(words: list[str], message: str) -> No
 
 
 def test_a_workspace_in_which_catkin_cannot_build_is_named(tmp_path: Path) -> None:
-    """`course lab` prints a warning and starts JupyterLab, because only some chapters need the workspace."""
+    """If catkin cannot build in the workspace, `course lab` prints a warning and starts."""
     folder = str(tmp_path / "my ws")
     with running("lab", "--no-browser", COURSE_WORKSPACE=folder) as process:
         assert process.stdout

@@ -1,4 +1,4 @@
-"""`course run` runs any command with its own master."""
+"""Tests of `course run`, which runs any command with its own master."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.support import eventually
 
 
 def course_run(*words: str, text: str = "", **variables: str) -> subprocess.CompletedProcess[str]:
-    """Run `course run` with a command to its end; `text` is the command's input."""
+    """Run `course run` with a command; `text` is the command's input."""
     env = {**user_environment(), **variables}
     return subprocess.run(
         [ROOT / "course", "run", *words], env=env, input=text, capture_output=True, text=True
@@ -25,23 +25,23 @@ def course_run(*words: str, text: str = "", **variables: str) -> subprocess.Comp
 
 @pytest.mark.parametrize(("script", "status"), [("exit 0", 0), ("exit 7", 7), ("kill -9 $$", 137)])
 def test_the_status_of_the_command_is_passed_on(script: str, status: int) -> None:
-    """`course run` ends with the status of the command, or with 128 + n if signal n ended the command."""
+    """`course run` exits with the status of the command, or with 128 + n after signal n."""
     assert course_run("sh", "-c", script).returncode == status
 
 
 def test_every_argument_reaches_the_command() -> None:
-    """All arguments are passed to the command, even `--`, --help, blanks and empty arguments."""
+    """The command receives all arguments, even `--`, --help, spaces and empty arguments."""
     words = ["-n", "--", "--help", "a b", "", "-1.0"]
     assert course_run("printf", "[%s]", *words).stdout == "".join(f"[{word}]" for word in words)
 
 
 def test_input_reaches_the_command() -> None:
-    """The command can read the input of `course run` from a pipe."""
+    """The command can read the input of `course run`."""
     assert course_run("tr", "a-z", "A-Z", text="words").stdout == "WORDS"
 
 
 def test_an_unknown_command_is_refused() -> None:
-    """The message contains the name of the command, and the exit status is 1."""
+    """The error message contains the name of the command, and the exit status is 1."""
     answer = course_run("no-such-command")
     assert (answer.returncode, answer.stderr) == (
         1,
@@ -50,14 +50,14 @@ def test_an_unknown_command_is_refused() -> None:
 
 
 def test_a_master_that_the_user_names_is_used() -> None:
-    """If ROS_MASTER_URI is set, no master is started, and the variable does not change."""
+    """If ROS_MASTER_URI is set, `course run` starts no master."""
     assert (
         course_run("printenv", "ROS_MASTER_URI", ROS_MASTER_URI="http://robot:1").stdout == "http://robot:1\n"
     )
 
 
 def test_the_course_is_a_package_like_any_other() -> None:
-    """The tools of ROS find the course's service type, its MD5 sum and its package."""
+    """The ROS tools find the course's service type and package."""
     script = "rossrv show geometry && rossrv md5 course_pkg/geometry && rospack find course_pkg"
     answer = course_run("sh", "-c", script)
     assert answer.stdout.startswith("[course_pkg/geometry]:\nfloat32 length\n"), answer.stderr
@@ -65,7 +65,7 @@ def test_the_course_is_a_package_like_any_other() -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_the_command_and_its_master(number: signal.Signals) -> None:
-    """SIGINT, SIGTERM and SIGHUP reach the command; after its end, no process is left."""
+    """The command receives SIGINT, SIGTERM and SIGHUP, and no process remains."""
     script = "trap 'echo heard; exit 3' INT TERM HUP; echo up; while :; do sleep 0.05; done"
     with running("run", "bash", "-c", script) as process:
         assert process.stdout
@@ -95,18 +95,15 @@ def test_nothing_outlives_a_killed_run() -> None:
     ids=["a node", "without a parent or session", "ignores SIGTERM"],
 )
 def test_the_background_ends_with_the_command(script: str, tmp_path: Path) -> None:
-    """When a command ends, all its background processes end, too."""
-    tag = str(tmp_path)  # only these processes have this text in their environment
+    """When a command exits, its background processes are killed."""
+    tag = str(tmp_path)  # The environment of only these processes contains this text.
     answer = course_run("bash", "-c", f"{script}\nexit 5", TAG=tag)
     assert answer.returncode == 5, answer.stderr
     assert [pid for pid in tagged(tag) if alive(pid)] == []
 
 
 def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
-    """In `course run bash`, Ctrl-C ends only the foreground job.
-
-    Ctrl-Z suspends it, and exit ends all jobs.
-    """
+    """In `course run bash`, Ctrl-C stops only the foreground job, and Ctrl-Z suspends it."""
     tag = f"course-run-{time.monotonic_ns()}"
     shell = pexpect.spawn(
         str(ROOT / "course"), ["run", "bash"], env={**user_environment(), "TAG": tag}, timeout=30
@@ -129,7 +126,7 @@ def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
         shell.expect_exact("Stopped")
         assert alive(background[0])
         assert alive(stopped[0])
-        shell.sendline("kill %2")  # while a job is suspended, the first `exit` only prints a warning
+        shell.sendline("kill %2")  # While a job is suspended, the first `exit` only prints a warning.
         assert all_gone(stopped)
         shell.sendline("exit 7")
         shell.expect(pexpect.EOF)
@@ -141,10 +138,10 @@ def test_an_interactive_shell_has_the_terminal_and_its_jobs() -> None:
 
 
 def tagged(tag: str) -> list[int]:
-    """Return the processes that have `tag` in their environment."""
+    """Return the processes whose environment contains `tag`."""
     found = []
     for environment in Path("/proc").glob("[0-9]*/environ"):
-        with suppress(OSError):  # the process may have ended, or may belong to another user
+        with suppress(OSError):  # The process may have exited, or may belong to another user.
             if tag.encode() in environment.read_bytes():
                 found.append(int(environment.parent.name))
     return found

@@ -1,4 +1,4 @@
-"""JupyterLab's terminals: the commands that a student types on a robot's computer also work there."""
+"""Tests of commands in JupyterLab's terminals."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Terminal:
         self._shell.sendline(line)
 
     def keys(self, text: str) -> None:
-        """Press the keys of `text`, without the Enter key."""
+        """Type `text` without the Enter key."""
         self._shell.send(text)
 
     def wait_for(self, text: str) -> str:
@@ -65,19 +65,16 @@ class Terminal:
         return re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", printed)
 
     def close(self) -> None:
-        """End the shell and the processes in it."""
+        """Stop the shell and its processes."""
         self._shell.close(force=True)
 
 
 @pytest.fixture(scope="module")
 def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
-    """Start `course lab` with a temporary folder for the student's packages.
-
-    Yield a terminal of JupyterLab.
-    """
+    """Start `course lab` with a temporary workspace, and yield a terminal."""
     state = tmp_path_factory.mktemp("state")
     with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(state)  # a user may type `course lab` in any folder
+        patch.chdir(state)  # The test starts `course lab` in another folder, because a user may do this too.
         with lab(COURSE_STATE=str(state)) as (process, address):
             parts = urlsplit(address)
             headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
@@ -86,7 +83,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
             terminal = Terminal(shell)
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
-            assert rosout  # a test that starts another node /rosout can end this node
+            assert rosout  # If another test starts a node /rosout, the node of this master exits.
             try:
                 yield terminal
             finally:
@@ -97,12 +94,12 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
 
 
 def test_a_terminal_starts_where_the_chapters_and_the_workspace_are(terminal: Terminal) -> None:
-    """A terminal starts in the folder that contains `notebooks`, as the chapters say."""
+    """A terminal starts in the folder that contains `notebooks`."""
     assert Path(terminal.run("pwd").strip()) == ROOT
 
 
 def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
-    """The nodes, services and parameters are the same as after `roscore`."""
+    """The nodes, services and parameters are the same as with `roscore`."""
     assert terminal.run("rosnode list").split() == ["/rosout"]
     assert terminal.run("rosservice list").split() == ["/rosout/get_loggers", "/rosout/set_logger_level"]
     assert terminal.run("rosparam list").split() == ["/rosdistro", "/rosversion", "/run_id"]
@@ -110,17 +107,14 @@ def test_the_graph_is_the_same_as_with_roscore(terminal: Terminal) -> None:
 
 
 def test_roscore_says_that_a_master_runs(terminal: Terminal) -> None:
-    """A second roscore refuses to start, because a master already runs at ROS_MASTER_URI."""
+    """The command roscore refuses to start while a master runs."""
     printed = terminal.run("roscore")
     assert "roscore cannot run as another roscore/master is already running" in printed
     assert terminal.environment["ROS_MASTER_URI"] in printed
 
 
 def test_a_node_in_cpp_listens_on_this_computer_only(terminal: Terminal) -> None:
-    """A C++ node in the terminal listens only on 127.0.0.1.
-
-    By default, the XML-RPC server of roscpp listens on all addresses. The terminal's settings prevent this.
-    """
+    """A C++ node in the terminal listens only on 127.0.0.1."""
     node = re.findall(
         r"\d+$", terminal.run("rosrun rosout rosout __name:=of_mine > /dev/null & echo $!").strip()
     )
@@ -131,7 +125,7 @@ def test_a_node_in_cpp_listens_on_this_computer_only(terminal: Terminal) -> None
 
 
 def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
-    """A student can use catkin_make, devel/setup.bash, rossrv, roscd, rosrun, and the Tab key."""
+    """A student can use catkin_make, devel/setup.bash, rossrv, roscd and rosrun."""
     root = Path(terminal.environment["COURSE_STATE"], "workspace")
     assert (root / "src").is_dir()
     lists = GOOD["CMakeLists.txt"] + INSTALLED

@@ -1,4 +1,4 @@
-"""The course's server and client, used in a terminal as a student does."""
+"""Tests of the course's geometry server and client in a terminal."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def server() -> Iterator[NodeProcess]:
-    """Start `rosrun course_pkg server`, and wait until the server answers."""
+    """Start `rosrun course_pkg server`, and wait until its service is available."""
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         process.wait_for_service("/getGeometry")
         yield process
 
 
 def test_rosservice_call(server: NodeProcess) -> None:
-    """`rosservice call` prints area 6.24 and volume 55.54, and the server logs the request."""
+    """`rosservice call` prints the area and the volume, and the server logs the request."""
     done = terminal("rosservice", "call", "/getGeometry", "1.2", "5.2", "8.9")
     assert done.returncode == 0
     values = dict(line.split(": ") for line in done.stdout.splitlines())
@@ -36,19 +36,19 @@ def test_rosservice_call(server: NodeProcess) -> None:
 
 
 def test_client_prints_area_and_volume(server: NodeProcess) -> None:
-    """The client prints only the two values, each on a separate line."""
+    """The client prints only the area and the volume, each on a separate line."""
     done = terminal("rosrun", "course_pkg", "client", "1.2", "5.2", "8.9")
     assert (done.returncode, done.stdout, done.stderr) == (0, "area: 6.24\nvolume: 55.54\n", "")
 
 
 def test_rossrv_show() -> None:
-    """The tool rossrv shows the fields of the type."""
+    """`rossrv show` prints the fields of the type."""
     assert "float32 length" in terminal("rossrv", "show", "geometry").stdout
 
 
 @pytest.mark.parametrize("words", [[], ["1", "2"], ["1", "2", "3", "4"], ["1", "2", "tall"]])
 def test_client_with_a_wrong_line(words: list[str]) -> None:
-    """Wrong arguments give the usage text and exit status 2, at once and without a server."""
+    """For wrong arguments, the client prints its usage, and its exit status is 2."""
     done = terminal("rosrun", "course_pkg", "client", *words)
     assert done.returncode == 2
     assert done.stderr.startswith("usage: client LENGTH WIDTH HEIGHT")
@@ -63,10 +63,7 @@ def test_client_with_a_wrong_line(words: list[str]) -> None:
     ],
 )
 def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], message: str) -> None:
-    """The server refuses an invalid length of a side.
-
-    The client prints the server's message, and exits with status 1.
-    """
+    """The server refuses an invalid side, and the client prints the server's error message."""
     done = terminal("rosrun", "course_pkg", "client", *sides)
     assert done.returncode == 1
     assert f"service cannot process request: {message}" in done.stderr
@@ -74,7 +71,7 @@ def test_impossible_box_is_refused(server: NodeProcess, sides: list[str], messag
 
 
 def test_number_that_does_not_fit_into_a_float32(server: NodeProcess) -> None:
-    """The client's message contains the number, and there is no traceback."""
+    """The client's error message contains the number and no traceback."""
     done = terminal("rosrun", "course_pkg", "client", "1e39", "1", "1")
     assert (done.returncode, done.stderr) == (
         2,
@@ -83,7 +80,7 @@ def test_number_that_does_not_fit_into_a_float32(server: NodeProcess) -> None:
 
 
 def test_client_without_a_server() -> None:
-    """Without a server, the client waits for 5 s, prints the timeout, and exits with status 1."""
+    """Without a server, the client prints a timeout message after 5 s, and its exit status is 1."""
     done = terminal("rosrun", "course_pkg", "client", "1", "2", "3")
     assert done.returncode == 1
     assert "timeout exceeded while waiting for service /getGeometry" in done.stderr
@@ -91,7 +88,7 @@ def test_client_without_a_server() -> None:
 
 
 def test_client_without_a_master() -> None:
-    """Without a master, the client prints an error message within 5 s, and exits with status 1."""
+    """Without a master, the client prints an error message within 5 s, and its exit status is 1."""
     started = time.monotonic()
     done = terminal("rosrun", "course_pkg", "client", "1", "2", "3", ROS_MASTER_URI="http://localhost:1")
     assert done.returncode == 1
@@ -100,7 +97,7 @@ def test_client_without_a_master() -> None:
 
 
 def test_remapping(master: PrivateMaster) -> None:
-    """The names of the server's node and service can be remapped, and the client accepts remappings, too."""
+    """The names of the node and of the service can be remapped."""
     command = ["rosrun", "course_pkg", "server", "__name:=other", "getGeometry:=/measure"]
     with NodeProcess(command) as process:
         process.wait_for_service("/measure")
@@ -113,7 +110,7 @@ def test_remapping(master: PrivateMaster) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_the_server(server: NodeProcess, master: PrivateMaster, number: signal.Signals) -> None:
-    """After SIGINT or SIGTERM, the server ends within 2 s without a traceback and unregisters."""
+    """After SIGINT or SIGTERM, the server unregisters and exits within 2 s."""
     started = time.monotonic()
     os.kill(server.pid, number)
     assert server.wait(5) == 0
@@ -123,7 +120,7 @@ def test_a_signal_ends_the_server(server: NodeProcess, master: PrivateMaster, nu
 
 
 def test_server_ends_while_it_waits_for_a_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If a server is still waiting for a master, it ends after Ctrl-C without a traceback."""
+    """Ctrl-C stops a server that waits for a master."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         eventually(lambda: "Waiting for a master" in process.output())
@@ -151,5 +148,5 @@ def test_server_is_not_blocked_by_an_idle_connection(server: NodeProcess, master
     ],
 )
 def test_reading_the_sides(words: list[str], sides: tuple[float, float, float] | None) -> None:
-    """Three numbers in any notation of Python are accepted. For other arguments, the result is None."""
+    """Three numbers in any Python notation are accepted. Otherwise, the result is None."""
     assert read_sides(words) == sides

@@ -1,4 +1,4 @@
-"""The robot publishes its joint states, and the simulator publishes their mirror images."""
+"""The robot publishes its joint states, and the simulator publishes mirrored joint states."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ def connected(publisher):
 
 @pytest.fixture
 def simulator() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg simulator` until it is on the graph."""
+    """Run `rosrun course_pkg simulator` until its node is registered."""
     with NodeProcess(["rosrun", "course_pkg", "simulator"]) as process:
         process.wait_for_service("/simulator/get_loggers")
         yield process
 
 
 def test_a_joint_state_has_matching_positions_and_velocities() -> None:
-    """The velocity is the derivative of the position, and each position is within the joint's limits."""
+    """Each velocity is the derivative of the position, and each position is within the joint's limits."""
     step = 1e-5
     for at in (0.0, 0.7, 3.1, 100.0):
         now, soon = joint_state(at), joint_state(at + step)
@@ -52,10 +52,7 @@ def test_a_joint_state_has_matching_positions_and_velocities() -> None:
 
 
 def test_the_mirror_image_has_the_opposite_signs() -> None:
-    """The time and the names do not change.
-
-    The received message does not change either, because other callbacks use it, too.
-    """
+    """The mirrored state has the same time and names, and the opposite positions and velocities."""
     message = JointState(name=["a", "b"], position=[0.5, -1.0], velocity=[0.0, 2.0], effort=[1.0, 1.0])
     message.header.stamp.secs = 7
     shown = mirrored(message)
@@ -79,25 +76,25 @@ def test_the_mirror_image_has_the_opposite_signs() -> None:
     ],
 )
 def test_an_invalid_joint_state_is_refused(odd: JointState, message: str) -> None:
-    """Lists of different lengths, and values that are not finite, raise an error."""
+    """Lists of different lengths, and infinite or NaN values, raise an error."""
     with pytest.raises(ValueError, match=message):
         mirrored(odd)
 
 
 @pytest.mark.parametrize("fine", [JointState(), JointState(name=["a"], position=[1.0], velocity=[])])
 def test_a_joint_state_may_have_no_joints_or_no_velocities(fine: JointState) -> None:
-    """A state without joints and a state without velocities are valid."""
+    """A joint state without joints, or without velocities, is valid."""
     assert len(mirrored(fine).position) == len(fine.name)
 
 
 def test_the_robot_publishes_at_its_rate(kernel: Kernel) -> None:
-    """The robot publishes states at the given rate. The times increase, and the positions have no jumps."""
+    """The robot publishes joint states at the given rate."""
     kernel.run(LISTEN)
     with NodeProcess(["rosrun", "course_pkg", "robot", "_rate:=100"]):
         kernel.run("heard = node.subscribe('/joint_states', JointState).wait(50, timeout=20)")
     stamps = kernel.run("result = [message.header.stamp.to_sec() for message in heard]")
     assert stamps == sorted(stamps)
-    # the default rate of 20 Hz would give 0.05 s
+    # The default rate of 20 Hz would give a period of 0.05 s.
     assert 0.009 < (stamps[-1] - stamps[0]) / (len(stamps) - 1) < 0.05
     jumps = kernel.run(
         "result = [max(abs(b - a) for a, b in zip(one.position, next.position))"
@@ -107,7 +104,7 @@ def test_the_robot_publishes_at_its_rate(kernel: Kernel) -> None:
 
 
 def test_the_simulator_mirrors_every_state_while_it_draws(simulator: NodeProcess, kernel: Kernel) -> None:
-    """The simulator publishes the mirror images in order, and draws pictures at the same time."""
+    """The simulator publishes all mirrored states in order while it draws pictures."""
     kernel.run(LISTEN)
     kernel.run(
         "shown, pictures = node.subscribe('/mirrored_joints', JointState),"
@@ -123,7 +120,7 @@ def test_the_simulator_mirrors_every_state_while_it_draws(simulator: NodeProcess
 
 
 def test_an_invalid_message_is_ignored(simulator: NodeProcess, kernel: Kernel) -> None:
-    """The node prints one warning about several invalid states, and mirrors the next valid state."""
+    """The node prints one warning about invalid states, and mirrors the next valid state."""
     kernel.run(LISTEN)
     kernel.run(
         "shown = node.subscribe('/mirrored_joints', JointState); connected(shown._subscriber)\n"
@@ -137,7 +134,7 @@ def test_an_invalid_message_is_ignored(simulator: NodeProcess, kernel: Kernel) -
 
 
 def test_the_launch_file_starts_both(kernel: Kernel) -> None:
-    """The launch file has one argument for the rate, and one argument that leaves out the simulator."""
+    """The launch file starts the robot and the simulator."""
     kernel.run(LISTEN)
     with NodeProcess.roslaunch("course_pkg", "mirror.launch", "rate:=50"):
         kernel.run("shown = node.subscribe('/mirrored_joints', JointState).wait(20, timeout=20)")
@@ -151,7 +148,7 @@ def test_the_launch_file_starts_both(kernel: Kernel) -> None:
 @pytest.mark.parametrize("program", ["robot", "simulator"])
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_each_node(program: str, number: signal.Signals, master: PrivateMaster) -> None:
-    """After SIGINT or SIGTERM, each node ends without a traceback and unregisters."""
+    """After SIGINT or SIGTERM, each node unregisters and exits without a traceback."""
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
         process.wait_for_service(f"/{program}/get_loggers")
         os.kill(process.pid, number)
@@ -168,7 +165,7 @@ def test_a_signal_ends_each_node(program: str, number: signal.Signals, master: P
     ],
 )
 def test_an_invalid_parameter_is_refused(command: tuple[str, ...], message: str) -> None:
-    """The message contains the parameter and its value, and the exit status of the program is 1."""
+    """The error message contains the parameter and its value, and the exit status is 1."""
     with NodeProcess(["rosrun", "course_pkg", *command]) as process:
         assert process.wait(10) == 1
         assert message in process.output()

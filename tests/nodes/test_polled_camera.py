@@ -1,4 +1,4 @@
-"""The node `polled_camera` takes a picture for each call."""
+"""Tests of the node `polled_camera`, which takes a picture for each call."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg polled_camera`, and no other node."""
+    """Run only `rosrun course_pkg polled_camera`."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera"]) as process:
         process.wait_for_service("/request_image")
         yield process
@@ -35,7 +35,7 @@ def take(width: int = 0, height: int = 0) -> PolledImageResponse:
     ("asked", "size"), [((0, 0), (320, 240)), ((64, 0), (64, 240)), ((17, 33), (17, 33))]
 )
 def test_a_picture_has_the_requested_size(asked: tuple[int, int], size: tuple[int, int]) -> None:
-    """The picture has the requested size, or the camera's usual size for 0, and shows the customers."""
+    """The picture has the requested size, or the default size if the request is 0."""
     taken = take(*asked)
     image = taken.image
     assert (image.width, image.height, image.step, image.encoding) == (*size, 3 * size[0], "rgb8")
@@ -49,7 +49,7 @@ def test_a_picture_has_the_requested_size(asked: tuple[int, int], size: tuple[in
     [((15, 0), "width: 15 does not fit"), ((0, 1281), "height"), ((2**32 - 1, 1), "width")],
 )
 def test_an_impossible_size_is_refused(asked: tuple[int, int], words: str) -> None:
-    """The error message contains the limits, and the next call works."""
+    """The error message contains the limits of the size."""
     with pytest.raises(rospy.ServiceException, match=f"{words}.*expected 16 to 1280 points"):
         take(*asked)
     assert take().image.data
@@ -57,7 +57,7 @@ def test_an_impossible_size_is_refused(asked: tuple[int, int], words: str) -> No
 
 @pytest.mark.usefixtures("camera")
 def test_a_picture_shows_the_customers_at_the_counter() -> None:
-    """While shop_camera runs, the picture shows its customers. Without shop_camera, the number is random."""
+    """While shop_camera runs, the picture shows the customers of shop_camera."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         for customers in (0, 3, 5):
@@ -67,7 +67,7 @@ def test_a_picture_shows_the_customers_at_the_counter() -> None:
 
 
 def test_even_the_first_picture_shows_the_customers() -> None:
-    """If the camera starts while customers are present, its first picture shows their number."""
+    """If customers are present at the start of the camera, the first picture shows them."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         BoundedProxy("/let_in", LetIn)(after=[0.0] * 9, stay=600.0)
@@ -77,7 +77,7 @@ def test_even_the_first_picture_shows_the_customers() -> None:
 
 
 def test_the_camera_can_publish_a_stream() -> None:
-    """With `_stream:=30`, the camera publishes pictures of its usual size, and still answers calls."""
+    """With `_stream:=30`, the camera publishes pictures and still responds to calls."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera", "_stream:=30"]) as process:
         process.wait_for_service("/request_image")
         heard = terminal("rostopic", "echo", "-n", "2", "--noarr", "/image")
@@ -87,7 +87,7 @@ def test_the_camera_can_publish_a_stream() -> None:
 
 @pytest.mark.parametrize("settings", [[], ["_stream:=30"]])
 def test_an_interrupt_ends_the_camera(settings: list[str], master: PrivateMaster) -> None:
-    """After SIGINT, the camera ends without a traceback and unregisters."""
+    """After SIGINT, the camera unregisters and exits without a traceback."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera", *settings]) as process:
         process.wait_for_service("/request_image")
         os.kill(process.pid, signal.SIGINT)

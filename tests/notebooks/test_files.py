@@ -1,4 +1,4 @@
-"""The files that notebooks write do not disturb ROS, and each stored check has passed."""
+"""Tests of the files that notebooks write, and of their stored check reports."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.mark.parametrize("path", sorted((ROOT / "solutions").glob("*.ipynb")), ids=lambda path: path.stem)
 def test_no_file_has_the_name_of_one_of_the_course(path: Path) -> None:
-    """If there are two files X, `roslaunch course_pkg X` does not choose one of them, and fails.
+    """A notebook does not write a file with the same name as a file of the course.
 
-    The files below src/ belong to a student's package.
+    Files below src/ are exceptions, because they belong to a student's package.
     """
     written = {
         Path(found).name

@@ -1,4 +1,4 @@
-"""Every chapter has the structure that the course promises, with more prose than code."""
+"""Tests of the structure of every chapter."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ SOLUTIONS = sorted((ROOT / "solutions").glob("*.ipynb"))
 
 @pytest.fixture(params=SOLUTIONS, ids=lambda path: path.stem)
 def cells(request: pytest.FixtureRequest) -> list[Cell]:
-    """Return the cells of one chapter; each source is one string."""
+    """Return the cells of a chapter."""
     notebook = json.loads(request.param.read_text("utf-8"))
     return [{**cell, "source": "".join(cell["source"])} for cell in notebook["cells"]]
 
 
 def prose(cells: list[Cell]) -> str:
-    """Return all text of a chapter."""
+    """Return the whole prose of a chapter."""
     return "\n\n".join(cell["source"] for cell in cells if cell["cell_type"] == "markdown")
 
 
@@ -40,7 +40,7 @@ def test_chapter_begins_with_contents_requirements_and_time(cells: list[Cell]) -
 
 
 def test_a_chapter_has_a_prediction_a_picture_and_three_exercises(cells: list[Cell]) -> None:
-    """Each chapter has a prediction with a comparison, a picture of the graph, and three checked parts."""
+    """Each chapter has a prediction, a picture of the graph, and three checks."""
     source = "\n".join(code(cells))
     assert source.count("predict(") >= 1
     assert source.count("predict(") == source.count(".compare(")
@@ -55,16 +55,13 @@ def test_chapter_ends_with_a_summary_and_a_link(cells: list[Cell]) -> None:
 
 
 def test_links_lead_somewhere(cells: list[Cell]) -> None:
-    """A link to another chapter names an existing file."""
+    """A link to another chapter contains the name of an existing file."""
     targets = re.findall(r"\]\((\w+\.ipynb)\)", prose(cells))
     assert [target for target in targets if not (ROOT / "solutions" / target).exists()] == []
 
 
 def test_code_is_short_and_prose_carries_it(cells: list[Cell]) -> None:
-    """A cell has at most 15 lines, and half of the cells have at most 4.
-
-    There are five words of prose for each line of code.
-    """
+    """A cell has at most 15 lines, and a chapter has five words of prose for each line of code."""
     lengths = [len(cell["source"].splitlines()) for cell in cells if cell["cell_type"] == "code"]
     shown = [
         len(cell["source"].splitlines())
@@ -77,7 +74,7 @@ def test_code_is_short_and_prose_carries_it(cells: list[Cell]) -> None:
 
 
 def test_prose_is_plain_markdown(cells: list[Cell]) -> None:
-    """The prose contains no HTML, so that each viewer shows it in the same way."""
+    """The prose contains no HTML."""
     assert re.findall(r"</?[a-z]+[ >]", re.sub(r"`[^`]*`", "", prose(cells))) == []
 
 

@@ -1,4 +1,4 @@
-"""README, the first page and the chapters agree on the paths, the titles and the times."""
+"""Tests that README, the first page and the chapters contain the same paths, titles and times."""
 
 from __future__ import annotations
 
@@ -19,10 +19,7 @@ RANGE = re.compile(r"\[(\d\d)\]\(\w+\.ipynb\) to \[(\d\d)\]")
 
 
 def needed(chapter: Chapter) -> set[str]:
-    """Return the numbers of the chapters that a chapter requires.
-
-    They are in the first sentence about requirements.
-    """
+    """Return the numbers of the chapters that the requirements of a chapter contain."""
     sentence = chapter.need.split(". ")[0]
     ranges = RANGE.findall(sentence)
     between = {f"{number:02}" for first, last in ranges for number in range(int(first), int(last) + 1)}
@@ -32,7 +29,7 @@ def needed(chapter: Chapter) -> set[str]:
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.name)
 def test_a_path_needs_no_chapter_outside_it(path: LearningPath) -> None:
-    """Each chapter needs only chapters that come before it on the same path."""
+    """Each chapter on a path needs only earlier chapters on this path."""
     for choice in path.choices:
         before: set[str] = set()
         for chapter in choice.chapters:
@@ -42,7 +39,7 @@ def test_a_path_needs_no_chapter_outside_it(path: LearningPath) -> None:
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.name)
 def test_the_readme_has_the_path_with_its_time(path: LearningPath) -> None:
-    """README states for each path the same times as the first page of the site."""
+    """README contains the same times for each path as the first page of the site."""
     row = next(line for line in README.splitlines() if line.startswith(f"| {path.name} |"))
     assert [choice.hours for choice in path.choices if choice.hours not in row] == []
     assert path.afterwards in row
@@ -50,7 +47,7 @@ def test_the_readme_has_the_path_with_its_time(path: LearningPath) -> None:
 
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda chapter: chapter.number)
 def test_the_readme_has_the_chapter_with_its_time(chapter: Chapter) -> None:
-    """README states the title and the time of each chapter as its notebook does."""
+    """README contains the title and the time of each notebook."""
     row = next(line for line in README.splitlines() if line.startswith(f"| {chapter.number} |"))
     assert f"[{chapter.title}](notebooks/{chapter.name}.ipynb)" in row
     assert f"| {chapter.minutes} min |" in row

@@ -1,4 +1,4 @@
-"""A viewer without widgets and without a kernel shows a picture for each panel and plot of a solution."""
+"""Tests that each panel and plot in a stored solution has a picture."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ ROOT = Path(__file__).parents[2]
 SOLUTIONS = sorted((ROOT / "solutions").glob("*.ipynb"))
 NAMES = "|".join([*panels.__all__, "predictions"])
 OF_A_PANEL = re.compile(rf"(?:{NAMES})\(.*\)|What really happened: [\s\S]*")
-LIMIT = 1_000_000  # bytes; GitHub does not show larger notebooks
+LIMIT = 1_000_000  # GitHub does not show notebooks with more bytes than this limit.
 
 
 def outputs(path: Path) -> Iterator[tuple[str, Output]]:
-    """Yield each output with a plain text in a stored notebook, together with this text."""
+    """Yield each stored output that has a plain text, and this text."""
     for cell in code_cells(read(path)):
         for output in cell["outputs"]:
             if "text/plain" in output.get("data", {}):
@@ -44,12 +44,12 @@ def test_each_panel_and_plot_has_a_picture(path: Path) -> None:
 
 @pytest.mark.parametrize("path", SOLUTIONS, ids=lambda path: path.stem)
 def test_a_stored_notebook_is_small(path: Path) -> None:
-    """A notebook with all its pictures has less than 1 MB."""
+    """A stored notebook is smaller than LIMIT."""
     assert path.stat().st_size < LIMIT
 
 
 def test_page_of_nbconvert_shows_the_pictures() -> None:
-    """`jupyter nbconvert --to html` starts no kernel and does not use the course's templates."""
+    """A page from `jupyter nbconvert --to html` shows the pictures."""
     path = next(path for path in SOLUTIONS if path.name.startswith("05"))
     page, _ = HTMLExporter().from_filename(str(path))  # type: ignore[no-untyped-call]
     drawn = [output for _, output in outputs(path) if SVG in output["data"]]

@@ -1,4 +1,4 @@
-"""Chapter 13 on a machine that cannot build C++."""
+"""Tests of chapter 13 on a machine without a C++ compiler."""
 
 from __future__ import annotations
 
@@ -20,11 +20,8 @@ def shown(cell: Cell) -> str:
 
 @pytest.mark.timeout(300)
 def test_without_a_compiler_run_all_reaches_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The checks are "not attempted".
-
-    Their text contains the missing tool and the command that installs it.
-    """
-    monkeypatch.setenv("CXX", "/nowhere/c++")  # CMake uses this variable, too
+    """The checks are "not attempted", and their text contains the command that installs the compiler."""
+    monkeypatch.setenv("CXX", "/nowhere/c++")  # CMake also uses this variable.
     notebook = read(next((ROOT / "solutions").glob("13_*.ipynb")))
     executed: list[Notebook] = []
     assert run_all({"13 without a compiler": notebook}, lambda _, ran: executed.append(ran)) == {}

@@ -1,4 +1,4 @@
-"""The overview of a student's progress: its counts, the next steps, and its output formats."""
+"""Tests of the overview of a student's progress."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from tests.setup.test_course import course
 
 @pytest.fixture
 def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Make the course use an empty state folder, and return this folder."""
+    """Create an empty state folder, and return its path."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path / "state"))
     return tmp_path / "state"
 
@@ -38,12 +38,12 @@ def store(verdict: str, *checks: str) -> None:
 
 
 def complete(chapter: str) -> None:
-    """Store a passed result for each part of a chapter."""
+    """Store a pass for each part of a chapter."""
     store("passed", *(part.check for part in parts_of(chapter)))
 
 
 def predicted(key: str, answer: str, actual: str) -> None:
-    """Store the prediction `answer`, and compare it with the result `actual`."""
+    """Store the prediction `answer` and the actual result `actual`."""
     model = PredictionModel(key, "What does the client see?", (), PredictionStore())
     model.answer(answer)
     model.compare(actual)
@@ -51,7 +51,7 @@ def predicted(key: str, answer: str, actual: str) -> None:
 
 @pytest.mark.usefixtures("state")
 def test_at_the_beginning_the_first_chapter_is_next() -> None:
-    """Without any records, the overview lists all chapters, and the next step is chapter 00."""
+    """Without any records, the next step is chapter 00."""
     text = str(progress())
     assert text.startswith("Your progress: 0 of ")
     assert [number for number in chapters() if f"\n  {number}  {title_of(number)}" not in text] == []
@@ -70,9 +70,9 @@ def test_fulfilled_goals_are_counted() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_parts_points_and_predictions_are_counted() -> None:
-    """The overview counts parts that have passed once.
+    """The overview counts passed parts, points and predictions.
 
-    It counts predictions that were made before the result was known.
+    Only predictions from before the comparison count.
     """
     store("passed", "05.1", "05.2")
     store("not yet", "05.2", "05.3")
@@ -104,7 +104,7 @@ def test_parts_points_and_predictions_are_counted() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_after_a_complete_chapter_each_path_has_its_next_chapter() -> None:
-    """The next steps contain neither complete chapters nor paths without the current chapter."""
+    """The next steps contain only chapters that are not complete."""
     complete("00")
     text = " ".join(str(progress()).split())
     assert "Next: Chapter 01, Name things and find them, for the whole course" in text
@@ -118,7 +118,7 @@ def test_after_a_complete_chapter_each_path_has_its_next_chapter() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_at_the_end_there_is_nothing_left() -> None:
-    """If all parts have passed, the overview says so; there is no next step."""
+    """If all parts have passed, the overview contains no next step."""
     for number in chapters():
         complete(number)
     assert "Next: You have passed all parts of the course." in str(progress())
@@ -126,20 +126,14 @@ def test_at_the_end_there_is_nothing_left() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_an_unknown_chapter_is_refused() -> None:
-    """The message contains the numbers of the first and the last chapter.
-
-    A number without its leading zero is accepted.
-    """
+    """The error message contains the first and the last chapter number."""
     with pytest.raises(UnknownCheck, match=r"no chapter '99'. Give a number from 00 to 16"):
         progress("99")
     assert str(progress("5")) == str(progress("05"))
 
 
 def test_damaged_records_are_reported_and_the_others_are_shown(state: Path) -> None:
-    """For each damaged file, the overview shows a message in each of its forms.
-
-    It also shows all other records.
-    """
+    """The overview contains a message for each damaged record, and shows all other records."""
     store("passed", "05.1", "05.2")
     (state / "results-2" / "05.2.json").write_text("{")
     (state / "predictions-2.json").write_text('{"05.none": {"key": 5, "question": null}}')
@@ -174,7 +168,7 @@ def rows(text: str) -> list[dict[str, str]]:
 
 @pytest.mark.usefixtures("state")
 def test_the_table_has_a_row_for_each_part_and_prediction() -> None:
-    """The table contains every part of the course, with its result and its times."""
+    """The table contains every part of the course with its result and times."""
     store("passed", "05.1")
     store("not yet", "05.1")
     predicted("05.none", "two", "one")
@@ -189,10 +183,7 @@ def test_the_table_has_a_row_for_each_part_and_prediction() -> None:
 
 
 class Tags(HTMLParser):
-    """Collects the tags of a page with their attributes.
-
-    It asserts that all tags are closed in the right order.
-    """
+    """Collects the tags of a page. Asserts that all tags are closed in the right order."""
 
     def __init__(self, text: str) -> None:
         super().__init__()
@@ -208,13 +199,13 @@ class Tags(HTMLParser):
             self.open.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
-        """Assert that the tag that was opened last is closed first."""
+        """Assert that the tag closes the last open tag."""
         assert self.open.pop() == tag
 
 
 @pytest.mark.usefixtures("state")
 def test_the_page_needs_no_other_files() -> None:
-    """The exported page contains its style sheet, but no scripts, links or pictures."""
+    """The page contains a style sheet, but no scripts, links or pictures."""
     store("passed", "05.1")
     tags = Tags(page(progress().progress)).found
     names = {name for name, _ in tags}
@@ -225,7 +216,7 @@ def test_the_page_needs_no_other_files() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_a_notebook_gets_text_and_html_with_links_to_the_chapters() -> None:
-    """The output of a cell has a link to each notebook in the same folder."""
+    """The output of a cell contains a link to each notebook."""
     bundle = progress()._repr_mimebundle_()
     assert bundle["text/plain"] == str(progress())
     links = {attributes["href"] for name, attributes in Tags(bundle["text/html"]).found if name == "a"}
@@ -247,7 +238,7 @@ def test_the_table_of_predictions_shows_the_progress_in_its_chapter() -> None:
 
 
 def test_the_table_of_predictions_works_with_damaged_records(state: Path) -> None:
-    """The table shows a message about the damaged record, and the cell raises no error."""
+    """With a damaged record, the table shows a message, and the cell raises no error."""
     store("passed", "05.1")
     (state / "results-2" / "05.1.json").write_text("{")
     assert "05.1" in predictions("05").row["problems"][0]
@@ -255,7 +246,7 @@ def test_the_table_of_predictions_works_with_damaged_records(state: Path) -> Non
 
 @pytest.mark.usefixtures("state")
 def test_without_checks_the_table_of_predictions_shows_no_progress() -> None:
-    """During grading, the sandbox hides the checks. The table then shows only the predictions."""
+    """Without the checks, the table shows only the predictions."""
     panel = predictions("77")
     assert isinstance(panel, Predictions)
     assert panel.row == {}
@@ -263,14 +254,14 @@ def test_without_checks_the_table_of_predictions_shows_no_progress() -> None:
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_a_chapter_has_the_title_and_the_name_of_its_notebook(path: Path) -> None:
-    """The package has the same title and file name as the notebook, so that the links are correct."""
+    """The package and the notebook contain the same title and file name."""
     first = read(path)["cells"][0]["source"].splitlines()[0]
     assert first == f"# {title_of(path.name[:2])}"
     assert notebook_of(path.name[:2]) == path.name
 
 
 def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
-    """`course progress` prints the overview, or writes it to the files that the options name."""
+    """`course progress` prints the overview, or writes it to the files in the options."""
     store("passed", "05.1")
     shown = course("progress", "05", COURSE_STATE=str(state))
     assert (shown.returncode, shown.stderr) == (0, "")
@@ -283,7 +274,7 @@ def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
 
 
 def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None:
-    """The message contains the name of the file that cannot be written, or the unknown chapter."""
+    """The error message contains the unknown chapter, or the file that cannot be written."""
     refused = course("progress", "--csv", str(tmp_path), COURSE_STATE=str(state))
     assert refused.returncode == 1
     assert refused.stderr.startswith(f"course: {tmp_path} cannot be written")
@@ -292,7 +283,7 @@ def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None
 
 
 def test_two_kernels_lose_no_prediction(state: Path) -> None:
-    """If two kernels store a prediction each, the file contains both predictions."""
+    """If two kernels each store a prediction, the file contains both."""
     one, other = PredictionStore(), PredictionStore()
     PredictionModel("05.a", "?", (), one).answer("yes")
     PredictionModel("05.b", "?", (), other).answer("no")

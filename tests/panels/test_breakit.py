@@ -27,14 +27,14 @@ from tests.support import eventually
 
 @dataclass
 class Paper:
-    """A stage that causes no fault; it records how it is used."""
+    """A fake stage that causes no fault, and records its calls."""
 
     done: list[str] = field(default_factory=list)
     fails: bool = False
     holds: threading.Event | None = None
 
     def stage(self, fault: Fault) -> Sheet:
-        """Return the scene of a fault."""
+        """Return the fake scene of a fault."""
         return Sheet(self, fault.name)
 
     def use(self, sheet: Sheet, tool: str) -> Seen:
@@ -47,25 +47,25 @@ class Paper:
 
 @dataclass
 class Sheet:
-    """A scene that records when its fault is caused and when it is undone."""
+    """A fake scene that records the calls of cause() and undo()."""
 
     paper: Paper
     name: str
     keeper: Seen = field(default_factory=lambda: Seen("the server's program\n", "", 0.0, 0))
 
     def cause(self) -> None:
-        """Record that the fault is caused, or raise an error."""
+        """Record the call, or raise an error."""
         if self.paper.fails:
             raise ConnectionRefusedError(111, "Connection refused")
         self.paper.done.append(f"cause {self.name}")
 
     def undo(self) -> None:
-        """Record the end."""
+        """Record the call."""
         self.paper.done.append(f"undo {self.name}")
 
 
 class Lab:
-    """A model of the panel, with its latest state."""
+    """A model of the panel with its latest state."""
 
     def __init__(self, path: Path, *chosen: str) -> None:
         self.paper = Paper()
@@ -76,7 +76,7 @@ class Lab:
         self.state.update(self.model.overview())
 
     def begin(self, name: str) -> dict[str, Plain]:
-        """Open the case with this fault, wait for its symptom, and return its state."""
+        """Open the case with this fault, wait for the symptom, and return the state."""
         number = next(case.number for case in cases() if case.fault.name == name)
         self.model.open(number)
         self.settle()
@@ -88,20 +88,20 @@ class Lab:
 
     @property
     def case(self) -> dict[str, Plain]:
-        """Return the state of the open case, as the page receives it."""
+        """Return the state of the open case."""
         return dict(self.state["case"])
 
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Iterator[Lab]:
-    """Return a model with all cases, on a stage that causes no fault."""
+    """Return a model with all cases on a fake stage."""
     lab = Lab(tmp_path)
     yield lab
     lab.model.close()
 
 
 def test_numbers_of_cases_do_not_reveal_the_fault() -> None:
-    """The order differs from that of the catalogue, and a fault has the same number in every selection."""
+    """The numbers of the cases are not in the order of the catalogue."""
     everything = cases()
     assert [case.number for case in everything] == list(range(1, len(everything) + 1))
     assert [case.fault for case in everything] != list(every_fault())
@@ -113,7 +113,7 @@ def test_numbers_of_cases_do_not_reveal_the_fault() -> None:
 
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.fault.name)
 def test_each_case_has_plausible_options(case: Case) -> None:
-    """A case has five different diagnoses: the right one, and four that are wrong for this fault."""
+    """A case has five different diagnoses, and exactly one of them is right."""
     assert len(set(case.diagnoses)) == OPTIONS
     assert case.fault.diagnosis in case.diagnoses
     assert case.fault.remedy in case.remedies
@@ -131,7 +131,7 @@ def test_right_answers_are_not_always_in_one_place() -> None:
 
 
 def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
-    """Before the answer, the page does not receive the fault's name, its reason, or the right diagnosis."""
+    """Before the answer, the page does not receive the fault's name or the right diagnosis."""
     case = lab.begin("stale")
     assert lab.paper.done == ["cause stale", "again stale"]
     assert case["looks"][0]["said"] == "what again printed"
@@ -143,7 +143,7 @@ def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
 
 
 def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
-    """A click is ignored while a tool runs; the symptom and the latest eight outputs stay on the page."""
+    """While a tool runs, a click has no effect. The page shows only the latest eight outputs."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -162,9 +162,9 @@ def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
 
 
 def test_a_wrong_answer_shows_the_reason_of_the_chosen_fault(lab: Lab) -> None:
-    """The page shows the reason of the fault that the student chose.
+    """After a wrong answer, the page shows the reason of the chosen fault.
 
-    A right answer after this is not a first answer.
+    A right answer after a wrong answer does not count as a first answer.
     """
     case = lab.begin("stale")
     wrong = next(
@@ -186,7 +186,7 @@ def test_a_wrong_answer_shows_the_reason_of_the_chosen_fault(lab: Lab) -> None:
 
 
 def test_a_right_first_answer_is_counted(lab: Lab, tmp_path: Path) -> None:
-    """The result is stored on disk, and another model reads it."""
+    """A right first answer is stored on disk."""
     lab.begin("md5")
     lab.model.answer(named("md5").diagnosis, named("md5").remedy)
     assert lab.state["score"]["first"] == 1
@@ -196,7 +196,7 @@ def test_a_right_first_answer_is_counted(lab: Lab, tmp_path: Path) -> None:
 
 
 def test_an_answer_after_the_solution_is_no_first_answer(lab: Lab) -> None:
-    """The model shows the solution; a right answer after this does not count as a first answer."""
+    """A right answer after the solution does not count as a first answer."""
     lab.begin("died")
     lab.model.reveal()
     assert lab.case["verdict"]["diagnosis"] == named("died").diagnosis
@@ -208,7 +208,7 @@ def test_an_answer_after_the_solution_is_no_first_answer(lab: Lab) -> None:
 
 
 def test_opening_a_case_undoes_the_previous_fault(lab: Lab) -> None:
-    """There is never more than one fault at a time."""
+    """Opening another case undoes the previous fault."""
     lab.begin("stale")
     lab.begin("md5")
     lab.model.close()
@@ -222,7 +222,7 @@ def test_opening_a_case_undoes_the_previous_fault(lab: Lab) -> None:
 
 
 def test_undo_waits_for_the_running_tool(lab: Lab) -> None:
-    """If the page is closed while a tool runs, the fault does not stay on the graph."""
+    """If the page is closed while a tool runs, the fault is undone after the tool has finished."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -233,7 +233,7 @@ def test_undo_waits_for_the_running_tool(lab: Lab) -> None:
 
 
 def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
-    """The symptom and the outputs are stored, the fault is undone, and the answer is not shown."""
+    """The state for a page without a kernel contains the symptom and the outputs, but no answer."""
     lab.model.play("stale", ["services", "ping"])
     assert lab.paper.done == ["cause stale", "again stale", "services stale", "ping stale", "undo stale"]
     assert [each["tool"] for each in lab.case["looks"]] == ["again", "services", "ping"]
@@ -242,7 +242,7 @@ def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
 
 
 def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
-    """`explain` explains the error message, and everything that was started is ended."""
+    """If a case cannot start, the page shows an explanation, and all its nodes are stopped."""
     lab.paper.fails = True
     lab.begin("stale")
     assert "Connection refused" in lab.state["trouble"]
@@ -254,23 +254,20 @@ def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
 
 
 def test_an_unknown_fault_is_refused() -> None:
-    """An unknown name raises an error that lists the known names."""
+    """The error message for an unknown fault lists the known names."""
     with pytest.raises(UnknownFault, match="groups serving, calling, masters"):
         BreakIt("rust")
 
 
 def test_the_repr_of_the_lab_is_the_same_in_every_run(tmp_path: Path) -> None:
-    """The text of the panel is the same in every run, so that nbval can compare it."""
+    """The plain text of the panel is the same in every run."""
     store = CaseStore(tmp_path / "cases.json")
     assert repr(BreakIt(store=store)) == "BreakIt()"
     assert repr(BreakIt("stale", "serving", store=store)) == "BreakIt('stale', 'serving')"
 
 
 def test_nothing_is_broken_before_a_case_is_pressed(master: PrivateMaster, tmp_path: Path) -> None:
-    """When the panel is shown, nothing changes. Opening a case causes its fault.
-
-    Hiding or closing the lab ends it.
-    """
+    """Opening a case causes its fault, and closing the panel undoes the fault."""
     client = MasterClient(master.uri)
     panel = BreakIt("stale", store=CaseStore(tmp_path / "cases.json"))
     number = panel.cases[0]["number"]

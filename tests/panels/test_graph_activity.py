@@ -1,4 +1,4 @@
-"""The activity on the graph: the rates of topics and the callers of services."""
+"""Tests of topic rates and service callers on the graph."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SERVICES = (
 
 
 def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot:
-    """Return a snapshot; the node `dead`, if given, does not run any more."""
+    """Return a snapshot of the graph in which the node `dead` does not run."""
     names = ("/client", "/listener", "/server", "/talker")
     nodes = tuple(
         NodeSeen(name, "http://localhost:1/", "refused" if name == dead else "answered") for name in names
@@ -32,7 +32,7 @@ def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot
 
 
 class Wall:
-    """A model of the graph panel, and the texts that it shows."""
+    """A model of the graph panel and its displayed texts."""
 
     def __init__(self, snapshot: Snapshot | None = None) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -47,12 +47,12 @@ class Wall:
 
     @property
     def now(self) -> dict[str, Plain]:
-        """Return the activity that the page shows at present."""
+        """Return the displayed activity."""
         return next(each for each in reversed(self.said) if "activity" in each)["activity"]
 
 
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
-    """Return several counts of the messages on /chatter, at different times."""
+    """Return several counts of the messages on /chatter."""
     return [
         Activity(turn * every, (Traffic("/chatter", "/talker", "/listener", 7, count),))
         for turn, count in enumerate(messages)
@@ -60,7 +60,7 @@ def counts(*messages: int, every: float = 2.0) -> list[Activity]:
 
 
 def test_a_rate_is_shown_for_its_topic_and_for_each_connection() -> None:
-    """The rate is below the name of the topic; the details contain the publisher and the subscriber."""
+    """The rate is below the topic's name, and the details contain the publisher and the subscriber."""
     wall = Wall()
     for activity in counts(100, 120, 140):
         wall.model.count(activity)
@@ -69,7 +69,7 @@ def test_a_rate_is_shown_for_its_topic_and_for_each_connection() -> None:
 
 
 def test_a_topic_without_publisher_or_subscriber_has_no_rate() -> None:
-    """Without a publisher or without a subscriber, there is no rate, and the details give the reason."""
+    """Without a publisher or a subscriber, the topic has no rate."""
     wall = Wall()
     wall.model.count(Activity(0.0))
     assert wall.now["notes"]["topic /unheard"] == "no listener"
@@ -86,7 +86,7 @@ def test_before_the_second_count_there_is_no_rate() -> None:
 
 
 def test_a_topic_without_new_messages_has_a_rate_of_zero() -> None:
-    """If the number of messages does not change, the details contain 0 Hz and this number."""
+    """If the number of messages does not change, the details contain 0 Hz."""
     wall = Wall()
     for activity in counts(3, 3, 3):
         wall.model.count(activity)
@@ -96,7 +96,7 @@ def test_a_topic_without_new_messages_has_a_rate_of_zero() -> None:
 
 
 def test_nodes_that_are_not_connected() -> None:
-    """A publisher and a subscriber of different types never connect; the details give this reason."""
+    """For a publisher and a subscriber of different types, the details contain this reason."""
     wall = Wall()
     wall.model.count(Activity(0.0))
     assert wall.now["notes"]["topic /chatter"] == "unconnected"
@@ -104,10 +104,7 @@ def test_nodes_that_are_not_connected() -> None:
 
 
 def test_a_publisher_that_does_not_report_counts() -> None:
-    """If a node does not count its messages, it has no rate.
-
-    The panel does not report that it does not answer.
-    """
+    """If a node does not count its messages, the panel shows no rate and no error."""
     wall = Wall()
     wall.model.count(Activity(0.0, silent=frozenset({"/talker"})))
     assert wall.now["notes"]["topic /chatter"] == "not counted"
@@ -115,7 +112,7 @@ def test_a_publisher_that_does_not_report_counts() -> None:
 
 
 def test_several_publishers_add_up_and_several_listeners_do_not() -> None:
-    """The rate of a topic is the sum of its publishers' rates; the number of subscribers has no influence."""
+    """A topic's rate is the sum of the rates of its publishers."""
     topic = TopicSeen("/chatter", "std_msgs/String", ("/talker", "/server"), ("/listener", "/client"))
     wall = Wall(graph(topics=(topic,)))
     for turn in range(3):
@@ -126,7 +123,7 @@ def test_several_publishers_add_up_and_several_listeners_do_not() -> None:
 
 
 def test_counts_never_draw_again_and_are_sent_only_if_they_change() -> None:
-    """When the rates are known and nothing changes on the graph, the panel sends nothing."""
+    """If the rates do not change, the panel sends nothing."""
     wall = Wall()
     for activity in counts(*range(0, 800, 20)):
         wall.model.count(activity)
@@ -135,7 +132,7 @@ def test_counts_never_draw_again_and_are_sent_only_if_they_change() -> None:
 
 
 def test_notes_fit_below_the_name_of_a_topic() -> None:
-    """The text below the name of a topic has at most 12 characters."""
+    """The text below a topic's name has at most 12 characters."""
     wall = Wall()
     for activity in [*counts(0, 20, 40), Activity(6.0), Activity(8.0, silent=frozenset({"/talker"}))]:
         wall.model.count(activity)
@@ -145,7 +142,7 @@ def test_notes_fit_below_the_name_of_a_topic() -> None:
 
 
 def test_many_connections_are_shortened() -> None:
-    """A hundred connections are shown as one summary, not as a hundred lines."""
+    """A hundred connections are shown as one summary."""
     listeners = tuple(f"/listener_{number}" for number in range(100))
     wall = Wall(graph(topics=(TopicSeen("/chatter", "a/B", ("/talker",), listeners),)))
     wall.model.count(Activity(0.0))
@@ -161,7 +158,7 @@ CALLERS = {
 
 
 def test_callers_are_listed_and_ended_callers_are_marked() -> None:
-    """Each service lists its callers, the latest first; a caller that has left the graph has a mark."""
+    """The latest caller of a service comes first, and a caller that has left the graph has a mark."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert wall.now["callers"]["service /robot/ask"] == [
@@ -175,7 +172,7 @@ def test_callers_are_listed_and_ended_callers_are_marked() -> None:
 
 
 def test_a_killed_caller_is_gone() -> None:
-    """A node that is registered but whose process has ended is shown as ended."""
+    """A registered caller whose process was killed has a mark."""
     wall = Wall(graph(dead="/client"))
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert [each["gone"] for each in wall.now["callers"]["service /robot/ask"]] == [True, True]
@@ -183,14 +180,14 @@ def test_a_killed_caller_is_gone() -> None:
 
 
 def test_a_server_that_does_not_report_callers_is_left_out() -> None:
-    """If a server does not report its callers, the list does not contain its service."""
+    """The list contains no service whose server does not report its callers."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers={"/robot/tell": ()}))
     assert set(wall.now["callers"]) == {"service /robot/tell"}
 
 
 def test_the_line_of_a_call_leads_to_the_folded_box_of_its_service() -> None:
-    """A folded namespace has one line for the calls of all its services; it shows the latest call."""
+    """A folded namespace has one line for all calls of its services."""
     wall = Wall()
     later = {**CALLERS, "/robot/tell": (ServiceCaller("/client", 1, 2000.0, 1),)}
     wall.model.count(Activity(0.0, callers=later))
@@ -202,7 +199,7 @@ def test_the_line_of_a_call_leads_to_the_folded_box_of_its_service() -> None:
 
 
 def test_a_hidden_caller_is_not_gone() -> None:
-    """If the kernel's own node is hidden, its calls are still listed, as those of a running node."""
+    """If the kernel's node is hidden, the panel still lists its calls."""
     said: list[dict[str, Plain]] = []
     model = GraphModel(lambda **parts: said.append(parts), own="/client")
     model.see(graph())
@@ -212,7 +209,7 @@ def test_a_hidden_caller_is_not_gone() -> None:
 
 
 def test_the_details_contain_the_fields_of_a_type() -> None:
-    """A click on a topic or a service shows the fields of its type."""
+    """The details of a topic or a service contain the fields of its type."""
     wall = Wall()
     facts = {each["key"]: dict(each["facts"]) for each in wall.said[-1]["facts"]}
     assert facts["topic /chatter"]["fields"] == "string data"
@@ -225,14 +222,14 @@ def test_the_details_contain_the_fields_of_a_type() -> None:
 
 @pytest.mark.parametrize("kind", ["nowhere/Thing", "nonsense", ""])
 def test_a_type_that_is_not_here(kind: str) -> None:
-    """If this machine does not know a type, or if no node has registered it, there is no error."""
+    """The details of an unknown type cause no error."""
     wall = Wall(graph(topics=(TopicSeen("/t", kind, ("/talker",), ()),)))
     facts = dict(next(each for each in wall.said[-1]["facts"] if each["key"] == "topic /t")["facts"])
     assert facts.get("fields", "").startswith("nowhere/Thing: no message type" if "/" in kind else "")
 
 
 def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
-    """A saved picture needs no other file, and it contains no buttons."""
+    """A saved picture contains its colours, and no buttons."""
     wall = Wall()
     for activity in counts(100, 120, 140):
         wall.model.count(activity)
@@ -246,7 +243,7 @@ def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
 
 
 def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) -> RateMeter:
-    """Count a steady rate every 2 s; each count is read up to `late` s after it was made."""
+    """Return counts of a steady rate. The count of each 2 s is read up to `late` s later."""
     meter, chance = RateMeter(), random.Random(seed)  # noqa: S311 - a test's own dice
     for turn in range(int(seconds / 2) + 1):
         meter.read(2.0 * turn + chance.uniform(0, late), int(rate * 2 * turn))
@@ -255,20 +252,20 @@ def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) ->
 
 @pytest.mark.parametrize("rate", [0.2, 0.5, 1, 5, 10, 15, 62, 100, 1000])
 def test_a_steady_rate_is_found_and_does_not_change(rate: float) -> None:
-    """After 30 s, the panel shows the publisher's rate, at whatever times it reads the counts."""
+    """After 30 s, the panel shows the exact rate of the publisher."""
     seen = {counted(rate, seconds, late=0.03).rate for seconds in range(34, 60, 2)}
     assert len(seen) == 1
     assert seen.pop() == pytest.approx(rate, rel=0.06 if rate > 1 else 0.2)
 
 
 def test_two_counts_are_enough_for_a_first_number() -> None:
-    """There is no rate after one count, but there is one after two counts with 2 s between them."""
+    """Two counts with 2 s between them give a rate."""
     assert counted(10, 0).rate is None
     assert counted(10, 2).rate == pytest.approx(10, abs=1)
 
 
 def test_the_end_of_messages_and_a_new_rate_are_noticed_soon() -> None:
-    """If a publisher stops, 0 Hz is shown soon; if the rate changes, old counts are not used any more."""
+    """The panel soon shows a new rate, or 0 Hz if the publisher has stopped."""
     meter = counted(10, 30)
     for at in (32.0, 34.0, 36.0):
         meter.read(at, 300)
@@ -279,7 +276,7 @@ def test_the_end_of_messages_and_a_new_rate_are_noticed_soon() -> None:
 
 
 def test_a_restarted_publisher_is_counted_from_its_start() -> None:
-    """If a count decreases, it belongs to a new connection; a rate is never negative."""
+    """If a count decreases, the rate is counted again from zero."""
     meter = counted(10, 30)
     meter.read(32.0, 4)
     assert meter.rate is not None
@@ -306,7 +303,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The panel shows the number with the fewest digits that is within the uncertainty."""
+    """The panel shows the fewest digits that are within the uncertainty."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 
@@ -322,13 +319,13 @@ def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, show
     ],
 )
 def test_a_rate_as_text(rate: float, shown: str) -> None:
-    """The rate has a unit, and fits below the name of a topic."""
+    """The rate has a unit and at most 12 characters."""
     assert rate_text(rate) == shown
     assert len(shown) <= 12
 
 
 def test_a_connection_that_has_ended_has_no_rate() -> None:
-    """If a topic is not counted any more, it has no rate."""
+    """A topic without a connection has no rate."""
     rates, carried = Rates(), Traffic("/t", "/a", "/b", 1, 10)
     rates.read(Activity(0.0, (carried,)))
     rates.read(Activity(2.0, (Traffic("/t", "/a", "/b", 1, 30),)))

@@ -1,4 +1,4 @@
-"""Namespaces in the picture of the graph: with a frame, or as one folded box."""
+"""Tests of framed and folded namespaces in the graph."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def graph(*topics: tuple[str, str, str], services: dict[str, str] | None = None) -> Snapshot:
-    """Return a snapshot of topics, given as (publisher, topic, subscriber), and of the services of nodes."""
+    """Return a snapshot of topics (publisher, topic, subscriber) and services."""
     offered = services or {}
     names = sorted({name for who, _, whom in topics for name in (who, whom)} | set(offered.values()))
     return Snapshot(
@@ -49,7 +49,7 @@ NESTED = graph(
 
 
 def many(count: int) -> Snapshot:
-    """Return a snapshot of `count` turtles; each turtle has a namespace with three topics."""
+    """Return a snapshot of `count` turtles with three topics each."""
     kinds = ("pose", "color", "scan")
     return graph(*(("/sim", f"/turtle{n}/{kind}", "/watch") for n in range(count) for kind in kinds))
 
@@ -60,7 +60,7 @@ def names(shown: Picture) -> set[str]:
 
 
 def test_a_namespace_has_two_or_more_shapes() -> None:
-    """A namespace needs two shapes; if two namespaces have the same shapes, only the inner one is used."""
+    """A namespace has at least two shapes."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}
@@ -68,17 +68,14 @@ def test_a_namespace_has_two_or_more_shapes() -> None:
 
 
 def test_a_small_graph_is_framed_and_not_folded() -> None:
-    """All shapes are drawn, and a frame shows which shapes belong to a namespace."""
+    """In a small graph, each namespace has a frame, and all shapes are drawn."""
     shown = folded(picture(TURTLE), {})
     assert names(shown) == names(picture(TURTLE))
     assert {frame.name: len(frame.members) for frame in shown.frames} == {"/turtle1/": 3}
 
 
 def test_a_folded_namespace_is_one_box_with_all_lines() -> None:
-    """A line to a shape in the folded namespace leads to the box.
-
-    There is one for each direction and kind.
-    """
+    """All lines to the shapes of a folded namespace end at its box."""
     shown = folded(picture(TURTLE), {"/turtle1/": True})
     assert names(shown) == {"/sim", "/monitor", "/teleop", "/clear", "/turtle1/"}
     box = "namespace /turtle1/"
@@ -97,7 +94,7 @@ def test_a_folded_namespace_is_one_box_with_all_lines() -> None:
 
 
 def test_lines_inside_a_box_are_not_drawn() -> None:
-    """A line inside the namespace is not drawn as a line from the box to itself."""
+    """A folded box has no line to itself."""
     shown = folded(picture(NESTED), {"/robot/": True})
     assert names(shown) == {"/screen", "/robot/"}
     assert set(shown.lines) == {
@@ -107,7 +104,7 @@ def test_lines_inside_a_box_are_not_drawn() -> None:
 
 
 def test_a_box_within_a_frame() -> None:
-    """An inner namespace can be folded alone; its box is in the frame of the outer namespace."""
+    """A folded inner namespace is a box in the frame of the outer namespace."""
     shown = folded(picture(NESTED), {"/robot/arm/": True})
     frames = {frame.name: frame.members for frame in shown.frames}
     assert set(frames) == {"/robot/", "/robot/base/"}
@@ -127,7 +124,7 @@ def test_a_large_graph_is_folded_unless_the_student_chose() -> None:
 
 
 def test_a_namespace_with_most_shapes_is_not_folded() -> None:
-    """A namespace that contains most of the graph is not folded, but the namespaces inside it are."""
+    """A namespace with most shapes of the graph is not folded."""
     parts = (("/all/sim", f"/all/turtle{n}/{kind}", "/all/watch") for n in range(12) for kind in "abc")
     shown = folded(picture(graph(*parts)), {})
     assert [frame.name for frame in shown.frames] == ["/all/"]
@@ -135,7 +132,7 @@ def test_a_namespace_with_most_shapes_is_not_folded() -> None:
 
 
 def test_a_box_shows_that_a_node_does_not_answer() -> None:
-    """A folded namespace shows that it contains a node that does not answer."""
+    """A folded namespace shows that one of its nodes does not respond."""
     seen = graph(("/robot/a", "/robot/x", "/robot/b"))
     nodes = tuple(NodeSeen(each.name, each.uri, "refused") for each in seen.nodes[:1]) + seen.nodes[1:]
     whole = picture(Snapshot(seen.master, nodes, seen.topics, seen.services))
@@ -145,7 +142,7 @@ def test_a_box_shows_that_a_node_does_not_answer() -> None:
 
 
 def test_a_frame_contains_exactly_its_shapes() -> None:
-    """The frame contains exactly the shapes of the namespace."""
+    """A frame contains exactly the shapes of its namespace."""
     layout = laid_out(folded(picture(NESTED), {}))
     assert [framed.frame.name for framed in layout.frames] == ["/robot/", "/robot/arm/", "/robot/base/"]
     for framed in layout.frames:
@@ -159,7 +156,7 @@ def test_a_frame_contains_exactly_its_shapes() -> None:
 
 
 def test_a_wide_drawing_is_turned_upright() -> None:
-    """A long chain of nodes is drawn from top to bottom, because it would be several pages wide."""
+    """A long chain of nodes is drawn from top to bottom."""
     chain = graph(*((f"/node_{n}", f"/topic_{n}", f"/node_{n + 1}") for n in range(9)))
     layout = laid_out(picture(chain))
     assert layout.width < WIDE
@@ -171,10 +168,7 @@ def test_a_wide_drawing_is_turned_upright() -> None:
 
 
 def test_frame_and_box_are_one_button_in_two_states() -> None:
-    """A frame and its box have the same key, so that the focus stays on it.
-
-    Both say whether the namespace is expanded.
-    """
+    """A frame and its folded box have the same key, so that the keyboard focus does not change."""
     for fold, state in ((False, "true"), (True, "false")):
         root = ElementTree.fromstring(svg(laid_out(folded(picture(TURTLE), {"/turtle1/": fold}))))  # noqa: S314 - our own
         button = next(each for each in root.iter(f"{SVG}g") if each.get("data-key") == "namespace /turtle1/")
@@ -186,13 +180,13 @@ def test_frame_and_box_are_one_button_in_two_states() -> None:
 
 
 def said() -> tuple[GraphModel, list[dict[str, object]]]:
-    """Return a model, and the list of the messages that it sends."""
+    """Return a model and the messages that the model sends."""
     heard: list[dict[str, object]] = []
     return GraphModel(lambda **parts: heard.append(parts)), heard
 
 
 def test_a_folded_namespace_stays_folded_when_the_graph_changes() -> None:
-    """A new node does not unfold a namespace that the student has folded."""
+    """A namespace that the student has folded stays folded after a new node appears."""
     model, heard = said()
     model.see(TURTLE)
     assert heard[-1]["spaces"] == [{"name": "/turtle1/", "folded": False}]
@@ -205,7 +199,7 @@ def test_a_folded_namespace_stays_folded_when_the_graph_changes() -> None:
 
 
 def test_the_list_contains_folded_shapes() -> None:
-    """The list below the drawing contains all shapes, even if a namespace is folded."""
+    """The list below the drawing contains all shapes, even those in folded namespaces."""
     model, heard = said()
     model.see(TURTLE)
     before = heard[-1]["facts"]

@@ -1,4 +1,4 @@
-"""The model of the graph panel: pictures, layout, drawing and texts."""
+"""Tests of the graph panel's model."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def snapshot(
     *, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = ""
 ) -> Snapshot:
-    """Return a snapshot of all nodes of these topics and services."""
+    """Return a snapshot of these topics and services with their nodes."""
     names = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
     names |= {service.node for service in services}
     nodes = tuple(
@@ -42,10 +42,7 @@ WHOLE = snapshot(topics=(CHATTER, ROSOUT), services=(GEOMETRY, LOGGERS), dead="/
 
 
 def test_lines_have_the_direction_of_the_data() -> None:
-    """Lines lead from the publisher to the topic and to the subscriber.
-
-    Between a node and its service, they have both directions.
-    """
+    """Lines lead from the publisher to the topic, and from the topic to the subscriber."""
     assert set(picture(WHOLE).lines) == {
         Line("node /talker", "topic /chatter"),
         Line("topic /chatter", "node /listener"),
@@ -54,7 +51,7 @@ def test_lines_have_the_direction_of_the_data() -> None:
 
 
 def test_rosout_and_loggers_are_hidden_by_default() -> None:
-    """/rosout and the logger services are hidden at first."""
+    """By default, /rosout and the logger services are hidden."""
     assert {shape.name for shape in picture(WHOLE).shapes} == {
         "/talker",
         "/listener",
@@ -66,20 +63,20 @@ def test_rosout_and_loggers_are_hidden_by_default() -> None:
 
 
 def test_a_hidden_node_hides_its_services_and_its_own_topics() -> None:
-    """A hidden node has no lines; its services and its own topics are hidden, too."""
+    """The services and topics of a hidden node are hidden."""
     shown = picture(WHOLE, hide=["/server", "/talker"])
     assert {shape.name for shape in shown.shapes} == {"/listener", "/chatter"}
     assert shown.lines == (Line("topic /chatter", "node /listener"),)
 
 
 def test_the_order_of_the_snapshot_does_not_matter() -> None:
-    """The same graph always gives the same picture and the same drawing."""
+    """The same graph always gives the same drawing."""
     turned = Snapshot(WHOLE.master, WHOLE.nodes[::-1], WHOLE.topics[::-1], WHOLE.services[::-1])
     assert picture(turned) == picture(WHOLE)
 
 
 def test_the_graph_as_text_contains_no_port() -> None:
-    """The text is the same in every run; it lists what each node publishes, subscribes to and serves."""
+    """The text lists the topics and services of each node, and is the same in every run."""
     assert graph_text(WHOLE) == (
         "/listener\n  subscribes /chatter  (std_msgs/String)\n"
         "/server\n  serves     /getGeometry  (course_pkg/geometry)\n"
@@ -89,7 +86,7 @@ def test_the_graph_as_text_contains_no_port() -> None:
 
 
 def test_shapes_do_not_overlap_and_lie_inside() -> None:
-    """Graphviz places all shapes without overlap."""
+    """The shapes in a drawing do not overlap."""
     layout = laid_out(picture(WHOLE, noise=True))
     boxes = []
     for placed in layout.shapes:
@@ -106,7 +103,7 @@ def test_shapes_do_not_overlap_and_lie_inside() -> None:
 
 
 def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
-    """A long name keeps its beginning and its end; the description contains the whole name."""
+    """The drawing shows the beginning and the end of a long name."""
     name = "/robot/" + "x" * 60 + "/pose"
     shown = picture(snapshot(topics=(TopicSeen(name, "a/B", ("/n",), ()),)))
     placed = next(each for each in laid_out(shown).shapes if each.shape.kind is Kind.TOPIC)
@@ -116,7 +113,7 @@ def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
 
 
 def test_each_shape_has_an_accessible_name() -> None:
-    """Each shape is a button with an accessible name; if a node does not answer, the name says so."""
+    """Each shape is a button with an accessible name."""
     root = ElementTree.fromstring(svg(laid_out(picture(WHOLE)), description="five shapes"))  # noqa: S314 - it is our own
     buttons = {group.get("aria-label") for group in root.iter(f"{SVG}g") if group.get("role") == "button"}
     assert buttons == {
@@ -129,11 +126,11 @@ def test_each_shape_has_an_accessible_name() -> None:
     assert root.findtext(f"{SVG}desc") == "five shapes"
     assert (
         len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1
-    )  # one arrow for each line, two for the service, and the shape of the service
+    )  # Each line has one arrow, and the service has two arrows and a shape.
 
 
 def test_a_name_cannot_bring_markup_into_the_page() -> None:
-    """The name of a node is shown as text, even if it contains HTML."""
+    """HTML in the name of a node is shown as text."""
     evil = '/<script>alert("x")</script>'
     drawn = svg(laid_out(picture(snapshot(topics=(TopicSeen(evil, "a/B", ("/n",), ()),)))))
     assert "<script" not in drawn
@@ -149,7 +146,7 @@ class Wall:
 
 
 def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
-    """If only a hidden node changes, the picture is not drawn again."""
+    """If only a hidden node changes, the graph is not drawn again."""
     wall = Wall()
     wall.model.see(WHOLE)
     more = ServiceSeen("/server/set_logger_level", "roscpp/SetLoggerLevel", "/server", "x", "answered")
@@ -158,7 +155,7 @@ def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
 
 
 def test_a_choice_draws_again() -> None:
-    """After a change of this option, the hidden names are drawn."""
+    """After the student selects the option, the hidden names are drawn."""
     wall = Wall(own="/server")
     wall.model.see(WHOLE)
     wall.model.choose(noise=True, show_own=False)
@@ -167,7 +164,7 @@ def test_a_choice_draws_again() -> None:
 
 
 def test_without_graphviz_the_list_is_shown(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Without Graphviz, one sentence says what to install, and the list still contains the whole graph."""
+    """Without Graphviz, the panel shows what to install, and the list of the graph."""
     monkeypatch.setenv("PATH", str(tmp_path))
     wall = Wall()
     wall.model.see(WHOLE)
@@ -187,7 +184,7 @@ def test_without_graphviz_the_list_is_shown(monkeypatch: pytest.MonkeyPatch, tmp
 def test_graphviz_has_a_deadline(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, script: str, stretch: str
 ) -> None:
-    """If Graphviz fails or does not end, the panel shows one sentence and continues."""
+    """If Graphviz fails or does not finish, the panel shows one error message."""
     dot = tmp_path / "dot"
     dot.write_text(f"#!/bin/sh\n{script}\n")
     dot.chmod(0o755)
@@ -197,7 +194,7 @@ def test_graphviz_has_a_deadline(
 
 
 def test_a_graph_that_cannot_be_read_keeps_the_old_picture() -> None:
-    """Without a master, the panel shows the reason; when there is a master again, it shows the picture."""
+    """Without a master, the panel shows the reason. With a new master, it shows the graph again."""
     wall = Wall()
     wall.model.see(WHOLE)
     wall.model.lose("No master answers.")
@@ -207,6 +204,6 @@ def test_a_graph_that_cannot_be_read_keeps_the_old_picture() -> None:
 
 
 def test_an_empty_graph_needs_no_graphviz(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """An empty graph raises no error."""
+    """An empty graph causes no error without Graphviz."""
     monkeypatch.setenv("PATH", str(tmp_path))
     assert laid_out(picture(snapshot())) == Layout()

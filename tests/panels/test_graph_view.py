@@ -1,4 +1,4 @@
-"""The widget of the graph panel on a real master, without a page, and its recording."""
+"""Tests of the graph panel's widget on a real master, and of its recording."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from course_pkg.ros import NodeProcess, NodeSeen, PrivateMaster, Snapshot
 from tests.kernel import Kernel
 from tests.support import eventually, stopped
 
-BEGAN = 1_800_000_000.0  # s since the epoch
+BEGAN = 1_800_000_000.0  # This time is in s since the epoch.
 
 
 def shown(drawing: str = "<svg/>", **notes: str) -> tuple[Scene, ActivityState]:
-    """Return a state of the panel: a drawing, and the texts below the names of topics."""
+    """Return a state of the panel with a drawing and the texts below topic names."""
     return {"drawing": drawing, "facts": [], "spaces": [], "trouble": ""}, {"notes": notes}
 
 
 def filled(*states: tuple[Scene, ActivityState]) -> History:
-    """Return a recording of these states, with one state per second."""
+    """Return a recording with one state per second."""
     history = History()
     history.start(BEGAN, *states[0])
     for number, state in enumerate(states[1:], start=1):
@@ -58,7 +58,7 @@ def test_the_repr_is_stable(panel: GraphPanel) -> None:
 
 
 def test_a_rate_appears_while_a_page_shows_the_panel(panel: GraphPanel, kernel: Kernel) -> None:
-    """The panel shows the rate of a connected subscriber; a hidden panel does not call any node."""
+    """A visible panel shows the rate of a topic, and a hidden panel calls no node."""
     kernel.run("from course_pkg.ros import join\nnode = join('listener')")
     kernel.run("node.subscribe('/pulse', 'std_msgs/UInt32')")
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -68,10 +68,7 @@ def test_a_rate_appears_while_a_page_shows_the_panel(panel: GraphPanel, kernel: 
 
 
 def test_the_recording_is_sent_once_when_no_page_shows_the_panel(panel: GraphPanel) -> None:
-    """While a page shows the panel, the recording is not sent.
-
-    When no page shows the panel, the recording is sent once.
-    """
+    """When the page is closed, the panel sends its recording once."""
     told: list[object] = []
     panel.observe(lambda change: told.append(change["new"]), "history")
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -90,7 +87,7 @@ def test_the_recording_is_sent_once_when_no_page_shows_the_panel(panel: GraphPan
 
 
 def test_a_panel_that_is_not_live_records_nothing(pulse: NodeProcess) -> None:
-    """With live=False, there is one picture, and no recording."""
+    """With live=False, the panel sends one picture and no recording."""
     assert pulse.running
     panel = GraphPanel(live=False)
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -100,7 +97,7 @@ def test_a_panel_that_is_not_live_records_nothing(pulse: NodeProcess) -> None:
 
 
 def test_a_click_folds_a_namespace(panel: GraphPanel) -> None:
-    """If the loggers are shown, those of each node are a namespace, and a click folds it."""
+    """A click on a namespace folds the namespace."""
     panel.received("choose", {"noise": True, "show_own": True})
     panel.received("fold", {"name": "/pulse/", "fold": True})
     assert {"name": "/pulse/", "folded": True} in panel.spaces
@@ -109,10 +106,7 @@ def test_a_click_folds_a_namespace(panel: GraphPanel) -> None:
 
 
 def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
-    """After join(), the panel has an option that hides the notebook's own node.
-
-    Before join(), it does not.
-    """
+    """After join(), the panel has an option to hide the notebook's node."""
     own = "from course_pkg import GraphPanel, join\nfrom course_pkg.ros import this_node\n"
     assert kernel.run(own + "result = [this_node(), GraphPanel().own]") == [None, ""]
     joined = (
@@ -124,10 +118,7 @@ def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
 def test_a_node_that_is_late_once_is_not_lost(
     panel: GraphPanel, pulse: NodeProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If a node does not answer once, the panel calls it again.
-
-    It reports the node only after a second failure.
-    """
+    """The panel reports a node only after its second failure to respond."""
     seen = panel._model.snapshot
     assert seen is not None
     late = Snapshot(seen.master, tuple(replace(each, reach="silent") for each in seen.nodes), (), ())
@@ -142,12 +133,12 @@ def test_a_node_that_is_late_once_is_not_lost(
 
 
 def test_an_unchanged_graph_has_no_recording() -> None:
-    """If nothing changes on the graph, the recording is empty."""
+    """If the graph does not change, the recording is empty."""
     assert filled(*[shown()] * 5).state(BEGAN + 9) == {}
 
 
 def test_moments_and_their_scenes() -> None:
-    """A drawing that is shown twice is stored once; times are in ms since the first entry."""
+    """A drawing that is shown twice is stored once."""
     kept = filled(shown("a"), shown("a", x="2 Hz"), shown("b"), shown("a"))
     state = kept.state(BEGAN + 8.5)
     assert state["began"] == BEGAN
@@ -158,14 +149,14 @@ def test_moments_and_their_scenes() -> None:
 
 
 def test_moments_stay_in_order_if_the_clock_is_set_back() -> None:
-    """The entries of the recording are in the order of their times."""
+    """The entries of a recording are in the order of their times."""
     history = filled(shown("a"), shown("b"))
     history.add(BEGAN - 3600, *shown("c"))
     assert [moment[0] for moment in history.state(BEGAN - 3600)["moments"]] == [0, 1000, 1000]
 
 
 def test_nothing_is_recorded_before_the_start_and_after_the_end() -> None:
-    """A panel that no page shows records nothing, and a new start deletes the previous recording."""
+    """A new start deletes the previous recording."""
     history = History()
     history.add(BEGAN, *shown("a"))
     history.start(BEGAN, *shown("b"))
@@ -178,7 +169,7 @@ def test_nothing_is_recorded_before_the_start_and_after_the_end() -> None:
 
 
 def test_the_number_of_moments_is_limited() -> None:
-    """After hours, the recording contains only the newest entries; the first of them is at 0 ms."""
+    """The recording contains only the newest entries."""
     kept = filled(*(shown("a", turn=str(turn)) for turn in range(3 * MOMENTS)))
     moments = kept.state(BEGAN + 3 * MOMENTS)["moments"]
     assert len(moments) == MOMENTS
@@ -186,7 +177,7 @@ def test_the_number_of_moments_is_limited() -> None:
 
 
 def test_the_size_of_a_recording_is_limited() -> None:
-    """If the drawings are too large together, the oldest ones and their entries are removed."""
+    """If the drawings are too large, the oldest drawings are removed."""
     kept = filled(*(shown(f"{turn:020000}") for turn in range(40)))
     state = kept.state(BEGAN + 40)
     assert len(json.dumps(state)) < 1.1 * BYTES
@@ -195,8 +186,5 @@ def test_the_size_of_a_recording_is_limited() -> None:
 
 
 def test_a_drawing_that_is_too_large_is_not_played() -> None:
-    """A drawing that is larger than the limit causes no error.
-
-    The size of the recording stays below the limit.
-    """
+    """A drawing that is larger than the limit is not stored, and causes no error."""
     assert filled(shown("a"), shown("x" * (BYTES + 1)), shown("y" * (BYTES + 1))).state(BEGAN + 3) == {}

@@ -1,4 +1,4 @@
-"""Functions that all panels use: the poller, explanations of errors, and the files of the front ends."""
+"""Tests of the functions that all panels use."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("kind", [GraphPanel, ServicePanel, TypeBrowser], ids=lambda kind: kind.__name__)
 def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Panel]) -> None:
-    """The panel shows the cause, what to do, and the chapter, next to the error message."""
+    """The panel shows the error message with its cause, a next step and a chapter."""
     panel = kind()
     assert "No ROS master" in panel.trouble
     assert panel.explained["cause"].startswith("No master answers")
@@ -55,7 +55,7 @@ def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Pane
 
 
 def test_an_error_of_a_panel_itself_is_explained_if_it_is_known(nowhere: None) -> None:
-    """The explanation of the panel's own error comes first; an unknown error gets no explanation."""
+    """A known error has an explanation, and an unknown error has no explanation."""
     panel = TypeBrowser()
     panel.complain(GraphError("ServiceException: service [/x] unavailable"))
     assert "No node provides" in panel.explained["cause"]
@@ -67,7 +67,7 @@ def test_an_error_of_a_panel_itself_is_explained_if_it_is_known(nowhere: None) -
 
 
 def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaster) -> None:
-    """The wire view shows how a call failed, and an explanation of the error."""
+    """The wire view shows a failed call and explains the error."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_MASTER_URI", master.uri)
         with caused("returns_none"):
@@ -107,7 +107,7 @@ class Polled:
         return self.now
 
     def read_again(self) -> bool:
-        """Return whether the value is read again within the deadline."""
+        """Return whether the poller reads the value again in time."""
         before = self.reads
         return eventually(lambda: self.reads > before + 2)
 
@@ -137,10 +137,7 @@ def test_a_value_is_reported_once(polled: Polled) -> None:
 
 
 def test_an_error_is_reported_once_and_recovery_is_reported(polled: Polled) -> None:
-    """A repeated error is not reported again.
-
-    The next value is reported, even if it is equal to an earlier value.
-    """
+    """A repeated error is reported once, and the next value is reported."""
     polled.now = OSError("gone")
     polled.poller.start()
     eventually(lambda: polled.failed)
@@ -151,7 +148,7 @@ def test_an_error_is_reported_once_and_recovery_is_reported(polled: Polled) -> N
 
 
 def test_an_error_in_the_callback_does_not_end_the_thread(polled: Polled) -> None:
-    """An error in the callback is reported, and the next change of the value is reported, too."""
+    """After an error in the callback, the poller reports the next change."""
     values: list[object] = []
 
     def changed(value: object) -> None:
@@ -166,7 +163,7 @@ def test_an_error_in_the_callback_does_not_end_the_thread(polled: Polled) -> Non
 
 
 def test_stop_ends_the_thread(polled: Polled) -> None:
-    """After stop(), there is no thread; start() starts a new one."""
+    """stop() ends the thread, and start() starts a new thread."""
     polled.poller.start()
     polled.poller.start()
     eventually(lambda: polled.seen)
@@ -178,7 +175,7 @@ def test_stop_ends_the_thread(polled: Polled) -> None:
 
 
 def test_each_import_is_inserted_once(tmp_path: Path) -> None:
-    """If two modules import a third one, the script contains the third module once, before the other two."""
+    """If two modules import a third module, the script contains the third module once."""
     (tmp_path / "kit.js").write_text("export const one = 1;\n")
     (tmp_path / "a.js").write_text(
         'import { one } from "./kit.js";\nexport function two() { return one + one; }\n'
@@ -196,7 +193,7 @@ def test_each_import_is_inserted_once(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda path: path.stem)
 def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
-    """The script of each panel has one default export and declares no name twice."""
+    """The script of each panel has one default export and no imports."""
     joined = module(entry)
     assert joined.count("export ") == 1
     assert "\nimport {" not in joined
@@ -205,13 +202,13 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
 
 
 def test_there_are_panels_to_join() -> None:
-    """The test above is run for every panel."""
+    """At least one panel script exists for the test of each panel."""
     panels = {"choices", "graph", "prediction", "service", "timeline", "topic", "turtles"}
     assert panels <= {entry.stem for entry in ENTRIES}
 
 
 def test_style_sheets_are_in_the_given_order(tmp_path: Path) -> None:
-    """The common styles come first, so that a panel can override them."""
+    """The common styles come before the styles of a panel."""
     (tmp_path / "a.css").write_text("a {}")
     (tmp_path / "b.css").write_text("b {}")
     assert sheet(tmp_path / "a.css", tmp_path / "b.css") == "a {}\nb {}"
@@ -229,7 +226,7 @@ def test_a_model_needs_no_kernel_and_no_ros_node(model: str) -> None:
 
 
 def test_no_name_of_the_course_imports_matplotlib() -> None:
-    """Matplotlib is imported only by a notebook that draws a plot."""
+    """The course imports Matplotlib only to draw a plot."""
     names = "[getattr(course_pkg, name) for name in course_pkg.__all__]"
     code = f"import sys, course_pkg; {names}; print('matplotlib' in sys.modules)"
     done = subprocess.run(

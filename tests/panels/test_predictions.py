@@ -1,4 +1,4 @@
-"""Predictions and choices are stored on disk; their text is the same for every student."""
+"""Tests of the stored predictions and choices."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ CHOICES = ("an empty reply", "an error", "it waits for ever")
 
 @pytest.fixture
 def store(tmp_path: Path) -> PredictionStore:
-    """Return a store of predictions in a folder that does not exist yet."""
+    """Return a store in a folder that does not exist."""
     return PredictionStore(tmp_path / "state" / "predictions.json")
 
 
@@ -37,7 +37,7 @@ def model(store: PredictionStore) -> PredictionModel:
 
 
 def test_an_answer_outlives_the_kernel(model: PredictionModel, store: PredictionStore) -> None:
-    """A model that is created later reads the stored answer."""
+    """A new model reads the stored answer."""
     model.answer("an error")
     again = PredictionModel(model.key, model.question, CHOICES, PredictionStore(store.path))
     assert again.record.answer == "an error"
@@ -45,10 +45,7 @@ def test_an_answer_outlives_the_kernel(model: PredictionModel, store: Prediction
 
 
 def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
-    """The student's answer at the time of the comparison is stored as the prediction.
-
-    The page shows if the answer was changed later.
-    """
+    """A comparison stores the student's answer as the prediction."""
     model.answer("an empty reply")
     record = model.compare("an error")
     assert record.first == "an empty reply"
@@ -60,7 +57,7 @@ def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
 
 
 def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
-    """If the cell with the comparison runs again, a later answer does not replace the prediction."""
+    """After a comparison, a new answer does not replace the prediction."""
     model.compare("an error")
     model.answer("an error")
     record = model.compare("an error")
@@ -82,10 +79,7 @@ def test_numbers_and_texts_are_compared_by_value(
 
 
 def test_the_summary_is_of_one_chapter_in_order(store: PredictionStore) -> None:
-    """The table of chapter 05 lists its own predictions by key.
-
-    Their order does not depend on the answers.
-    """
+    """The table lists the predictions of one chapter, sorted by key."""
     for key in ("05.b", "06.a", "05.a"):
         PredictionModel(key, "?", (), store).answer("yes")
     assert [record.key for record in of_chapter(store.read().values(), "05")] == ["05.a", "05.b"]
@@ -93,7 +87,7 @@ def test_the_summary_is_of_one_chapter_in_order(store: PredictionStore) -> None:
 
 
 def test_a_broken_file_raises_an_error_with_its_path(store: PredictionStore) -> None:
-    """A file of another program is not changed, and the error contains its path."""
+    """The error message contains the path of the damaged file, and the file does not change."""
     store.path.parent.mkdir()
     store.path.write_text("{")
     with pytest.raises(InvalidPredictions, match=r"predictions\.json.*Move the file to"):
@@ -102,7 +96,7 @@ def test_a_broken_file_raises_an_error_with_its_path(store: PredictionStore) -> 
 
 
 def test_the_file_is_whole_at_every_moment(store: PredictionStore) -> None:
-    """While another thread writes, a reader always gets a complete file."""
+    """While another thread writes the file, a reader always gets a complete file."""
     stop = threading.Event()
     store.write(PredictionModel("05.x", "?" * 5000, (), store).record)
 
@@ -123,7 +117,7 @@ def test_the_file_is_whole_at_every_moment(store: PredictionStore) -> None:
 
 
 def test_predictions_are_in_the_state_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """By default, the store is in the course's state folder."""
+    """By default, predictions are stored in the course's state folder."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     assert PredictionStore().path == tmp_path / "predictions-2.json"
 
@@ -131,7 +125,7 @@ def test_predictions_are_in_the_state_folder(monkeypatch: pytest.MonkeyPatch, tm
 def test_answers_of_the_first_edition_belong_to_other_questions(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """Files of the first edition are neither read nor changed. Their keys contain the old chapter numbers."""
+    """Files of the first edition are neither read nor changed."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     prediction = {"key": "08.once", "question": "Where is the turtle?", "answer": "one metre"}
     choice = {"key": "08.cases", "question": "Which fits?", "cases": 1, "chosen": {CASES[0][0]: "a service"}}
@@ -148,7 +142,7 @@ def test_answers_of_the_first_edition_belong_to_other_questions(
 
 
 def test_the_text_is_the_same_for_every_student(store: PredictionStore) -> None:
-    """text/plain contains only the result; it does not depend on the student's answer."""
+    """The plain text does not depend on the student's answer."""
     texts = []
     for answer in ("", "an error", "an empty reply"):
         prediction = Question("05.reply_none", "What?", CHOICES, store=store)
@@ -161,7 +155,7 @@ def test_the_text_is_the_same_for_every_student(store: PredictionStore) -> None:
 
 
 def test_the_widgets_show_what_is_stored(store: PredictionStore) -> None:
-    """The prediction shows the stored answer, the comparison shows both values, and the table has one row."""
+    """The widgets show the stored prediction and the result."""
     Question("05.x", "What?", CHOICES, store=store).received("answer", {"answer": "an error"})
     prediction = Question("05.x", "What?", CHOICES, store=store)
     assert prediction.answer == "an error"
@@ -172,7 +166,7 @@ def test_the_widgets_show_what_is_stored(store: PredictionStore) -> None:
 
 @pytest.fixture
 def choice_store(tmp_path: Path) -> ChoiceStore:
-    """Return a store of choices in a folder that does not exist yet."""
+    """Return a store of choices in a folder that does not exist."""
     return ChoiceStore(tmp_path / "state" / "choices.json")
 
 
@@ -183,13 +177,13 @@ def choices_model(choice_store: ChoiceStore) -> ChoicesModel:
 
 
 def decide(choices_model: ChoicesModel, *options: str) -> None:
-    """Choose an option for each case, in order."""
+    """Choose an option for each case in order."""
     for number, option in enumerate(options):
         choices_model.choose(number, option)
 
 
 def test_a_choice_outlives_the_kernel(choices_model: ChoicesModel, choice_store: ChoiceStore) -> None:
-    """A model that is created later reads the stored choice, and the student can still change it."""
+    """A new model reads the stored choice, and the student can change it."""
     decide(choices_model, "a topic", "a topic")
     again = ChoicesModel("03.cases", "Which fits?", OPTIONS, CASES, ChoiceStore(choice_store.path))
     assert again.chosen == ["a topic", "a topic", ""]
@@ -198,7 +192,7 @@ def test_a_choice_outlives_the_kernel(choices_model: ChoicesModel, choice_store:
 
 
 def test_reasons_stay_hidden_until_every_case_is_decided(choices_model: ChoicesModel) -> None:
-    """The reasons are hidden until the student has chosen an option for each case."""
+    """The reasons are hidden until every case has a choice."""
     decide(choices_model, "a topic", "a topic")
     choices_model.compare()
     assert choices_model.verdicts == []
@@ -210,7 +204,7 @@ def test_reasons_stay_hidden_until_every_case_is_decided(choices_model: ChoicesM
 
 
 def test_choices_cannot_change_while_the_reasons_are_shown(choices_model: ChoicesModel) -> None:
-    """While the reasons are visible, a choice is not stored."""
+    """While the reasons are visible, a new choice is not stored."""
     decide(choices_model, *["a topic"] * 3)
     choices_model.compare()
     choices_model.choose(1, "a service")
@@ -218,7 +212,7 @@ def test_choices_cannot_change_while_the_reasons_are_shown(choices_model: Choice
 
 
 def test_the_first_time_counts(choices_model: ChoicesModel) -> None:
-    """A second attempt is possible and shown, but the stored first choice does not change."""
+    """A second attempt does not change the stored first choice."""
     decide(choices_model, "a topic", "a topic", "a service")
     assert choices_model.compare().fit == 1
     assert choices_model.again().shown is False
@@ -230,7 +224,7 @@ def test_the_first_time_counts(choices_model: ChoicesModel) -> None:
 
 
 def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store: ChoiceStore) -> None:
-    """A stored choice is only used if the text of the case is the same and the option still exists."""
+    """If the text or the options of a case have changed, its stored choice is not used."""
     decide(choices_model, *["a topic"] * 3)
     others = [("Another case", "a topic", "Because."), CASES[1], CASES[2]]
     assert ChoicesModel("03.cases", "?", OPTIONS, others, choice_store).chosen == ["", "a topic", "a topic"]
@@ -249,13 +243,13 @@ def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store:
 def test_a_mistake_of_the_author_raises_an_error(
     cases: list[tuple[str, str, str]], stretch: str, choice_store: ChoiceStore
 ) -> None:
-    """If the right answer of a case is not among the options, an error is raised."""
+    """If the right answer of a case is not an option, an error is raised."""
     with pytest.raises(NotAChoice, match=stretch):
         ChoicesModel("03.cases", "?", OPTIONS, cases, choice_store)
 
 
 def test_a_broken_file_of_choices_raises_an_error_with_its_path(choice_store: ChoiceStore) -> None:
-    """A file of another program is not changed, and the error contains its path."""
+    """The error message contains the path of the damaged file, and the file does not change."""
     choice_store.path.parent.mkdir()
     choice_store.path.write_text('{"03.cases": {"colour": 3}}')
     with pytest.raises(InvalidPredictions, match=r"choices\.json does not contain valid.*Move the file"):
@@ -263,7 +257,7 @@ def test_a_broken_file_of_choices_raises_an_error_with_its_path(choice_store: Ch
 
 
 def test_a_page_learns_the_answers_only_when_they_are_shown(choice_store: ChoiceStore) -> None:
-    """Before the button is pressed, neither the widget's state nor its text contains an answer."""
+    """Before the student clicks the button, the widget's state contains no answers."""
     panel = Choices("03.cases", "Which fits?", OPTIONS, CASES, store=choice_store)
     assert "Somebody waits" not in str(panel.get_state())
     for number in range(3):
@@ -279,7 +273,7 @@ def test_a_page_learns_the_answers_only_when_they_are_shown(choice_store: Choice
 def test_the_summary_of_a_chapter_lists_them(
     choices_model: ChoicesModel, choice_store: ChoiceStore, tmp_path: Path
 ) -> None:
-    """predictions("03") shows how many predictions were right, and which of them were not compared yet."""
+    """predictions("03") shows how many choices were right."""
     none = PredictionStore(tmp_path / "none.json")
     decide(choices_model, "a topic", "a topic")
     row = Predictions("03", store=none, choices=choice_store).records[0]

@@ -1,4 +1,4 @@
-"""The model of the service panel, without a page, a kernel or ROS."""
+"""Tests of the service panel's model, without ROS."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ EMPTY = "---\n"
 
 
 class Caller:
-    """Returns a geometry response, or fails in the way that the test has chosen."""
+    """A fake proxy that returns a geometry response or raises the error of the test."""
 
     def __init__(self) -> None:
         self.requests: list[Message] = []
@@ -41,7 +41,7 @@ class Caller:
         return response
 
     def cancel(self) -> None:
-        """End the wait."""
+        """Stop the wait."""
         self.cancelled = True
         self.release.set()
 
@@ -57,14 +57,14 @@ TYPES = {
 
 
 def find_type(name: str) -> ServiceType:
-    """Return one of the two types that this module knows."""
+    """Return one of the two known types."""
     if name not in TYPES:
         raise UnknownType(name, f"{name} is not known here.")
     return TYPES[name]
 
 
 class Harness:
-    """A model with all messages that it sent."""
+    """A model and the messages that it sent."""
 
     def __init__(self) -> None:
         self.caller = Caller()
@@ -75,11 +75,11 @@ class Harness:
 
     @property
     def state(self) -> dict[str, Plain]:
-        """Return the latest value of each part of the state."""
+        """Return the latest state."""
         return {name: value for message in self.messages for name, value in message.items()}
 
     def ended(self) -> dict[str, Plain]:
-        """Wait for the end of the call and return its outcome."""
+        """Wait until the call has finished, and return its outcome."""
         return eventually(
             lambda: (
                 self.state["outcome"] if self.state["outcome"]["phase"] not in ("running", "idle") else None
@@ -93,7 +93,7 @@ GOOD = {"length": "1.2", "width": "5.2", "height": "8.9"}
 
 @pytest.fixture
 def harness() -> Harness:
-    """Return a model in which the geometry service is already selected."""
+    """Return a model with the geometry service selected."""
     harness = Harness()
     harness.model.offer([GEOMETRY_OFFER])
     harness.model.pick("/getGeometry")
@@ -101,7 +101,7 @@ def harness() -> Harness:
 
 
 def test_a_call_is_two_messages(harness: Harness) -> None:
-    """The page receives one message at the start of the call, and one at its end."""
+    """The page receives one message at the start of a call and one message at its end."""
     before = len(harness.messages)
     harness.model.start(GOOD, "5")
     outcome = harness.ended()
@@ -113,7 +113,7 @@ def test_a_call_is_two_messages(harness: Harness) -> None:
 
 
 def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness) -> None:
-    """For each wrong field, the allowed values are shown, and no request is sent."""
+    """Each wrong field shows its allowed values, and no request is sent."""
     harness.model.start({"length": "abc", "width": "5.2", "height": "1e39"}, "5")
     check = harness.state["check"]
     assert set(check["errors"]) == {"length", "height"}
@@ -125,14 +125,14 @@ def test_errors_are_shown_at_their_fields_and_nothing_is_called(harness: Harness
 
 @pytest.mark.parametrize("deadline", ["", "0", "-1", "soon", "nan", "inf", "1e9"])
 def test_a_deadline_is_a_number_of_seconds(harness: Harness, deadline: str) -> None:
-    """An invalid timeout is treated like a wrong field."""
+    """An invalid timeout is reported like a wrong field."""
     harness.model.start(GOOD, deadline)
     assert "at most 3600" in harness.state["check"]["errors"]["@deadline"]
     assert harness.caller.requests == []
 
 
 def test_the_commands_follow_the_draft(harness: Harness) -> None:
-    """Both commands contain the typed values; if a value is wrong, there are no commands."""
+    """Both commands contain the typed values. With a wrong value, there are no commands."""
     harness.model.edit(GOOD)
     check = harness.state["check"]
     assert check["shell"] == "rosservice call /getGeometry 1.2 5.2 8.9"
@@ -142,7 +142,7 @@ def test_the_commands_follow_the_draft(harness: Harness) -> None:
 
 
 def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
-    """While a call runs, no second call begins."""
+    """While a call runs, no second call starts."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     harness.model.start(GOOD, "5")
@@ -154,7 +154,7 @@ def test_a_second_call_waits_for_the_first(harness: Harness) -> None:
 
 
 def test_cancel_ends_the_call(harness: Harness) -> None:
-    """A cancelled call is shown as cancelled, and the next call works."""
+    """A cancelled call is shown as cancelled."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     eventually(lambda: harness.caller.requests)
@@ -175,7 +175,7 @@ def test_an_error_message_is_shown_unchanged_and_explained(harness: Harness) -> 
 
 
 def test_history_is_bounded_and_can_refill_the_form(harness: Harness) -> None:
-    """The latest call comes first, with its request; the oldest calls are removed."""
+    """The history contains the latest calls with their requests."""
     for number in range(HISTORY + 3):
         harness.model.fill({"length": float(number)})
         harness.model.call("5")
@@ -188,7 +188,7 @@ def test_history_is_bounded_and_can_refill_the_form(harness: Harness) -> None:
 
 
 def test_fill_refuses_a_wrong_value_and_keeps_the_form(harness: Harness) -> None:
-    """A value from Python is checked in the same way as a typed one."""
+    """fill() refuses a wrong value, and the form does not change."""
     harness.model.fill({"length": 1.2})
     with pytest.raises(FieldError, match="width"):
         harness.model.fill({"width": "wide"})
@@ -198,7 +198,7 @@ def test_fill_refuses_a_wrong_value_and_keeps_the_form(harness: Harness) -> None
 
 
 def test_a_call_from_python_raises_what_the_call_raises(harness: Harness) -> None:
-    """If a call in a cell fails, the cell raises the error, and the panel shows it, too."""
+    """If a call from Python fails, the cell raises the error, and the panel shows the error."""
     harness.caller.raises = RuntimeError("boom")
     with pytest.raises(RuntimeError, match="boom"):
         harness.model.call("5")
@@ -206,7 +206,7 @@ def test_a_call_from_python_raises_what_the_call_raises(harness: Harness) -> Non
 
 
 def test_a_lost_service_is_reported_and_typed_values_stay(harness: Harness) -> None:
-    """If the service disappears, the form stays; a sentence says so until the service is back."""
+    """If the service disappears, the panel shows a message and the typed values."""
     harness.model.edit(GOOD)
     harness.model.offer([])
     assert "is on the graph now" in harness.state["form"]["problem"]
@@ -216,7 +216,7 @@ def test_a_lost_service_is_reported_and_typed_values_stay(harness: Harness) -> N
 
 
 def test_a_service_that_changes_its_type_gets_a_new_form(harness: Harness) -> None:
-    """If the type changes, the panel says why the old request was removed, and closes the old connection."""
+    """If the service type changes, the panel shows a new form and a message."""
     harness.model.call("5")
     harness.model.offer([Offer("/getGeometry", "a/Empty", "/other")])
     form = harness.state["form"]
@@ -227,7 +227,7 @@ def test_a_service_that_changes_its_type_gets_a_new_form(harness: Harness) -> No
 
 
 def test_a_type_that_is_not_known_here_leaves_no_form() -> None:
-    """In place of the form, the panel shows the reason."""
+    """For an unknown type, the panel shows the reason instead of the form."""
     harness = Harness()
     harness.model.offer([Offer("/x", "no/Such", "/n")])
     harness.model.pick("/x")
@@ -238,13 +238,13 @@ def test_a_type_that_is_not_known_here_leaves_no_form() -> None:
 
 
 def test_a_call_without_a_service_names_the_next_step() -> None:
-    """A call from Python without a service raises an error that says what to do next."""
+    """A call without a selected service raises an error that contains the next step."""
     with pytest.raises(NoServiceSelected, match=r"ServicePanel\('/getGeometry'\)"):
         Harness().model.call("5")
 
 
 def test_logger_services_come_last() -> None:
-    """The student's services are listed before the logger services of each node."""
+    """The student's services come before the logger services."""
     harness = Harness()
     harness.model.offer([Offer("/a/get_loggers", "roscpp/GetLoggers", "/a"), Offer("/z", "a/Empty", "/a")])
     assert [(each["name"], each["tool"]) for each in harness.state["services"]] == [
@@ -266,7 +266,7 @@ def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness
 
 
 def test_recording_keeps_request_and_outcome(harness: Harness) -> None:
-    """The service is really called with each input, and the outcome is shown with the input."""
+    """A recording calls the service with each input, and stores the outcomes."""
     kept = harness.model.record([{"length": 1.2, "width": 5.2, "height": 8.9}, {}], "5")
     assert [each["draft"]["length"] for each in kept] == ["1.2", "0.0"]
     assert [each["outcome"]["rows"][0]["text"] for each in kept] == ["6.24", "0.0"]

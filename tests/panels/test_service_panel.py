@@ -1,4 +1,4 @@
-"""The service panel's widget on a real master, with no page."""
+"""Tests of the service panel's widget on a real master, without a page."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.usefixtures("server")
 
 @pytest.fixture
 def panel() -> Iterator[ServicePanel]:
-    """Yield a panel, and close it after the test."""
+    """Yield a panel, and close the panel after the test."""
     panel = ServicePanel("/getGeometry")
     yield panel
     panel.close()
@@ -28,12 +28,12 @@ def threads() -> list[str]:
 
 
 def ended(panel: ServicePanel) -> dict[str, Plain]:
-    """Wait for the end of the call."""
+    """Wait until the call has finished."""
     return eventually(lambda: panel.outcome if panel.outcome["phase"] not in ("idle", "running") else None)
 
 
 def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
-    """A message from the page causes a real call, and the traits contain the response."""
+    """A click calls the real server, and the traits contain the response."""
     panel.received("call", {"draft": {"length": "1.2", "width": "5.2", "height": "8.9"}, "deadline": "5"})
     outcome = ended(panel)
     assert outcome["phase"] == "done"
@@ -43,11 +43,11 @@ def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
     ]
     assert (
         panel.check["shell"] == "rosservice call /getGeometry 0.0 0.0 0.0"
-    )  # the page sends the texts of the form first
+    )  # The page first sends the texts of the form.
 
 
 def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:
-    """call() returns the response message, and the form shows the request."""
+    """call() returns the response, and the form shows the request."""
     response = panel.call(length=2.0, width=3.0, height=4.0)
     assert (response.area, response.volume) == (6.0, 24.0)
     assert panel.response is response
@@ -56,7 +56,7 @@ def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:
 
 
 def test_the_text_of_a_panel_never_changes(panel: ServicePanel) -> None:
-    """The repr and text/plain are the same before and after a call, so that nbval can compare notebooks."""
+    """The repr and the plain text are the same before and after a call."""
     before = repr(panel)
     panel.call()
     assert repr(panel) == before == "ServicePanel('/getGeometry')"
@@ -67,14 +67,14 @@ def test_the_text_of_a_panel_never_changes(panel: ServicePanel) -> None:
 
 
 def test_the_service_is_described(panel: ServicePanel) -> None:
-    """The type, the node and the fields come from the graph and from the definition of the type."""
+    """The panel shows the type, the node and the fields of the service."""
     assert (panel.form["type"], panel.form["node"]) == ("course_pkg/geometry", "/SERVER_NODE")
     assert [field["name"] for field in panel.form["request"]["fields"]] == ["length", "width", "height"]
     assert {each["name"]: each["tool"] for each in panel.services}["/SERVER_NODE/get_loggers"] is True
 
 
 def test_no_thread_without_a_page(panel: ServicePanel) -> None:
-    """Only while a page shows the panel, a thread reads the graph; close() ends all threads."""
+    """A thread reads the graph only while a page shows the panel."""
     assert threads() == []
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
     panel._dispatch(panel, {"kind": "hello", "view": "b"}, [])
@@ -89,13 +89,13 @@ def test_no_thread_without_a_page(panel: ServicePanel) -> None:
 
 
 def test_an_error_in_a_click_is_shown_in_the_panel(panel: ServicePanel) -> None:
-    """If a message from the page is not valid, the panel shows the error; no cell fails."""
+    """If a message from the page is invalid, the panel shows the error."""
     panel._dispatch(panel, {"kind": "call"}, [])
     assert panel.notice == "KeyError: 'draft'"
 
 
 def test_a_recording_holds_real_answers(panel: ServicePanel) -> None:
-    """The outcomes that a page without a kernel shows come from real calls."""
+    """A recording contains the responses of a real server."""
     panel.record([{"length": 1.0, "width": 2.0, "height": 3.0}, {"length": -1.0}])
     assert [each["draft"]["length"] for each in panel.recording] == ["1.0", "-1.0"]
     assert panel.recording[0]["outcome"]["rows"][0]["text"] == "2.0"
@@ -103,7 +103,7 @@ def test_a_recording_holds_real_answers(panel: ServicePanel) -> None:
 
 @pytest.mark.parametrize("panel_class", [ServicePanel, GraphPanel])
 def test_without_a_master_it_shows_the_reason(monkeypatch: pytest.MonkeyPatch, panel_class: type) -> None:
-    """Without a master, the panel opens, and says why it is empty."""
+    """Without a master, the panel opens and shows the reason."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")
     panel = panel_class()
     assert "localhost:9" in panel.trouble

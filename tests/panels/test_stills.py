@@ -1,4 +1,4 @@
-"""Each panel has a still picture, which every viewer of notebooks can show: an SVG with a title."""
+"""Tests of the SVG picture of each panel."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def service_state() -> State:
 
 
 def topic_state() -> State:
-    """Return the state of a topic panel whose type is known."""
+    """Return the state of a topic panel with a known type."""
     message = schema(message_type("std_msgs/Float64"))
     about = {
         "topic": "/speed",
@@ -87,7 +87,7 @@ def types_state() -> State:
 
 
 def wire_state() -> State:
-    """Return the state of a wire view of a failed call; it contains a port that differs in each run."""
+    """Return the state of a wire view of a failed call with a random port."""
     piece = {
         "role": "ok",
         "at": 0,
@@ -127,7 +127,7 @@ def timeline() -> State:
 
 
 def turtles_state() -> State:
-    """Return the state of a turtle panel whose simulator has ended."""
+    """Return the state of a turtle panel after the simulator has ended."""
     rows = [
         [0, 0, 5544, 5544, 0, -1],
         [50, 0, 6000, 5544, 0, 0],
@@ -162,7 +162,7 @@ STATES: dict[str, tuple[str, Callable[[], State]]] = {
 
 
 def _traits(panel: object) -> State:
-    """Return the traits that the page receives, and close the panel."""
+    """Return the panel's traits that the page receives, and close the panel."""
     state: State = panel.get_state()  # type: ignore[attr-defined]
     panel.close()  # type: ignore[attr-defined]
     return state
@@ -170,19 +170,19 @@ def _traits(panel: object) -> State:
 
 @pytest.fixture(autouse=True)
 def _own_records(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Use a state folder without predictions and choices."""
+    """Use an empty state folder."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
 
 
 def test_each_kind_of_panel_has_a_picture() -> None:
-    """Each kind of panel has a picture, and each picture is tested here."""
+    """Each kind of panel has a picture, and the tests use all of them."""
     folders = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(STILLS) == folders == {panel for panel, _ in STATES.values()}
 
 
 @pytest.mark.parametrize("name", STATES)
 def test_a_picture_is_complete(name: str) -> None:
-    """The SVG is well-formed, contains a title and a background, and is the same each time."""
+    """The picture is a well-formed SVG with a title and a background, and is the same each time."""
     panel, state = STATES[name]
     given = state()
     first = STILLS[panel].draw(given)
@@ -203,7 +203,7 @@ def test_a_picture_is_complete(name: str) -> None:
 
 
 def test_values_that_differ_in_each_run_are_left_out() -> None:
-    """If a picture is not marked as measured, it contains no port, no time of day and no process id."""
+    """A picture without the mark "measured" contains no port, time of day or process id."""
     graph = STILLS["graph"].draw(graph_state())
     assert "1700000000000" not in graph
     assert "1 topic" in graph
@@ -215,14 +215,14 @@ def test_values_that_differ_in_each_run_are_left_out() -> None:
 
 
 def test_turtles_are_shown_even_if_the_simulator_has_ended() -> None:
-    """The picture shows the turtles at their last positions, with their trails."""
+    """The picture shows the turtles at their last positions."""
     drawn = STILLS["turtles"].draw(turtles_state())
     assert ">turtle1</text>" in drawn
     assert "<polyline" in drawn
 
 
 def test_a_timeline_shows_bars_arrows_and_sentences() -> None:
-    """For a call, there is a bar in the row of the caller, a bar in the row of the server, and two arrows."""
+    """The picture of a call has a bar for the caller, a bar for the server, and two arrows."""
     drawn = STILLS["timeline"].draw(timeline())
     assert "waits for /b" in drawn
     assert drawn.count("<polygon") == 2
@@ -230,7 +230,7 @@ def test_a_timeline_shows_bars_arrows_and_sentences() -> None:
 
 
 def test_lines_fit_and_keep_every_word() -> None:
-    """A paragraph is wrapped between words; a word that is longer than a line is broken."""
+    """Text is wrapped between words, and a very long word is split."""
     text = "a word " * 30 + "x" * 200
     lines = wrapped(text, PLAIN, 200)
     assert all(PLAIN.width(line) <= 200 for line in lines)
@@ -239,7 +239,7 @@ def test_lines_fit_and_keep_every_word() -> None:
 
 
 def test_text_from_outside_stays_text() -> None:
-    """Text with markup, or with characters that XML forbids, does not damage a picture."""
+    """Markup and invalid XML characters in a text do not damage the picture."""
     written = Paper("<b>&\x00")
     written.write("<script>\x1b[31m")
     root = fromstring(written.svg())  # noqa: S314 - it is our own

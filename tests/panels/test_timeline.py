@@ -1,4 +1,4 @@
-"""The data of a timeline, and its description as text."""
+"""Tests of the data of a timeline and its description."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from course_pkg.ros import Event, Recording
 
 
 def call(key: str = "call 1", at: float = 0.0, **more: str) -> list[Event]:
-    """Return the events of a call at both ends; it takes 1 s, and its handler takes 0.6 s."""
+    """Return the events of a call that takes 1 s, with a handler that takes 0.6 s."""
     who = {"caller": "/customer", "server": "/cashier", "thread": "MainThread", **more}
     caller, server, thread = who["caller"], who["server"], who["thread"]
     return [
@@ -49,20 +49,17 @@ def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | di
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """Return each arrow as the kinds of the events at its two ends."""
+    """Return the kinds of the two events that each arrow connects."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
 def test_a_call_has_two_arrows() -> None:
-    """One arrow leads from the request to the handler.
-
-    Another one leads from the end of the handler to the caller.
-    """
+    """A call has one arrow to the handler and one arrow back to the caller."""
     assert drawn(recording(*call())) == [("request", "handler"), ("handler", "response")]
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """If only one end of a call or message was recorded, there is no arrow."""
+    """If only the sender or only the receiver was recorded, there is no arrow."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]
@@ -71,10 +68,7 @@ def test_what_was_not_recorded_is_not_drawn() -> None:
 
 
 def test_a_call_that_timed_out_has_no_response() -> None:
-    """A call that timed out has no response, even if the handler ended later.
-
-    An error message is a response.
-    """
+    """A call that timed out has no response arrow, but an error message has one."""
     *asked, handler, _ = call()
     gave_up = Event("error", "/customer", "/x", 0.5, 0.5, "", "call 1", "MainThread", "CallTimeout")
     refused = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")
@@ -83,7 +77,7 @@ def test_a_call_that_timed_out_has_no_response() -> None:
 
 
 def test_a_call_that_never_ended() -> None:
-    """A call that has not ended has no response; it has one arrow, from the wait to the handler."""
+    """A call that has not ended has one arrow, from the wait to the handler."""
     wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
     handler = Event("handler", "/cashier", "/x", -2.9, None, "/customer", "call 1", "Thread-1")
     found = recording(wait, handler)
@@ -97,10 +91,7 @@ def test_a_message_has_an_arrow_to_each_callback() -> None:
 
 
 def test_threads_that_work_at_once_stand_below_each_other() -> None:
-    """Handlers that run at the same time are in different rows.
-
-    Handlers that run one after another share a row.
-    """
+    """Handlers that run at the same time are in different rows."""
     overlapping = [
         Event("handler", "/s", "/x", at, at + 1, "/c", f"call {at}", f"Thread-{at}") for at in (0, 0.5, 0.9)
     ]
@@ -112,7 +103,7 @@ def test_threads_that_work_at_once_stand_below_each_other() -> None:
 
 
 def test_a_thread_keeps_its_row() -> None:
-    """Two events of the same thread are in one row, even if another thread had an event between them."""
+    """All events of a thread are in the same row."""
     events = [
         Event("callback", "/n", "/a", 0, 1, thread="/a"),
         Event("handler", "/n", "/x", 0.5, 1.5, thread="Thread-1"),
@@ -122,7 +113,7 @@ def test_a_thread_keeps_its_row() -> None:
 
 
 def test_a_call_within_a_callback_is_inset() -> None:
-    """An event during another event of the same thread is drawn inside it; a later event is not."""
+    """An event during another event of the same thread is drawn inside that event."""
     callback = Event("callback", "/customer", "/go", -0.1, 1.5, thread="/go")
     after = Event("callback", "/customer", "/go", 2.0, 2.1, thread="/go")
     found = recording(callback, *(e for e in call(thread="/go") if e.node == "/customer"), after)
@@ -139,7 +130,7 @@ def test_fifty_overlapping_calls() -> None:
 
 
 def test_the_state_is_bounded() -> None:
-    """If there are too many events, calls are kept, and then messages; a note says how many are left out."""
+    """If there are too many events, a note contains the number of omitted events."""
     stream = [event for n in range(5000) for event in message(n, n / 1000, "/simulator")]
     kept = state(recording(*stream, *call(at=4.0)))
     kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]
@@ -152,7 +143,7 @@ def test_the_state_is_bounded() -> None:
 
 
 def test_too_many_calls() -> None:
-    """If there are too many calls, the first calls are kept."""
+    """If there are too many calls, the first calls are shown."""
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST
@@ -160,14 +151,14 @@ def test_too_many_calls() -> None:
 
 
 def test_nothing_recorded() -> None:
-    """An empty recording lists the nodes without events, and the nodes that were not recorded."""
+    """An empty recording lists the nodes without events and the nodes that were not recorded."""
     empty = state(Recording(nodes=("/a",), unrecorded={"/b": "its process is gone"}, length=1.0))
     assert (empty["lanes"], empty["arrows"], empty["idle"]) == ([], [], ["/a"])
     assert empty["unrecorded"] == [["/b", "its process is gone"]]
 
 
 def test_all_that_is_shown_comes_from_the_recording() -> None:
-    """The lists contain each event unchanged; times are whole microseconds."""
+    """The timeline contains each event, with times in whole microseconds."""
     found = recording(*call(), *message(1, 2.0, "/simulator"))
     kept = state(found)
     columns, words = kept["columns"], kept["strings"]
@@ -181,7 +172,7 @@ def test_all_that_is_shown_comes_from_the_recording() -> None:
 
 
 def test_who_waited_how_long() -> None:
-    """Look-up, connection and wait count as waiting time; the handler and messages do not."""
+    """Look-up, connection and wait count as waiting time."""
     waits = waits_of(recording(*call(), *call("call 2", 2.0), *message(1, 2.0, "/simulator")))
     (wait,), (stream,) = waits["calls"], waits["streams"]
     assert (wait["node"], wait["service"], wait["servers"]) == ("/customer", "/x", ["/cashier"])
@@ -190,14 +181,14 @@ def test_who_waited_how_long() -> None:
 
 
 def test_an_open_wait_counts_to_the_end() -> None:
-    """A wait that has not ended is counted from its beginning to the end of the recording."""
+    """An unfinished wait is counted until the end of the recording."""
     wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
     (found,) = waits_of(recording(wait, length=2.0))["calls"]
     assert (found["blocked"], found["open"]) == (2.0, 1)
 
 
 def test_in_plain_sentences() -> None:
-    """The text says which node waited for which node, without times and counts."""
+    """The description says which node waited for which node."""
     error = Event("error", "/customer", "/nope", 5.1, 5.1, "", "call 8", "MainThread", "unavailable")
     lookup = Event("lookup", "/customer", "/nope", 5.0, 5.1, "master", "call 8", "MainThread")
     late = Event("wait", "/late", "/x", 6.0, None, "/cashier", "call 9", "MainThread")
@@ -212,7 +203,7 @@ def test_in_plain_sentences() -> None:
 
 
 def test_messages_without_a_subscriber() -> None:
-    """The text says that no subscriber was connected, but only if this is known from the recording."""
+    """The description says if no subscriber was connected."""
     (sent,) = message(1, 1.0)
     assert timeline_text(recording(sent)).endswith("nobody on record heard it.")
     lost = replace(sent, note="nobody was connected")
@@ -222,14 +213,14 @@ def test_messages_without_a_subscriber() -> None:
 
 @pytest.mark.parametrize(("failed", "words"), [(1, "and each call failed"), (2, "and some calls failed")])
 def test_failures_in_plain_sentences(failed: int, words: str) -> None:
-    """The text says how many calls failed."""
+    """The description contains the number of failed calls."""
     error = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")
     found = recording(*call()[:-1], error, *(call("call 2", 2.0) if failed == 2 else []))
     assert timeline_text(found) == f"/customer called /x and waited for /cashier, {words}."
 
 
 def test_the_panel() -> None:
-    """The timeline is a widget whose text does not change; it needs a recording, but no kernel."""
+    """The timeline is a widget with a constant plain text."""
     panel = Timeline(recording(*call()))
     assert repr(panel) == "Timeline()"
     assert panel.recorded["length"] == 10_000_000

@@ -1,4 +1,4 @@
-"""The state of a topic panel; the tests replace the topic process."""
+"""Tests of the topic panel's model with a fake topic process."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ EMPTY: Connections = {"type": "", "publishers": [], "subscribers": [], "sources"
 
 
 class FakeProcess:
-    """A model, the state that the page received, and the commands for the topic process."""
+    """A model, the state for the page, and the commands to the topic process."""
 
     def __init__(self, kind: MessageType | None = FLOAT, topic: str = "/speed") -> None:
         self.state: dict[str, Plain] = {}
@@ -30,13 +30,13 @@ class FakeProcess:
 
 
 def message(number: int, data: str, kind: MessageType = FLOAT, **other: Plain) -> MessageReport:
-    """Return a message in the form in which the topic process reports it."""
+    """Return a message as the topic process reports it."""
     about = {"number": number, "ago": 0.1, "peer": "/talker", "size": 8, "type": kind.name, "md5": kind.md5}
     return {**about, "texts": {"data": data}, **other}
 
 
 def test_a_form_and_its_commands_are_there_at_once() -> None:
-    """Neither a graph nor a topic process is needed for the fields, the numeric fields and the commands."""
+    """The model shows the fields and commands without a ROS graph."""
     state = FakeProcess().state
     assert [field["name"] for field in state["about"]["message"]["fields"]] == ["data"]
     assert state["about"]["numbers"] == ["data"]
@@ -46,7 +46,7 @@ def test_a_form_and_its_commands_are_there_at_once() -> None:
 
 
 def test_a_measurement_is_drawn_first() -> None:
-    """`header.seq`, the first number of a message, can be selected, but it is not plotted by default."""
+    """By default, the panel does not plot `header.seq`."""
     process = FakeProcess(message_type("sensor_msgs/JointState"), "/joint_states")
     assert process.state["about"]["numbers"][0] == "header.seq"
     assert process.state["settings"]["path"] == "position[0]"
@@ -55,13 +55,13 @@ def test_a_measurement_is_drawn_first() -> None:
 
 @pytest.mark.parametrize("name", ["speed", "/", "/a//b", "/my speed", "~speed", "/1", "/a\nb", ""])
 def test_an_invalid_name_is_refused(name: str) -> None:
-    """With a wrong name, the panel would create another topic; therefore, the error describes valid names."""
+    """The error message for an invalid topic name describes valid names."""
     with pytest.raises(NotATopic, match="Give a full name"):
         FakeProcess(topic=name)
 
 
 def test_a_topic_without_a_type_waits_for_one() -> None:
-    """The panel uses the type of a publisher, not the type that a subscriber has registered."""
+    """The panel uses the type of a publisher, not the type of a subscriber."""
     process = FakeProcess(None)
     assert "No node publishes /speed yet" in process.state["about"]["problem"]
     process.model.see({**EMPTY, "subscribers": [{"node": "/listener", "type": "*"}]})
@@ -73,7 +73,7 @@ def test_a_topic_without_a_type_waits_for_one() -> None:
 
 
 def test_the_first_message_gives_the_type() -> None:
-    """A latched message is shown even if it arrives before the first snapshot of the graph."""
+    """If no type is known, the first message gives the type."""
     process = FakeProcess(None)
     process.model.report({"messages": [message(1, "2.5")]})
     assert process.state["messages"][0]["line"] == "data 2.5"
@@ -81,14 +81,14 @@ def test_the_first_message_gives_the_type() -> None:
 
 
 def test_an_unknown_type_is_reported() -> None:
-    """A publisher may use a type that is not defined on this machine."""
+    """If the publisher's type is not defined on this machine, the panel shows this."""
     process = FakeProcess(None)
     process.model.see({**EMPTY, "publishers": [{"node": "/talker", "type": "their_pkg/Thing"}]})
     assert "their_pkg/Thing" in process.state["about"]["problem"]
 
 
 def test_a_new_process_gets_the_type_and_the_path() -> None:
-    """A new topic process receives the settings of the page; a type from a notebook is sent as text."""
+    """A new topic process receives the type and the plot settings of the page."""
     kind = compile_message("demo/Two", "float64 a\nfloat64 b\n")
     process = FakeProcess(kind)
     process.model.set(Settings(path="b"))
@@ -98,10 +98,7 @@ def test_a_new_process_gets_the_type_and_the_path() -> None:
 
 
 def test_a_click_publishes_the_values_of_the_form() -> None:
-    """The topic process receives the values, latch and queue size.
-
-    For a burst also the count, and for a repetition also the rate.
-    """
+    """A click sends the values, the latch setting and the queue size to the topic process."""
     process = FakeProcess()
     process.commands.clear()
     for action in ("publish", "burst", "repeat"):
@@ -132,7 +129,7 @@ def test_a_click_publishes_the_values_of_the_form() -> None:
 def test_nothing_is_published_while_something_is_wrong(
     settings: Settings, draft: dict[str, str], wrong: str
 ) -> None:
-    """Each mistake is shown at its field, and the page is told that the click was refused."""
+    """While a field is wrong, a click publishes nothing, and the page shows the mistake at the field."""
     process = FakeProcess()
     process.commands.clear()
     process.model.act("repeat", draft, settings)
@@ -143,14 +140,14 @@ def test_nothing_is_published_while_something_is_wrong(
 
 
 def test_a_wrong_rate_does_not_prevent_a_single_message() -> None:
-    """Only the fields that a click needs are checked."""
+    """A wrong rate does not prevent the publication of a single message."""
     process = FakeProcess()
     process.model.act("publish", {"data": "1"}, Settings(rate="often", path="data"))
     assert process.commands[-1][0] == "publish"
 
 
 def test_messages_are_listed_the_latest_first_and_bounded() -> None:
-    """The panel lists ten messages in one line each, and shows the latest message with all fields."""
+    """The panel lists the latest ten messages, with the newest message first."""
     process = FakeProcess()
     process.model.report({"messages": [message(number, f"{number}.5") for number in range(1, 31)]})
     messages = process.state["messages"]
@@ -160,7 +157,7 @@ def test_messages_are_listed_the_latest_first_and_bounded() -> None:
 
 
 def test_messages_that_cannot_be_read_are_named() -> None:
-    """A message of another type, or one that is too long, is listed with a note."""
+    """A message that cannot be read is listed with a note."""
     process = FakeProcess()
     process.model.report(
         {"messages": [message(1, "", STRING, texts=None), message(2, "", texts=None, size=1_000_000)]}
@@ -171,7 +168,7 @@ def test_messages_that_cannot_be_read_are_named() -> None:
 
 
 def test_a_message_without_fields_is_a_message() -> None:
-    """If a message has no fields, the panel only shows that it arrived, without a plot."""
+    """A message without fields is listed, without a plot."""
     empty = message_type("std_msgs/Empty")
     process = FakeProcess(empty)
     assert process.state["about"]["numbers"] == []
@@ -181,7 +178,7 @@ def test_a_message_without_fields_is_a_message() -> None:
 
 
 def test_reports_come_in_parts() -> None:
-    """If a report does not contain a value, the value does not change."""
+    """A value that is missing in a report does not change."""
     process = FakeProcess()
     process.model.report({"count": 3, "trouble": "No master."})
     process.model.report({"statistics": {"rate": 10.0}})
@@ -238,12 +235,12 @@ PUBLISHER: PublisherReport = {
     ],
 )
 def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> None:
-    """The sentence contains exactly the facts of the report."""
+    """The sentence describes the facts of the report."""
     assert published({**PUBLISHER, **change}, "/panel") == words
 
 
 def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connections:
-    """Return at most two nodes on the topic; the publisher is connected if it has an MD5."""
+    """Return at most two nodes on the topic. With `md5`, the publisher is connected."""
     sources = [{"node": "/talker", "type": publisher, "md5": md5}] if md5 else []
     publishers = [{"node": "/talker", "type": publisher}] if publisher else []
     subscribers = [{"node": "/listener", "type": subscriber}] if subscriber else []
@@ -251,7 +248,7 @@ def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connection
 
 
 def test_different_types_are_reported_for_each_node() -> None:
-    """The warning contains both nodes, both MD5s, and the node that receives nothing."""
+    """The warning contains both nodes and both MD5 sums."""
     said = mismatches(FLOAT, seen("std_msgs/String", "std_msgs/UInt32"), "/panel", message_type)
     assert [words.split()[0] for words in said] == ["/talker", "/listener"]
     assert f"std_msgs/String (MD5 {STRING.md5[:8]}…)" in said[0]
@@ -269,17 +266,17 @@ def test_different_types_are_reported_for_each_node() -> None:
     ],
 )
 def test_equal_types_cause_no_warning(seen: Connections) -> None:
-    """Nodes that accept any type, nodes that do not answer, and the panel itself cause no warning."""
+    """Nodes that accept any type, or that do not respond, cause no warning."""
     assert mismatches(FLOAT, seen, "/panel", message_type) == []
 
 
 def test_one_name_with_two_definitions_is_a_mismatch() -> None:
-    """If a connected publisher has reported an MD5 sum, this sum decides whether the types are equal."""
+    """If a publisher has reported an MD5 sum, the panel compares the MD5 sums."""
     said = mismatches(FLOAT, seen("std_msgs/Float64", md5="0" * 32), "/panel", message_type)
     assert "std_msgs/Float64 (MD5 00000000…)" in said[0]
 
 
 def test_a_type_that_is_unknown_here_is_a_mismatch_by_name() -> None:
-    """If the MD5 is not known, the names of the types are compared instead."""
+    """If the MD5 sum is unknown, the panel compares the names of the types."""
     said = mismatches(FLOAT, seen(subscriber="their_pkg/Other"), "/panel", message_type)
     assert "subscribes to their_pkg/Other, this panel" in said[0]

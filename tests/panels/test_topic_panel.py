@@ -1,4 +1,4 @@
-"""The topic panel's widget on a real master, with no page."""
+"""Tests of the topic panel's widget on a real master, without a page."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SETTINGS = {"rate": "10", "queue": "10", "latch": False, "path": "data"}
 
 @pytest.fixture
 def panel(master: PrivateMaster) -> Iterator[TopicPanel]:
-    """Yield a panel of /speed that is shown, and close it after the test."""
+    """Yield a visible panel of /speed, and close the panel after the test."""
     assert master.uri
     panel = TopicPanel("/speed", "std_msgs/Float64")
     panel.received("hello", {})
@@ -30,7 +30,7 @@ def panel(master: PrivateMaster) -> Iterator[TopicPanel]:
 
 
 def click(panel: TopicPanel, action: str, data: str, **settings: object) -> None:
-    """Simulate a click: send the message that the page sends for a click."""
+    """Send the message that the page sends for a click."""
     content = {"action": action, "draft": {"data": data}, "settings": {**SETTINGS, **settings}}
     panel.received("act", content)
 
@@ -41,10 +41,7 @@ def sent_to(panel: TopicPanel) -> set[str]:
 
 
 def test_it_is_on_the_graph_while_a_page_shows_it(panel: TopicPanel, master: PrivateMaster) -> None:
-    """A visible panel is a node that subscribes; showing it twice adds no second node.
-
-    Hiding it removes the node.
-    """
+    """A visible panel is a subscriber, and a hidden panel is not on the graph."""
     panel.shown()
     topic = next(each for each in look(master.uri).topics if each.name == "/speed")
     assert topic.subscribers == (panel.connections["own"],)
@@ -54,7 +51,7 @@ def test_it_is_on_the_graph_while_a_page_shows_it(panel: TopicPanel, master: Pri
 
 
 def test_no_page_no_node(master: PrivateMaster) -> None:
-    """If no page shows a panel, it starts no process, but it has a form and commands."""
+    """A panel without a page starts no process, but has a form."""
     panel = TopicPanel("/speed", "std_msgs/Float64")
     assert panel.check["once"] == "rostopic pub --once /speed std_msgs/Float64 0.0"
     assert panel.trouble == ""
@@ -63,7 +60,7 @@ def test_no_page_no_node(master: PrivateMaster) -> None:
 
 
 def test_a_click_publishes_for_real(panel: TopicPanel, kernel: Kernel) -> None:
-    """A subscriber in another node receives the number, and the panel counts the message."""
+    """A subscriber in another node receives the published number."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("listener")
@@ -76,7 +73,7 @@ def test_a_click_publishes_for_real(panel: TopicPanel, kernel: Kernel) -> None:
 
 
 def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> None:
-    """A repetition continues only while a page shows the panel, because otherwise nobody could stop it."""
+    """When no page shows the panel, the panel stops publishing."""
     kernel.run("""
         from course_pkg.ros import join
         from tests.support import eventually
@@ -91,7 +88,7 @@ def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> 
 
 
 def test_a_panel_that_is_shown_again_keeps_its_type_and_plot(panel: TopicPanel) -> None:
-    """When a panel is shown again, it has a new node, but keeps its type and plot."""
+    """When a panel is shown again, its type and plot are the same."""
     click(panel, "publish", "2.5")
     first = panel.connections["own"]
     panel.hidden()
@@ -104,7 +101,7 @@ def test_a_panel_that_is_shown_again_keeps_its_type_and_plot(panel: TopicPanel) 
 
 
 def test_quick_shows_and_hides_leave_at_most_one_node(panel: TopicPanel, master: PrivateMaster) -> None:
-    """After the panel was shown and hidden quickly many times, there is at most one node."""
+    """After the panel was shown and hidden many times, at most one node exists."""
     for _ in range(8):
         panel.hidden()
         panel.shown()
@@ -116,7 +113,7 @@ def test_quick_shows_and_hides_leave_at_most_one_node(panel: TopicPanel, master:
 
 
 def test_another_type_is_reported(panel: TopicPanel, kernel: Kernel) -> None:
-    """The panel names a publisher of another type, with its type."""
+    """The panel shows a publisher with another type."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("talker")
@@ -140,12 +137,12 @@ def test_the_type_of_a_topic_is_found(kernel: Kernel) -> None:
 
 
 def test_the_text_is_the_same_in_every_run(panel: TopicPanel) -> None:
-    """text/plain contains the name of the topic, but no changing value."""
+    """The plain text contains the name of the topic, but no values."""
     assert repr(panel) == panel._repr_mimebundle_()[0]["text/plain"] == "TopicPanel('/speed')"
 
 
 def test_a_mistake_in_the_cell_raises_an_error() -> None:
-    """An unknown type raises an error, and so does an invalid name."""
+    """An unknown type or an invalid name raises an error."""
     with pytest.raises(UnknownType, match="Flaot64"):
         TopicPanel("/speed", "std_msgs/Flaot64")
     with pytest.raises(NotATopic):
@@ -153,7 +150,7 @@ def test_a_mistake_in_the_cell_raises_an_error() -> None:
 
 
 def test_without_a_master_the_panel_gives_the_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The panel shows the form, and the reason why it receives no messages."""
+    """Without a master, the panel shows the form and the reason."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     panel = TopicPanel("/speed", "std_msgs/Float64")
     assert "No ROS master" in panel.trouble
@@ -161,7 +158,7 @@ def test_without_a_master_the_panel_gives_the_reason(monkeypatch: pytest.MonkeyP
 
 
 def test_it_follows_its_kernel_to_another_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A panel that was shown before join() uses the master that join() starts."""
+    """A panel that was shown before join() uses the master of join()."""
     with PrivateMaster() as master:
         monkeypatch.setenv("ROS_HOSTNAME", "localhost")
         monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")

@@ -1,4 +1,4 @@
-"""The rows of a turtle recording, made from poses and colours, without a page."""
+"""Tests of the rows of a turtle recording."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from course_pkg.panels.turtles.pen import HOME, USUAL, Colour, Observation
 from course_pkg.panels.turtles.recording import BACKGROUND, MOST, UP, TurtleRecording
 
 RED: Colour = (255, 0, 0)
-LOOK = 50  # ms between two poses
+LOOK = 50  # Two consecutive poses are this many ms apart.
 
 
 def at(x: float, colour: Colour | None = BACKGROUND, speed: float = 1.0, y: float = 2.0) -> Observation:
-    """Return a pose of a turtle that is moving to the right."""
+    """Return a pose of a turtle that moves to the right."""
     return Observation(x, y, 0.0, speed, colour)
 
 
 def filmed(*snapshots: Observation) -> TurtleRecording:
-    """Return the recording of one turtle; there is a pose every 50 ms."""
+    """Return the recording of a turtle with a pose every 50 ms."""
     recording = TurtleRecording()
     for number, seen in enumerate(snapshots):
         recording.see(number * LOOK, "turtle1", seen)
@@ -27,7 +27,7 @@ def filmed(*snapshots: Observation) -> TurtleRecording:
 
 
 def test_a_turtle_that_rests_makes_one_row() -> None:
-    """While a turtle does not move for a minute, no rows are added."""
+    """While a turtle does not move, the recording gets no new rows."""
     recording = filmed(*[at(3.0, speed=0.0)] * 1200)
     assert recording.rows == [(0, 0, 3000, 2000, 0, UP)]
     assert recording.length == 1199 * LOOK
@@ -36,48 +36,39 @@ def test_a_turtle_that_rests_makes_one_row() -> None:
 def test_a_turtle_stands_still_in_the_replay_until_it_starts() -> None:
     """The last pose before a movement has a separate row.
 
-    Without this row, the played turtle would move too early.
+    Without this row, the turtle in the replay would move too early.
     """
     recording = filmed(*[at(3.0, speed=0.0)] * 10, at(3.1))
     assert [row[:3] for row in recording.rows] == [(0, 0, 3000), (9 * LOOK, 0, 3000), (10 * LOOK, 0, 3100)]
 
 
 def test_the_usual_pen_until_more_is_known() -> None:
-    """At the start, a turtle draws with the initial pen colour."""
+    """At the start, a turtle draws with the default pen colour."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, USUAL))
     assert recording.palette[recording.rows[-1][5]] == USUAL
 
 
 def test_a_colour_that_is_read_twice_at_low_speed_is_the_pen_colour() -> None:
-    """If the sensor reads the same colour twice, this is the colour of the turtle's own line.
-
-    Later lines have this colour, too.
-    """
+    """A colour that the sensor reads twice is the pen colour."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, RED), at(3.2, RED), at(3.3, RED))
     assert [recording.palette[row[5]] for row in recording.rows[-2:]] == [RED, RED]
 
 
 def test_a_crossed_line_does_not_change_the_pen() -> None:
-    """A single pose with another colour does not change the pen."""
+    """A single pose with another colour does not change the pen colour."""
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, RED), at(3.3, USUAL))
     assert {row[5] for row in recording.rows[1:]} == {recording.palette.index(USUAL)}
 
 
 def test_a_slow_turtle_on_plain_paper_has_its_pen_up() -> None:
-    """If there is no line under a slow turtle, its pen is up.
-
-    The rows since the last certain colour are corrected.
-    """
+    """If the sensor of a slow turtle reads the background colour, the pen is up."""
     recording = filmed(at(3.0, speed=0.0), at(3.05), at(3.1), at(3.15))
     assert [row[2] for row in recording.rows if isinstance(row[2], str)] == ["undrawn"]
     assert recording.rows[-1][5] == UP
 
 
 def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
-    """Under a fast turtle, the sensor reads the colour in front of the line.
-
-    The pen is known only at rest.
-    """
+    """If the sensor of a fast turtle reads the background colour, the pen may still be down."""
     fast = [at(3.0 + 0.25 * step, speed=5.0) for step in range(8)]
     recording = filmed(*fast)
     assert recording.rows[-1][5] != UP
@@ -87,14 +78,14 @@ def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
 
 
 def test_clear_is_seen_by_a_turtle_on_its_line() -> None:
-    """If the colour under a resting turtle becomes the background colour, the paper was cleared."""
+    """If the colour under a resting turtle becomes the background colour, the lines are removed."""
     resting = [at(3.1, USUAL, speed=0.0)] * 3
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), *resting, at(3.1, speed=0.0))
     assert recording.rows[-1][1:] == (UP, "cleared")
 
 
 def test_reset_is_seen_by_the_first_turtle() -> None:
-    """After a reset, the turtle is at its start position, it faces right, and there are no lines."""
+    """After a reset, the turtle is at its start position, and the lines are removed."""
     home = Observation(HOME, HOME, 0.0, 0.0, BACKGROUND)
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, USUAL), home, home)
     assert (UP, "cleared") in [row[1:] for row in recording.rows]
@@ -102,7 +93,7 @@ def test_reset_is_seen_by_the_first_turtle() -> None:
 
 
 def test_a_turtle_that_leaves_and_comes_back() -> None:
-    """A turtle that appears again keeps its number; no line connects its old position with the new one."""
+    """No line connects a turtle's last position with the position where it appears again."""
     recording = filmed(at(3.0))
     recording.miss(100, "turtle1")
     recording.see(200, "turtle1", at(9.0))
@@ -112,7 +103,7 @@ def test_a_turtle_that_leaves_and_comes_back() -> None:
 
 @pytest.mark.parametrize("turtles", [1, 5])
 def test_a_recording_is_bounded(turtles: int) -> None:
-    """At most MOST rows are kept, including the newest rows, so that the saved panel stays small."""
+    """The recording contains only the newest MOST rows."""
     recording = TurtleRecording()
     for number in range(3 * MOST):
         seen = at(1 + (number % 900) / 100)

@@ -1,4 +1,4 @@
-"""The type browser: the list of types, the fields of a type, and the nodes that use it."""
+"""Tests of the type browser: the types, their fields, and the nodes that use them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tests.types.conftest import build, package
 
 
 class Wall:
-    """A model, and the messages that it sends; each is a keyword argument."""
+    """A model and the messages that it sends as keyword arguments."""
 
     def __init__(self) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -38,14 +38,14 @@ class Wall:
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder for packages; it is on ROS_PACKAGE_PATH and on sys.path."""
+    """Return a folder for packages that is on ROS_PACKAGE_PATH and on sys.path."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     monkeypatch.syspath_prepend(str(tmp_path / "python"))
     return tmp_path
 
 
 def test_a_service_type_has_fields_comments_and_lines() -> None:
-    """The browser shows the fields, the MD5 and the text, and commands that work unchanged."""
+    """The browser shows the fields, the MD5 sum, the text and the commands of a service type."""
     told = described("std_srvs/SetBool", "srv")
     request, response = told["parts"]
     assert [(each["type"], each["name"]) for each in request["fields"]] == [("bool", "data")]
@@ -63,7 +63,7 @@ def test_a_service_type_has_fields_comments_and_lines() -> None:
 
 
 def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
-    """Nested messages and arrays of messages have their own fields; a time has two fields."""
+    """Nested messages have fields, and constants are listed."""
     [fields] = described("rosgraph_msgs/Log", "msg")["parts"]
     header = fields["fields"][0]
     assert (header["type"], [each["name"] for each in header["fields"]]) == (
@@ -77,10 +77,7 @@ def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
 
 
 def test_the_error_in_a_broken_file_has_its_line(folder: Path) -> None:
-    """For an invalid definition, the browser shows the error with its line number.
-
-    It also shows the text of the file.
-    """
+    """For an invalid definition, the browser shows the error with its line number, and the file."""
     package(folder, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
     told = described("bad_pkg/Slip", "srv")
     assert "bad_pkg/srv/Slip.srv, line 2" in told["problem"]
@@ -89,7 +86,7 @@ def test_the_error_in_a_broken_file_has_its_line(folder: Path) -> None:
 
 
 def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
-    """A definition that is not built is shown, but a program cannot import it."""
+    """The browser shows that a definition is not built."""
     package(folder, "raw_types_pkg", New_srv="int8 x\n---\n")
     told = described("raw_types_pkg/New", "srv")
     assert told["warning"] == UNBUILT
@@ -97,9 +94,9 @@ def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
 
 
 def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
-    """The browser shows the built type, and notes that the file is different.
+    """If the file differs from the built type, the browser shows a note.
 
-    A change of comments is no difference.
+    A changed comment is not a difference.
     """
     root = package(folder, "made_pkg", Made_srv="int8 x\n---\n", Whole_msg="int8 y\n")
     build(root, folder / "python")
@@ -120,14 +117,14 @@ def test_a_file_that_changed_since_it_was_built(folder: Path) -> None:
 
 @pytest.mark.parametrize("name", ["std_srvs/Nothing", "nonsense", "a/b/c", "<script>/x"])
 def test_a_type_that_is_not_there(name: str) -> None:
-    """For an unknown name, the page shows a sentence with advice, and no error."""
+    """For an unknown name, the page shows similar names or other advice."""
     told = described(name, "srv")
     assert name in told["problem"]
     assert (told["parts"], told["md5"]) == ([], "")
 
 
 def test_packages_are_those_with_types() -> None:
-    """Each package lists its service types and its message types in alphabetical order."""
+    """Each package lists its service types and message types in alphabetical order."""
     found = packages((("b_pkg/One", "b_pkg/Two"), ("a_pkg/Three", "b_pkg/One")))
     assert found == [
         {"name": "a_pkg", "srv": [], "msg": ["Three"]},
@@ -136,7 +133,7 @@ def test_packages_are_those_with_types() -> None:
 
 
 def test_everything_on_the_path_can_be_opened() -> None:
-    """Every type on this machine can be opened without a problem."""
+    """Every type on this machine can be opened."""
     services, messages = catalogue()
     assert {"std_srvs/SetBool", "course_pkg/geometry"} <= set(services)
     assert "std_msgs/String" in messages
@@ -167,7 +164,7 @@ def test_an_unchanged_type_is_not_sent_again() -> None:
 
 
 def test_a_name_of_both_halves_is_the_service() -> None:
-    """A service type and a message type may have the same name; then the name means the service type."""
+    """If a service type and a message type have the same name, the browser opens the service type."""
     wall = Wall()
     wall.model.update((("std_srvs/Empty",), ("std_msgs/Empty", "std_srvs/Empty")))
     wall.model.open("std_srvs/Empty")
@@ -177,10 +174,7 @@ def test_a_name_of_both_halves_is_the_service() -> None:
 
 
 def test_who_offers_a_type_now() -> None:
-    """A service type lists its services with their nodes.
-
-    A message type lists its topics with publishers and subscribers.
-    """
+    """A service type lists its services, and a message type lists its topics."""
     seen = Snapshot(
         "http://localhost:11311",
         (NodeSeen("/a", "x", "answered"),),
@@ -207,7 +201,7 @@ def browser(master: PrivateMaster) -> Iterator[TypeBrowser]:
 
 
 def test_it_follows_the_graph_and_the_files(browser: TypeBrowser, folder: Path) -> None:
-    """While a page shows the browser, it also shows a new server and a new file."""
+    """A visible browser shows a new server and a new file."""
     with NodeProcess.rosrun("course_pkg", "server"):
         who = eventually(lambda: browser.offers.get("srv", {}).get("course_pkg/geometry"), timeout=20)
     assert who == [{"name": "/getGeometry", "served by": ["/SERVER_NODE"]}]
@@ -227,7 +221,7 @@ def test_the_repr_is_stable(browser: TypeBrowser) -> None:
 
 
 def test_without_a_master_types_can_be_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a master, the types are shown, and a sentence says why no nodes are listed."""
+    """Without a master, the browser shows the types, and says why no nodes are listed."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     browser = TypeBrowser("std_srvs/Trigger")
     assert browser.described["md5"] == "937c9679a518e3a18d831e57125ea522"

@@ -1,4 +1,4 @@
-"""How the wire view splits bytes into pieces, each with an offset and a value, and what it does not show."""
+"""Tests of how the wire view splits bytes into fields."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ VALUES = {
 
 
 def sized(data: bytes) -> bytes:
-    """Return the length of the bytes, and then the bytes."""
+    """Return the length of the data, followed by the data."""
     return struct.pack("<I", len(data)) + data
 
 
@@ -81,24 +81,24 @@ def header(**fields: str) -> bytes:
 
 
 def body(kind: MessageType, values: dict[str, Plain]) -> bytes:
-    """Return a message that genpy has encoded, without its length."""
+    """Return the bytes of a message without its length."""
     buffer = io.BytesIO()
     kind.to_message({**kind.default(), **values}).serialize(buffer)
     return buffer.getvalue()
 
 
 def values(pieces: list[PieceState]) -> dict[str, str]:
-    """Return the values of the pieces by the names of the pieces."""
+    """Return the values of the fields by name."""
     return {piece["name"]: piece["value"] for piece in pieces}
 
 
 def covered(pieces: list[PieceState]) -> list[tuple[int, int]]:
-    """Return the offsets of the pieces that are not headings."""
+    """Return the offsets of the fields that are not headings."""
     return [(piece["at"], piece["size"]) for piece in pieces if piece["role"] != "group"]
 
 
 def gapless(pieces: list[PieceState], size: int) -> bool:
-    """Return whether the pieces contain each of `size` bytes once, in order."""
+    """Return whether the fields cover each of `size` bytes once and in order."""
     at = 0
     for start, count in covered(pieces):
         if start != at:
@@ -108,7 +108,7 @@ def gapless(pieces: list[PieceState], size: int) -> bool:
 
 
 def connection(*said: tuple[bool, bytes], closed_by: str = "client") -> RelayedConnection:
-    """Return a connection with these blocks of bytes; True means that the client sent the block."""
+    """Return a connection with these blocks of bytes. True means that the client sent the block."""
     chunks = [Chunk(10 + number / 1000, *each) for number, each in enumerate(said)]
     return RelayedConnection(10.0, chunks, closed_by)
 
@@ -131,7 +131,7 @@ ANSWERED = (False, b"\1" + sized(struct.pack("<2f", 6.24, 55.536)))
 
 
 def test_every_primitive_has_its_place_and_value() -> None:
-    """The pieces contain all bytes from genpy, and the original values."""
+    """The fields contain all bytes and the original values."""
     kind = compile_message("x/Everything", EVERYTHING)
     data = sized(body(kind, VALUES))
     pieces = request_pieces(data, kind)
@@ -153,7 +153,7 @@ def test_every_primitive_has_its_place_and_value() -> None:
 
 @pytest.mark.parametrize("cut", range(0, 200, 7))
 def test_bytes_that_were_cut_off_are_still_shown(cut: int) -> None:
-    """If a message is cut off, its complete pieces are shown, and there is no error."""
+    """The complete fields of a truncated message are shown."""
     kind = compile_message("x/Everything", EVERYTHING)
     data = sized(body(kind, VALUES))[:cut]
     assert gapless(request_pieces(data, kind), len(data))
@@ -162,7 +162,7 @@ def test_bytes_that_were_cut_off_are_still_shown(cut: int) -> None:
 
 @pytest.mark.parametrize("seed", range(20))
 def test_any_bytes_are_shown(seed: int) -> None:
-    """Random bytes can be split without an error, and the limits are kept."""
+    """Random bytes cause no error."""
     data = random.Random(seed).randbytes(300)  # noqa: S311 -- no secrets
     kind = compile_message("x/Everything", EVERYTHING)
     for pieces in (header_pieces(data), request_pieces(data, kind), reply_pieces(data, kind)):
@@ -171,14 +171,14 @@ def test_any_bytes_are_shown(seed: int) -> None:
 
 
 def test_a_wrong_count_is_read_in_no_time() -> None:
-    """If the count of elements without fields is four billion, the split is still fast."""
+    """A wrong element count of four billion does not slow down the view."""
     kind = compile_message("x/Empties", "std_msgs/Empty[] nothing\nuint8 last")
     pieces = request_pieces(sized(b"\xff\xff\xff\xff\x05"), kind)
     assert values(pieces)["last"] == "5"
 
 
 def test_long_values_are_shortened() -> None:
-    """The data for a large image, a long string and many points are a few kilobytes."""
+    """Long values are shortened to a few kilobytes."""
     kind = compile_message("x/Long", "uint8[] data\nstring text\ngeometry_msgs/Point[] points\nint32 last")
     point = {"x": 1.0, "y": 2.0, "z": 3.0}
     data = sized(
@@ -195,10 +195,7 @@ def test_long_values_are_shortened() -> None:
 
 
 def test_too_many_pieces_are_folded() -> None:
-    """If a message has hundreds of fields, only the first fields are shown separately.
-
-    The remaining fields are one piece.
-    """
+    """If a message has hundreds of fields, only the first fields are shown separately."""
     kind = compile_message("x/Wide", "\n".join(f"int32 f{number}" for number in range(400)))
     data = sized(body(kind, {}))
     pieces = request_pieces(data, kind)
@@ -207,10 +204,7 @@ def test_too_many_pieces_are_folded() -> None:
 
 
 def test_a_header_is_fields_with_their_lengths() -> None:
-    """Each header field is shown with its length and its text.
-
-    The text may contain "=" and any other character.
-    """
+    """Each header field is shown with its length and its text."""
     data = header(callerid="/me", md5sum="30446f", note="ü=1")
     pieces = header_pieces(data)
     assert gapless(pieces, len(data))
@@ -219,9 +213,9 @@ def test_a_header_is_fields_with_their_lengths() -> None:
 
 
 def test_the_steps_of_a_call() -> None:
-    """The steps are the connection, two headers, the request, the response and the end.
+    """A call has these steps: the connection, two headers, the request, the response and the end.
 
-    Times are in ms since the first step.
+    The times are in ms since the first step.
     """
     wire = Wire(
         "/x",
@@ -243,7 +237,7 @@ def test_the_steps_of_a_call() -> None:
 
 
 def test_bytes_that_came_in_pieces_are_one_step() -> None:
-    """The result does not depend on the segments in which TCP delivers the bytes."""
+    """The result does not depend on the TCP segments."""
     whole = WELCOME[1] + ANSWERED[1]
     drops = [(False, whole[at : at + 1]) for at in range(len(whole))]
     assert titles(connection((True, GREETED[1] + ASKED[1]), *drops)) == titles(
@@ -252,13 +246,13 @@ def test_bytes_that_came_in_pieces_are_one_step() -> None:
 
 
 def test_a_persistent_connection_has_many_requests() -> None:
-    """Each request comes before its response."""
+    """On a persistent connection, each request comes before its response."""
     steps = titles(connection(GREETED, WELCOME, ASKED, ANSWERED, ASKED, ANSWERED))
     assert steps[3:7] == ["Request", "Response", "Request", "Response"]
 
 
 def test_failures_are_distinguished() -> None:
-    """The view shows an ok byte of 0, a refused header, a lost connection, a missing server, and a probe."""
+    """The view distinguishes an error response, a refused header, a lost connection and a missing server."""
     refusal = (False, b"\0" + sized(b"no"))
     assert "Error" in titles(connection(GREETED, WELCOME, ASKED, refusal))
     turned_away = (False, header(error="md5sums do not match"))
@@ -278,14 +272,14 @@ def test_failures_are_distinguished() -> None:
 
 
 def test_a_type_that_is_not_known_is_shown_as_bytes() -> None:
-    """If the type is unknown, or if its MD5 differs, the body is shown as bytes."""
+    """If the type is unknown, the body is shown as bytes."""
     wire = Wire("/x", connections=[connection(GREETED, WELCOME, ASKED, ANSWERED)])
     request = next(step for step in state(wire, unknown)["steps"] if step["title"] == "Request")
     assert [piece["role"] for piece in request["pieces"]] == ["length", "raw"]
 
 
 def test_many_steps_are_limited_with_a_note() -> None:
-    """If there are many calls, the first steps are shown, and a note contains the total number."""
+    """If there are too many calls, only the first steps are shown, and a note contains the total number."""
     wire = Wire(
         "/x", connections=[connection(GREETED, WELCOME, *[ASKED, ANSWERED] * 50)], kind=GEOMETRY, skipped=3
     )
@@ -296,7 +290,7 @@ def test_many_steps_are_limited_with_a_note() -> None:
 
 
 def test_the_widget_has_a_stable_repr_and_a_small_state() -> None:
-    """The text is the same in every run, the state is JSON, and a connection without bytes can be shown."""
+    """The plain text of the widget is the same in every run."""
     view = WireView(Wire("/x", connections=[connection(GREETED, WELCOME, ASKED, ANSWERED)], kind=GEOMETRY))
     assert repr(view) == "WireView('/x')"
     assert (view.from_client, view.from_server) == (GREETED[1] + ASKED[1], WELCOME[1] + ANSWERED[1])

@@ -1,4 +1,4 @@
-"""Runs attacks in the sandbox of other users, and prints a JSON object: what each attack could do.
+"""Runs attacks in the sandbox of other users, and prints the results as a JSON object.
 
 The arguments are a folder that no student may read, and files that no student may read or change.
 """
@@ -26,7 +26,7 @@ def handle_geometry(request):
 geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
 """
 WRONG = RIGHT.replace("request.width * request.length", "1.0")
-# Each line is an expression. Except for the first one, it must raise an error, or its value must be false.
+# Each line is an expression. Except for the first line, the expression must raise an error or be false.
 PROBES = """
 os.getuid() == UID
 open(SECRET[0]).read()
@@ -112,7 +112,7 @@ master.registerService("/chapter_05", "/getGeometry", "rosrpc://localhost:1", "h
 
 
 def main() -> None:
-    """Run the attacks, and a right answer after each of them."""
+    """Run the attacks, and run a right answer after each attack."""
     folder, *secret = sys.argv[1:]
     refusal = users.refusal([*map(users.Path, secret)])
     os.environ["SECRET_OF_THE_GRADER"] = "yes"  # noqa: S105 -- a marker
@@ -131,7 +131,7 @@ def main() -> None:
         points, later, left = {}, {}, {}
         for name, attack in attacks.items():
             points[name] = _points(_run(worker, attack))
-            left[name] = [each.pid for each in psutil.process_iter() if uid in each.uids()]
+            left[name] = [each.pid for each in psutil.process_iter(["uids"]) if uid in each.info["uids"]]
             left[name] += [each for each in os.listdir(FILLED) if each.startswith("filler")]
             later[name] = _points(_run(worker, RIGHT))
     found = {"refusal": refusal, "uid": uid, "done": done, "points": points, "later": later, "left": left}

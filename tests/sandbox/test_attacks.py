@@ -1,4 +1,4 @@
-"""An attack in a cell earns no points and does not disturb the next submission."""
+"""An attack in a cell earns no points and does not affect the next submission."""
 
 from __future__ import annotations
 
@@ -39,14 +39,14 @@ each_attack = pytest.mark.parametrize(("batch", "attack"), KINDS, indirect=["bat
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests, because an attack must not affect the next part."""
+    """Return one sandbox worker for all tests."""
     with SandboxWorker() as started:
         yield started
 
 
 @pytest.fixture(scope="module")
 def batch(worker: SandboxWorker, request: pytest.FixtureRequest) -> Iterator[str]:
-    """Yield the attacks of one kind; after the last attack, a right answer must still pass."""
+    """Yield the attacks of one kind. After the last attack, a right answer must still pass."""
     yield request.param
     assert points(worker.run(job(RIGHT))) == 2, f"the attacks of the kind {request.param!r} left something"
 
@@ -62,7 +62,7 @@ def points(result: PartResult) -> int:
 
 
 def attack_wrong(worker: SandboxWorker, attack: str) -> None:
-    """Run an attack with a wrong answer: it earns no points, and ends with a record or with a reason."""
+    """Run an attack with a wrong answer, and assert that the answer earns no points."""
     result = worker.run(job(textwrap.dedent(attack) + WRONG))
     assert points(result) == 0
     assert result.record or result.ending
@@ -70,7 +70,7 @@ def attack_wrong(worker: SandboxWorker, attack: str) -> None:
 
 
 def attack_right(worker: SandboxWorker, attack: str) -> None:
-    """Run an attack with a right answer: it ends in time, and earns all points or none."""
+    """Run an attack with a right answer, and assert that the run ends in time."""
     limited = job(textwrap.dedent(attack) + RIGHT, setup_timeout=10.0, answer_timeout=8.0)
     began = time.monotonic()
     result = worker.run(limited)
@@ -79,7 +79,7 @@ def attack_right(worker: SandboxWorker, attack: str) -> None:
 
 
 def attack_endlessly(worker: SandboxWorker, attack: str) -> None:
-    """Run a wrong answer that never ends: it is ended in time, with a reason, and earns no points."""
+    """Run an endless answer, and assert that the answer is killed in time and earns no points."""
     limited = job(textwrap.dedent(attack) + WRONG, setup_timeout=3.0, answer_timeout=2.0)
     began = time.monotonic()
     result = worker.run(limited)
@@ -105,7 +105,7 @@ def test_a_right_answer_with_an_attack_ends_in_time(worker: SandboxWorker, batch
 @pytest.mark.parametrize("batch", ["endless"], indirect=True, scope="module")
 @pytest.mark.parametrize("attack", SLOW)
 def test_an_endless_answer_is_ended(worker: SandboxWorker, batch: str, attack: str) -> None:
-    """An answer that never ends is killed after its time limit, and the result contains the reason."""
+    """An endless answer is killed after its time limit."""
     attack_endlessly(worker, SLOW[attack])
 
 

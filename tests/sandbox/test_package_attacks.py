@@ -1,4 +1,4 @@
-"""An attack in the build of a package earns no points and does not harm the next submission."""
+"""An attack in the build of a package earns no points and does not affect the next submission."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ add_custom_target(my_geometry_programs ALL
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests, because a build must not affect the next part."""
+    """Return one sandbox worker for all tests."""
     with SandboxWorker() as started:
         yield started
 
@@ -52,16 +52,16 @@ def points(result: PartResult) -> int:
 
 
 def attacked(attack: str) -> str:
-    """Return the CMakeLists.txt of the solution with the lines of an attack."""
+    """Return the solution's CMakeLists.txt with the lines of an attack."""
     text = my_geometry()[LISTS].decode()
     end = text.index("\n", text.index("catkin_package(")) + 1
     return text[:end] + textwrap.dedent(attack) + text[end:]
 
 
 def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
-    """Check a package that contains an attack and a wrong server.
+    """Check a package with an attack and a wrong server.
 
-    It must earn no points, and the result must contain a reason.
+    Assert that the package earns no points.
     """
     result = examined(worker, {LISTS: attacked(attack), SERVER: NO_SERVER})
     assert points(result) == 0, result
@@ -71,7 +71,7 @@ def attack_wrong(worker: SandboxWorker, attack: str) -> PartResult:
 
 @pytest.mark.parametrize("attack", BUILD)
 def test_an_attack_in_a_build_earns_no_points(worker: SandboxWorker, attack: str) -> None:
-    """With any attack in its build, a wrong server earns no points; the right server passes afterwards."""
+    """A wrong server with an attack in its build earns no points."""
     attack_wrong(worker, BUILD[attack])
     assert points(examined(worker, {})) == 3, f"the attack {attack!r} left something"
 
@@ -79,7 +79,7 @@ def test_an_attack_in_a_build_earns_no_points(worker: SandboxWorker, attack: str
 @pytest.mark.slow
 @pytest.mark.parametrize("attack", BUILD_SLOW)
 def test_a_build_that_never_ends_is_ended(worker: SandboxWorker, attack: str) -> None:
-    """A build that does not end is killed after its time limit, and the result contains the reason."""
+    """An endless build is killed after its time limit."""
     began = time.monotonic()
     attack_wrong(worker, BUILD_SLOW[attack])
     assert time.monotonic() - began < find(CHECK).deadline + 60.0
@@ -87,7 +87,7 @@ def test_a_build_that_never_ends_is_ended(worker: SandboxWorker, attack: str) ->
 
 
 def test_a_forged_type_earns_no_points(worker: SandboxWorker) -> None:
-    """A class with a forged MD5 sum earns no points. 07.3 builds a definition that is drawn at random."""
+    """A class with a forged MD5 sum earns no points. 07.3 uses a random definition."""
     from course_pkg.chapters.ch07_build_a_package.checks.packages import geometry_class
 
     forged = FORGED_TYPE.replace("MD5", geometry_class()._md5sum)

@@ -1,4 +1,4 @@
-"""Code in the sandbox tries to read, write or call things that it must not use."""
+"""Tests that code in the sandbox cannot use forbidden files and system calls."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ READABLE = [
     Path("/proc/kcore"),
 ]
 WRITE = ["/", "/usr", "/etc", "/dev", "/proc/sys/kernel", "/run", str(CHECKOUT / "course_pkg")]
-CALLS = {  # -1 means that the call was refused; otherwise, a call returns 0 or a positive number
+CALLS = {  # A refused call returns -1. Any other call returns 0 or a positive number.
     "ptrace": "libc.ptrace(16, os.getppid(), 0, 0)",
     "unshare users": "libc.unshare(0x10000000)",
     "unshare network": "libc.unshare(0x40000000)",
@@ -67,7 +67,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 
 def told(worker: SandboxWorker, source: str) -> str:
-    """Run a cell as a submission, and return the message of the error that it raises."""
+    """Run a cell as a submission, and return the error message."""
     job = PartJob("05.1", "", (textwrap.dedent(source),), "", 1, 1.0, 5.0, 10.0)
     said = [words["error"] for words in worker.run(job).messages if words["cell"].startswith("answer")]
     assert said, "the cell raised no error"
@@ -75,7 +75,7 @@ def told(worker: SandboxWorker, source: str) -> str:
 
 
 def test_files_of_the_instructor_cannot_be_read(worker: SandboxWorker) -> None:
-    """A submission cannot read solutions, checks, tests, files of the machine, or other environments."""
+    """A submission cannot read solutions, checks, tests or files of the machine."""
     paths = [str(path) for path in READABLE]
     words = told(
         worker,
@@ -95,7 +95,7 @@ def test_files_of_the_instructor_cannot_be_read(worker: SandboxWorker) -> None:
 
 
 def test_no_check_is_in_memory(worker: SandboxWorker) -> None:
-    """The memory of a student's process contains no module of a check and no hint."""
+    """The memory of a student's process contains no check and no hint."""
     hint = next(answer.hint for answer in every_answer() if answer.check == "05.1" and not answer.right)
     words = told(
         worker,
@@ -113,7 +113,7 @@ def test_no_check_is_in_memory(worker: SandboxWorker) -> None:
 
 
 def test_the_seed_of_the_check_is_not_in_memory(worker: SandboxWorker) -> None:
-    """The memory of the student's process does not contain the seed of the check's random inputs."""
+    """The memory of a student's process does not contain the seed of the check."""
     job = PartJob(
         "05.1",
         "",
@@ -134,7 +134,7 @@ raise RuntimeError([each.seed for each in gc.get_objects() if isinstance(each, P
 
 
 def test_only_the_parts_own_folders_are_writable(worker: SandboxWorker) -> None:
-    """A submission can write files only in its work folder and in its own memory folders."""
+    """A submission can write files only in its own folders."""
     words = told(
         worker,
         f"""
@@ -175,7 +175,7 @@ def test_only_a_private_network_exists(worker: SandboxWorker) -> None:
 
 @pytest.mark.parametrize("call", CALLS)
 def test_a_dangerous_system_call_is_refused(worker: SandboxWorker, call: str) -> None:
-    """The Linux kernel refuses a system call that could break out of the sandbox."""
+    """The Linux kernel refuses a dangerous system call."""
     if os.uname().machine != "x86_64" and "syscall" in CALLS[call]:
         pytest.skip("the numbers of these system calls are valid only on x86-64")
     words = told(
@@ -193,10 +193,7 @@ def test_a_dangerous_system_call_is_refused(worker: SandboxWorker, call: str) ->
 
 
 def test_it_has_no_privileges_and_sees_only_its_own_processes(worker: SandboxWorker) -> None:
-    """The student's process has no capabilities, and has a filter for system calls.
-
-    It sees only its own processes.
-    """
+    """The student's process has no capabilities and sees only its own processes."""
     words = told(
         worker,
         """
@@ -212,7 +209,7 @@ def test_it_has_no_privileges_and_sees_only_its_own_processes(worker: SandboxWor
 
 
 def test_an_answer_can_start_many_threads(worker: SandboxWorker) -> None:
-    """The limit of the address space leaves room for 50 threads that wait, such as 50 calls of a handler."""
+    """An answer can start 50 waiting threads."""
     words = told(
         worker,
         """
@@ -229,7 +226,7 @@ def test_an_answer_can_start_many_threads(worker: SandboxWorker) -> None:
 
 
 def test_the_previous_answer_is_not_in_memory(worker: SandboxWorker) -> None:
-    """The next student's process does not have the previous answer in its memory."""
+    """The memory of a student's process does not contain the previous answer."""
     text = "\n".join(f"x{number} = 'QUAG' 'GA_{number:06}_OF_ONE'" for number in range(400))
     assert told(worker, text.replace("' '", "") + "\nraise RuntimeError('left')") == "RuntimeError: left"
     words = told(
@@ -275,7 +272,7 @@ def test_nothing_of_the_previous_part_remains(worker: SandboxWorker) -> None:
 
 
 def test_a_kernel_cannot_report_a_false_build(worker: SandboxWorker) -> None:
-    """A patched kernel cannot report a successful build. Another process runs the check's commands."""
+    """A patched kernel cannot report a successful build, because another process runs the commands."""
     wrong = next(answer for answer in every_answer() if answer.check == "04.3" and not answer.right)
     forged = """
 from course_pkg.checking.commands.workbench import CommandFolders
@@ -291,7 +288,7 @@ CommandFolders.run = lambda *_, **__: {"status": 0, "out": "", "err": "", "took"
 
 
 def test_without_bubblewrap_grading_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without bubblewrap, require_sandbox() raises an error that says what to install."""
+    """Without bubblewrap, require_sandbox() raises an error with advice."""
     monkeypatch.setenv("PATH", "/nowhere")
     with pytest.raises(
         bubblewrap.SandboxUnavailable, match=r"apt-get install bubblewrap.*--unsafe-no-sandbox"

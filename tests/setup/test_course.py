@@ -1,4 +1,4 @@
-"""The `course` script: the Python that it uses, and its output before any set-up."""
+"""Tests of the `course` script."""
 
 from __future__ import annotations
 
@@ -30,21 +30,21 @@ SUBCOMMANDS = (
 
 
 def course(*words: str, cwd: Path = ROOT, **variables: str) -> subprocess.CompletedProcess[str]:
-    """Run `course`; its environment also contains `variables`."""
+    """Run `course` with the additional environment `variables`."""
     env = {**os.environ, "ROS_MASTER_URI": "http://localhost:9", **variables}
     return subprocess.run([ROOT / "course", *words], cwd=cwd, env=env, capture_output=True, text=True)
 
 
 @pytest.fixture
 def nowhere(tmp_path: Path) -> dict[str, str]:
-    """Return variables with a cache folder that cannot be created, so that every set-up fails."""
+    """Return variables for a cache folder that cannot be created."""
     (tmp_path / "file").write_text("")
     return {"XDG_CACHE_HOME": str(tmp_path / "file")}
 
 
 @pytest.mark.parametrize("name", SUBCOMMANDS)
 def test_help_comes_before_anything_is_installed(name: str, nowhere: dict[str, str]) -> None:
-    """`course COMMAND --help` works before any set-up, and `course --help` lists the command."""
+    """`course COMMAND --help` works without the set-up."""
     answer = course(name, "--help", **nowhere)
     assert answer.returncode == 0, answer.stderr
     assert answer.stdout.startswith(f"usage: course {name}")
@@ -53,14 +53,14 @@ def test_help_comes_before_anything_is_installed(name: str, nowhere: dict[str, s
 
 @pytest.mark.parametrize(("words", "seen"), [(["fly"], "invalid choice: 'fly'"), ([], "COMMAND")])
 def test_an_unknown_command_is_refused_at_once(words: list[str], seen: str, nowhere: dict[str, str]) -> None:
-    """An unknown command ends with a message and status 2 before any set-up."""
+    """For an unknown command, the exit status is 2, and no set-up starts."""
     answer = course(*words, **nowhere)
     assert answer.returncode == 2
     assert seen in answer.stderr
 
 
 def test_a_cache_that_cannot_be_made_is_one_clear_message(nowhere: dict[str, str]) -> None:
-    """The error message is one line, and contains the variable that the user can set."""
+    """If the cache cannot be created, the error message is one line and contains the environment variable."""
     answer = course("run", "true", **nowhere)
     assert answer.returncode == 1
     assert answer.stderr.count("\n") == 1
@@ -68,14 +68,14 @@ def test_a_cache_that_cannot_be_made_is_one_clear_message(nowhere: dict[str, str
 
 
 def test_a_space_in_the_name_of_the_cache_is_one_clear_message(tmp_path: Path) -> None:
-    """If the cache folder's path has a space, an error message of one line comes before any download."""
+    """If the cache path contains a space, the error message is one line."""
     answer = course("run", "true", XDG_CACHE_HOME=str(tmp_path / "a b"))
     assert (answer.returncode, answer.stderr.count("\n")) == (1, 1)
     assert "catkin cannot build in" in answer.stderr
 
 
 def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
-    """The course's Python is used even if the user's python3, PYTHONPATH or PYTHONHOME does not work."""
+    """The course uses its own Python, even if the user's python3 does not work."""
     for name in ("python3", "python", "rosservice"):
         (tmp_path / name).write_text("#!/bin/sh\nexit 66\n")
         (tmp_path / name).chmod(0o755)
@@ -92,7 +92,7 @@ def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
 
 
 def test_it_runs_from_anywhere_and_through_a_link(tmp_path: Path) -> None:
-    """A command runs in the current folder, and a link to `course` works, too."""
+    """A command runs in the current folder, and a link to `course` works."""
     assert course("run", "pwd", cwd=tmp_path).stdout == f"{tmp_path}\n"
     link = tmp_path / "my course"
     link.symlink_to(ROOT / "course")
@@ -101,14 +101,14 @@ def test_it_runs_from_anywhere_and_through_a_link(tmp_path: Path) -> None:
 
 
 def test_a_second_start_sets_nothing_up() -> None:
-    """After a complete set-up, `course run` prints only the output of the command."""
+    """After the set-up, `course run` prints only the output of the command."""
     course("run", "true")
     answer = course("run", "echo", "it")
     assert (answer.stdout, answer.stderr) == ("it\n", "")
 
 
 def test_doctor_reports_no_problem_on_this_machine() -> None:
-    """Without problems, the exit status of `course doctor` is 0; it reports a malformed ROS_MASTER_URI."""
+    """Without problems, the exit status of `course doctor` is 0."""
     answer = course("doctor", ROS_MASTER_URI="")
     assert answer.returncode == 0, answer.stdout
     assert "to do" not in answer.stdout

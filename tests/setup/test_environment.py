@@ -1,4 +1,4 @@
-"""The environment of ROS is merged with the user's environment."""
+"""Tests of the environment for ROS."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ pytestmark = pytest.mark.skipif(not PLACES.environment.exists(), reason="only ./
 
 
 def test_the_courses_python_comes_first_on_path() -> None:
-    """In PATH, the course's interpreter and the system's tools come before the user's pyenv or conda."""
+    """In PATH, the course's interpreter comes before the user's pyenv or conda."""
     fresh = environment.merged(PLACES, {"PATH": "/home/u/.pyenv/shims:/usr/bin:/opt/conda/bin"})
     assert fresh["PATH"].split(":")[:2] == [str(PLACES.venv / "bin"), "/usr/bin"]
     assert fresh["PATH"].endswith("/home/u/.pyenv/shims:/opt/conda/bin")
 
 
 def test_the_users_python_variables_are_removed() -> None:
-    """PYTHONPATH is the course's, PYTHONHOME and PYTHONSTARTUP are removed, and other variables stay."""
+    """PYTHONPATH is replaced, and PYTHONHOME and PYTHONSTARTUP are removed."""
     user = {"PYTHONPATH": "/x", "PYTHONHOME": "/y", "PYTHONSTARTUP": "/z", "EDITOR": "vi"}
     fresh = environment.merged(PLACES, user)
     assert "/x" not in fresh["PYTHONPATH"].split(":")
@@ -39,7 +39,7 @@ def test_the_users_ros_variables_are_kept(name: str) -> None:
 
 
 def test_the_users_preloaded_libraries_are_kept() -> None:
-    """LD_PRELOAD contains the user's libraries, and the course's library for C++ nodes."""
+    """LD_PRELOAD contains the user's libraries and the course's library."""
     loopback = environment.merged(PLACES, {})["LD_PRELOAD"]
     assert loopback.endswith("/libcourse_loopback.so")
     assert (
@@ -48,13 +48,13 @@ def test_the_users_preloaded_libraries_are_kept() -> None:
 
 
 def test_applying_the_environment_twice_changes_nothing() -> None:
-    """In `course run bash`, another `course run` gets the same environment."""
+    """`course run` inside `course run bash` has the same environment."""
     once = environment.merged(PLACES, {"PATH": "/a:/usr/bin"})
     assert environment.merged(PLACES, once) == once
 
 
 def test_an_editor_with_only_the_interpreter_can_import_everything() -> None:
-    """An interpreter without a special environment can import the package, rospy and the generated types."""
+    """The course's Python can import the package, rospy and the generated types without special variables."""
     program = (
         "import os, course_pkg.srv, rospy, std_srvs.srv, anywidget\n"
         "from course_pkg.setup import environment\n"
@@ -70,7 +70,7 @@ def test_an_editor_with_only_the_interpreter_can_import_everything() -> None:
 
 
 def test_apply_changes_nothing_without_a_workspace(tmp_path: os.PathLike[str]) -> None:
-    """For a checkout without a workspace, apply() returns False and changes nothing."""
+    """For a checkout without a workspace, apply() returns False."""
     before, path = dict(os.environ), list(sys.path)
     assert not environment.apply(PLACES._replace(cache=PLACES.cache / "none"))
     assert (dict(os.environ), sys.path) == (before, path)

@@ -1,4 +1,4 @@
-"""uv uses the user's settings of pip."""
+"""Tests of pip's settings for uv."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from course_pkg.setup.libraries import UV_SETTINGS, as_uv_variables
 
 
 def test_the_mirror_in_pips_settings_is_used(tmp_path: Path) -> None:
-    """The settings of pip for indexes, find-links and certificates become variables of uv."""
+    """The pip settings for indexes, find-links and certificates become uv variables."""
     settings = {
         "index-url": ["https://mirror.example/simple"],
         "extra-index-url": ["https://a.example/simple", "https://b.example/simple"],
@@ -23,16 +23,13 @@ def test_the_mirror_in_pips_settings_is_used(tmp_path: Path) -> None:
 
 
 def test_a_missing_folder_is_omitted() -> None:
-    """A missing folder of wheels, or a missing local index, is left out.
-
-    pip ignores it, but uv would stop.
-    """
+    """A missing folder in pip's settings is ignored."""
     words = as_uv_variables({"find-links": ["/none"], "extra-index-url": ["file:///none/simple"]}, {})
     assert words == UV_SETTINGS
 
 
 def test_the_users_variables_for_uv_are_kept() -> None:
-    """If a variable of uv is already set, its value stays."""
+    """A uv variable of the user does not change."""
     assert "UV_DEFAULT_INDEX" not in as_uv_variables(
         {"index-url": ["https://a.example"]}, {"UV_DEFAULT_INDEX": "x"}
     )

@@ -1,4 +1,4 @@
-"""The set-up: its steps, the errors of its tools, waiting for package managers, and its progress."""
+"""Tests of the set-up."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def journal(tmp_path: Path) -> Iterator[Journal]:
 
 
 def test_an_empty_cache_needs_libraries_and_workspace(tmp_path: Path) -> None:
-    """With an empty cache folder, the steps for libraries and workspace are not done."""
+    """With an empty cache, the steps for libraries and workspace are not done."""
     places = Places(Places.of().checkout, tmp_path / "cache")
     *_, [libraries], [catkin] = [[step for step in stage if step.makes] for stage in steps_of(places)]
     assert not libraries.is_done()
@@ -39,7 +39,7 @@ def test_a_tool_that_fails_is_shown_by_its_last_lines_and_its_log(journal: Journ
 
 
 def test_a_full_disk_is_reported(journal: Journal) -> None:
-    """If a tool prints an error about a full disk, the set-up's error message says so."""
+    """If a tool prints an error about a full disk, the error message says that the disk is full."""
     with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete other files, and start again."):
         journal.run(["sh", "-c", "echo 'write: No space left on device'; exit 1"])
 
@@ -47,7 +47,7 @@ def test_a_full_disk_is_reported(journal: Journal) -> None:
 def test_a_full_disk_is_reported_without_a_message_from_the_tool(
     journal: Journal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If the disk is full and a tool fails without a message, the error message contains this reason."""
+    """If a tool fails on a full disk without a message, the error message says that the disk is full."""
     monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
     with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete other files, and start again."):
         journal.run(["false"])
@@ -64,7 +64,7 @@ def test_a_full_disk_is_reported_without_a_message_from_the_tool(
 def test_the_set_up_waits_for_another_package_manager(
     words: str, journal: Journal, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If another program holds the lock, the tool is run again until it succeeds; the user sees a message."""
+    """While another program holds the lock, the set-up repeats the command and prints a message."""
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     said: list[str] = []
     held = f"[ $(wc -l < {tmp_path}/tries) -gt 2 ] || {{ echo '{words}'; exit 100; }}"
@@ -74,10 +74,7 @@ def test_the_set_up_waits_for_another_package_manager(
 
 
 def test_waiting_for_a_lock_has_a_timeout(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The tool's own error message is shown after the timeout.
-
-    After any other failure, it is shown at once.
-    """
+    """After the timeout, or after any other failure, the tool's error message is shown."""
     monkeypatch.setattr(packages, "LOCK_TIMEOUT", 0.0)
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     for words in ("Could not get lock /x", "Unable to locate package y"):
@@ -86,12 +83,12 @@ def test_waiting_for_a_lock_has_a_timeout(journal: Journal, monkeypatch: pytest.
 
 
 def test_missing_packages_are_listed() -> None:
-    """missing_packages() returns the names of packages that are not installed, and no others."""
+    """missing_packages() returns only packages that are not installed."""
     assert packages.missing_packages(["dpkg", "no-such-package-anywhere"]) == ["no-such-package-anywhere"]
 
 
 def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A user without sudo gets an error message that contains the whole command."""
+    """A user without sudo gets an error message with the whole command."""
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     monkeypatch.setattr("shutil.which", lambda _: None)
     with pytest.raises(SetupError, match=r"apt-get install --no-install-recommends rosbash catkin"):
@@ -99,7 +96,7 @@ def test_without_root_and_sudo_the_message_contains_the_command(monkeypatch: pyt
 
 
 def test_progress_in_a_pipe_prints_start_and_result() -> None:
-    """In a pipe, each step prints one line at its start and one line with its result, without colours."""
+    """In a pipe, each step prints a line at its start and a line at its end."""
     stream = io.StringIO()
     progress = Progress(stream)
     with progress.painting(), progress.step("catkin workspace"):
@@ -117,10 +114,7 @@ def test_progress_in_a_pipe_prints_start_and_result() -> None:
 
 
 def test_progress_counts_and_estimates_the_rest(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In a pipe, a line is printed every 10 s.
-
-    Items that an earlier run did have no influence on the estimate.
-    """
+    """In a pipe, the progress prints a line every 10 s."""
     now = 0.0
     monkeypatch.setattr("time.monotonic", lambda: now)
     stream = io.StringIO()

@@ -12,7 +12,7 @@ from tests.support import eventually
 
 
 def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
-    """After write(), a step is done until clear()."""
+    """A step is done after write(), until clear()."""
     stamps = Stamps(tmp_path / "done")
     assert stamps.read("step") is None
     stamps.write("step", "key")
@@ -23,16 +23,13 @@ def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
 
 
 def test_a_digest_depends_on_the_borders_of_its_parts() -> None:
-    """The digest depends on where one part ends and the next begins."""
+    """The digest changes if a character moves from one input to the next."""
     assert digest(["ab", "c"]) != digest(["a", "bc"])
     assert digest(["a", b"b"]) == digest([b"a", "b"])
 
 
 def test_the_second_set_up_waits_for_the_lock(tmp_path: Path) -> None:
-    """If two set-ups run at the same time, the second one waits and says so.
-
-    It continues after the first one.
-    """
+    """If two set-ups run at the same time, the second one waits and prints a message."""
     waits, got = threading.Event(), threading.Event()
 
     def second() -> None:

@@ -1,4 +1,4 @@
-"""The wheel of the course contains all files and can be installed."""
+"""Tests of the course's wheel."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the wheel without a network, from a copy of the files that git lists."""
+    """Build the wheel without a network."""
     folder = tmp_path_factory.mktemp("wheel")
     listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout
@@ -31,7 +31,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_the_wheel_contains_all_data_files(wheel: Path) -> None:
-    """The wheel contains all data files of the package and the service definitions, but no cache."""
+    """The wheel contains all data files and service definitions."""
     names = ZipFile(wheel).namelist()
     beside = [
         str(path.relative_to(ROOT))

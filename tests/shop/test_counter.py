@@ -1,4 +1,4 @@
-"""Customers come to the counter and leave it at the planned times."""
+"""Tests of customers who come to the counter and leave."""
 
 from __future__ import annotations
 
@@ -11,10 +11,7 @@ from course_pkg.shop import Counter
 
 
 def test_customers_come_and_go() -> None:
-    """A customer is present from the time of arrival until the time of leaving.
-
-    At this time, the customer is gone.
-    """
+    """A customer is present from the time of arrival until the time of leaving."""
     counter = Counter()
     visits = counter.let_in(100.0, [1.0, 1.5], stay=2.0)
     assert [(visit.number, visit.comes, visit.goes) for visit in visits] == [
@@ -26,13 +23,13 @@ def test_customers_come_and_go() -> None:
 
 
 def test_numbers_follow_the_order_of_coming() -> None:
-    """The customer who comes first has the lowest number, whatever the order of the arguments."""
+    """The customer who comes first has the lowest number."""
     visits = Counter(7).let_in(0.0, [3.0, 1.0, 2.0], stay=1.0)
     assert [(visit.number, visit.comes) for visit in visits] == [(7, 1.0), (8, 2.0), (9, 3.0)]
 
 
 def test_a_second_call_removes_future_customers() -> None:
-    """Customers at the counter stay, future customers are removed, and numbers are not used again."""
+    """A second call removes future customers, but not customers at the counter."""
     counter = Counter()
     counter.let_in(0.0, [0.0, 5.0], stay=10.0)
     visits = counter.let_in(1.0, [1.0], stay=1.0)
@@ -41,7 +38,7 @@ def test_a_second_call_removes_future_customers() -> None:
 
 
 def test_an_empty_list_of_customers_is_accepted() -> None:
-    """A call with an empty list removes all future customers."""
+    """An empty list removes all future customers."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     assert counter.let_in(0.5, [], stay=0.0) == []
@@ -60,7 +57,7 @@ def test_the_next_change_is_the_next_arrival_or_departure() -> None:
 
 @pytest.mark.parametrize("wrong", [-0.1, math.nan, math.inf, 1e9])
 def test_an_impossible_time_is_refused(wrong: float) -> None:
-    """The error contains the name of the field, and the planned visits do not change."""
+    """The error message contains the field's name, and the planned visits do not change."""
     counter = Counter()
     counter.let_in(0.0, [1.0], stay=1.0)
     with pytest.raises(FieldError, match=r"after\[1\]"):
@@ -71,6 +68,6 @@ def test_an_impossible_time_is_refused(wrong: float) -> None:
 
 
 def test_too_many_customers_are_refused() -> None:
-    """The error contains the number of customers and the maximum."""
+    """The error message contains the number of customers and the maximum."""
     with pytest.raises(FieldError, match="1001 customers are too many; expected at most 1000"):
         Counter().let_in(0.0, [0.0] * 1001, stay=1.0)

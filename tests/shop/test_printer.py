@@ -1,4 +1,4 @@
-"""A printer prints one line at a time, as long as it has paper."""
+"""Tests of the printer."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.shop import Printer
 
 
 def test_a_printer_without_paper_prints_nothing() -> None:
-    """Without paper, `print` raises PrinterFailed; with new paper, it works again."""
+    """Without paper, `print` raises PrinterFailed. With new paper, `print` works again."""
     printer = Printer(paper=1)
     printer.print("milk 120")
     with pytest.raises(PrinterFailed, match="out of paper"):
@@ -23,7 +23,7 @@ def test_a_printer_without_paper_prints_nothing() -> None:
 
 
 def test_a_printer_jams_when_two_lines_come_at_once() -> None:
-    """If several threads print, `lines` contains exactly the lines whose calls raised no error."""
+    """If several threads print, `lines` contains only the lines whose calls raised no error."""
     printer = Printer()
     with ThreadPoolExecutor(8) as pool:
         futures = [pool.submit(printer.print, str(number)) for number in range(8)]

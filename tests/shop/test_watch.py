@@ -1,4 +1,4 @@
-"""A Watch and an Eye read the messages of a camera, and wake all waiting threads."""
+"""Tests of Watch and Eye, which read the messages of a camera."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from course_pkg.shop import Customer, Eye, Watch, await_customer
 from course_pkg.shop import watch as module
 from tests.support import eventually
 
-FOR_EVER = 60.0  # s; this is longer than any test
+FOR_EVER = 60.0  # These s are longer than any test.
 
 
 def test_a_new_customer_is_returned_once() -> None:
-    """A customer is new in the first message with this customer, and gets the time of this message."""
+    """A customer is new only in the first message."""
     ticks = count(1)
     watch = Watch(lambda: next(ticks))
     assert watch.see([]) == []
@@ -29,7 +29,7 @@ def test_a_new_customer_is_returned_once() -> None:
 
 
 def test_a_customer_who_has_left_is_forgotten() -> None:
-    """A customer who has left is not returned any more. A customer who comes back is new."""
+    """A customer who has left and comes back is new."""
     watch = Watch()
     watch.see([1])
     watch.see([])
@@ -38,7 +38,7 @@ def test_a_customer_who_has_left_is_forgotten() -> None:
 
 
 def test_one_customer_replaces_another() -> None:
-    """A new customer is found even if the number of customers stays the same."""
+    """A new customer is found even if the number of customers is the same."""
     watch = Watch()
     watch.see([1])
     watch.see([2])
@@ -47,7 +47,7 @@ def test_one_customer_replaces_another() -> None:
 
 
 def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
-    """`wait` returns at once if a customer is already there."""
+    """`wait` returns immediately if a customer is present."""
     watch = Watch()
     watch.see([3])
     customer = watch.wait(0, FOR_EVER, FOR_EVER)
@@ -56,7 +56,7 @@ def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
 
 
 def test_all_waiting_threads_are_notified() -> None:
-    """Each thread returns when its customer comes; the other threads continue to wait."""
+    """Each waiting thread returns when its customer comes."""
     watch = Watch()
     watch.see([1])
     with ThreadPoolExecutor(4) as pool:
@@ -74,7 +74,7 @@ def _number(future: Future[Customer | None]) -> int | None:
 
 
 def test_a_wait_without_a_customer_ends_after_its_time() -> None:
-    """`wait` returns None, but only after `patience` s."""
+    """Without a customer, `wait` returns None after `patience` s."""
     watch = Watch()
     watch.see([])
     began = time.monotonic()
@@ -83,10 +83,10 @@ def test_a_wait_without_a_customer_ends_after_its_time() -> None:
 
 
 def test_a_wait_ends_when_the_camera_is_silent() -> None:
-    """`wait` raises CameraSilent if the camera sends no message for `silence` s, or has never sent one."""
+    """If the camera sends no message for `silence` s, `wait` raises CameraSilent."""
     watch = Watch()
     with pytest.raises(CameraSilent):
-        watch.wait(0, FOR_EVER, silence=5.0)  # the camera has never published a message
+        watch.wait(0, FOR_EVER, silence=5.0)  # The camera has never published a message.
     watch.see([1])
     eventually(lambda: watch.silent_for > 0.05)
     with pytest.raises(CameraSilent):
@@ -94,7 +94,7 @@ def test_a_wait_ends_when_the_camera_is_silent() -> None:
 
 
 def sees(frame: str) -> bool:
-    """Return whether a frame shows a customer; in these tests, a frame is a string."""
+    """Return whether the fake picture, which is a string, shows a customer."""
     if frame == "malformed":
         raise ValueError(frame)
     return frame == "a customer"
@@ -102,12 +102,12 @@ def sees(frame: str) -> bool:
 
 @pytest.fixture
 def eye() -> Eye:
-    """Return an Eye that has received no frame."""
+    """Return an Eye that has received no picture."""
     return Eye(sees)
 
 
 def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
-    """After a malformed frame, the result is still that of the last valid frame."""
+    """After a malformed picture, the Eye uses the last valid picture."""
     seen = [eye.look()]
     for frame in ("a customer", "malformed", "no customer", "malformed"):
         eye.hear(frame)
@@ -116,7 +116,7 @@ def test_only_the_newest_good_frame_counts(eye: Eye) -> None:
 
 
 def test_an_old_frame_is_not_used(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If the newest valid frame is older than FRAME_TIMEOUT, the result is None."""
+    """If the newest valid picture is older than FRAME_TIMEOUT, the result is None."""
     eye.hear("a customer")
     monkeypatch.setattr(module, "FRAME_TIMEOUT", -1.0)
     eye.hear("malformed")
@@ -124,13 +124,13 @@ def test_an_old_frame_is_not_used(eye: Eye, monkeypatch: pytest.MonkeyPatch) -> 
 
 
 def test_a_customer_is_found_without_waiting(eye: Eye) -> None:
-    """If a customer is already there, `await_customer` returns True even with a limit of 0 s."""
+    """If a customer is present, `await_customer` returns True even with a limit of 0 s."""
     eye.hear("a customer")
     assert await_customer(eye, 0.0) is True
 
 
 def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
-    """The first frame with a customer ends the wait of all threads. Other frames do not end it."""
+    """The first picture with a customer ends the wait of all threads."""
     eye.hear("no customer")
     with ThreadPoolExecutor(4) as pool:
         waits = [pool.submit(await_customer, eye, 30.0) for _ in range(4)]
@@ -140,7 +140,7 @@ def test_a_wait_ends_with_the_customer_who_comes(eye: Eye) -> None:
 
 
 def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
-    """The wait ends after its time limit, even if frames without a customer arrive all the time."""
+    """Without a customer, the wait ends after its time limit."""
     over = threading.Event()
 
     def stream() -> None:
@@ -160,6 +160,6 @@ def test_a_wait_without_a_customer_is_bounded(eye: Eye) -> None:
 
 
 def test_a_silent_camera_is_an_error(eye: Eye) -> None:
-    """If no frame arrives within the time limit, `await_customer` raises CameraSilent."""
+    """If no picture arrives within the time limit, `await_customer` raises CameraSilent."""
     with pytest.raises(CameraSilent):
         await_customer(eye, 0.05)

@@ -1,4 +1,4 @@
-"""The sites for the tests in this folder. Each worker builds the sites once."""
+"""Fixtures that build each site once for the tests in this folder."""
 
 from __future__ import annotations
 
@@ -43,10 +43,7 @@ PANELS = [
 
 @pytest.fixture(scope="session")
 def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the real course from its stored outputs.
-
-    The pages have no panels, because a panel needs a run of its notebook.
-    """
+    """Build the real course from its stored outputs, without panels."""
     folder = tmp_path_factory.mktemp("course")
     write_site(Settings(folder / "site", execute=False, book=True), runs=runs(folder / "cache"))
     return folder / "site"
@@ -54,7 +51,7 @@ def course(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Run a chapter with a panel of every kind, and build a site that contains this chapter."""
+    """Run a chapter with a panel of every kind, and build a site with this chapter."""
     folder = tmp_path_factory.mktemp("panels")
     cells = [code(source, id=f"c{number}") for number, source in enumerate(PANELS)]
     cells[PANELS.index("1 / 0")]["metadata"]["tags"] = ["raises-exception"]
@@ -68,7 +65,7 @@ def panels(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
-    """Serve both sites on 127.0.0.1, and return the address of each."""
+    """Serve both sites on 127.0.0.1, and return their addresses."""
     servers = {}
     for site in (course, panels):
         handler = partial(_Quiet, directory=str(site))
@@ -82,4 +79,4 @@ def served(course: Path, panels: Path) -> Iterator[dict[Path, str]]:
 
 class _Quiet(SimpleHTTPRequestHandler):
     def log_message(self, *_: object) -> None:
-        """Write no log, so that the tests print less."""
+        """Write no log."""

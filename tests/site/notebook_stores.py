@@ -1,4 +1,4 @@
-"""Small courses from which tests build sites."""
+"""Helpers that make small courses for the tests of sites."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FIRST = "# Try a panel\n\nA lead.\n\n**You will** see one.\n\n**You need** nothi
 def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
     """Write solutions and equal notebooks, and return their store.
 
-    `_00_name=[…]` contains the cells of the chapter 00_name; a cell with the title is added before them.
+    `_00_name=[…]` contains the cells of the chapter 00_name.
     """
     for folder in ("solutions", "notebooks"):
         (root / folder).mkdir(parents=True, exist_ok=True)
@@ -30,16 +30,16 @@ def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
 
 
 def runs(cache: Path) -> Runs:
-    """Return the runs of this checkout's package; they are stored in a separate folder."""
+    """Return the runs of this checkout's package in a separate folder."""
     return Runs(Places(Places.of().checkout, cache))
 
 
 def shown(*outputs: Output) -> Body:
-    """Return the body of a page with one cell that shows `outputs`."""
+    """Return the body of a page that shows `outputs`."""
     return Exporter().body(book(code("show()", outputs=list(outputs))))
 
 
 def result(**data: Plain) -> Output:
-    """Return a cell's result; `text_html="…"` is its data for the MIME type text/html."""
+    """Return a cell's result. `text_html="…"` is the data for the MIME type text/html."""
     kinds = {name.replace("_", "/", 1): value for name, value in data.items()}
     return {"output_type": "execute_result", "execution_count": 1, "metadata": {}, "data": kinds}

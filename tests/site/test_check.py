@@ -1,4 +1,4 @@
-"""The faults that `course site --check` reports."""
+"""Tests of the faults that `course site --check` reports."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ GOOD = (
 
 
 def page(folder: Path, html: str) -> list[str]:
-    """Write a page with `html` and a second, correct page, and return the faults."""
+    """Write a page with `html` and a correct page, and return the faults."""
     (folder / "one.html").write_text(f"<html><body>{html}")
     (folder / "two.html").write_text('<p id="x">x</p>')
     return faults(folder)
@@ -50,7 +50,7 @@ def page(folder: Path, html: str) -> list[str]:
     ],
 )
 def test_a_fault_is_found(tmp_path: Path, html: str, fault: str) -> None:
-    """`faults` returns exactly one fault, which begins with the name of the page."""
+    """`faults` returns one fault, which begins with the name of the page."""
     assert page(tmp_path, html) == [fault]
 
 
@@ -64,5 +64,5 @@ def test_a_fault_is_found(tmp_path: Path, html: str, fault: str) -> None:
     ],
 )
 def test_a_correct_page_has_no_fault(tmp_path: Path, html: str) -> None:
-    """Working links, figures with descriptions, prices and shell variables cause no fault."""
+    """A correct page has no fault, even with prices and shell variables."""
     assert page(tmp_path, html) == []

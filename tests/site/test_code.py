@@ -1,4 +1,4 @@
-"""Code as HTML with colours."""
+"""Tests of code as HTML with colours."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from course_pkg.site.prose import words
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_colours_do_not_change_the_text(path: Path) -> None:
-    """Without its tags, the coloured HTML of each code cell is equal to the cell's source."""
+    """The coloured HTML without its tags is equal to the source of the cell."""
     highlight = Highlighter()
     for cell in code_cells(read(path)):
         assert words(highlight.cell(cell["source"])) == cell["source"].strip("\n")
 
 
 def test_a_magic_selects_the_language_of_a_cell() -> None:
-    """The magic's file name or shell determines the colours. For an unknown name, there are no colours."""
+    """The file name or the shell in a magic selects the language of the colours."""
     highlight = Highlighter()
     assert "<i class=k>def</i>" in highlight.cell("%%writefile a.py\ndef f(): ...")
     assert "<i class=k>if</i>" in highlight.cell("%%bash\nif true; then echo; fi")

@@ -1,4 +1,4 @@
-"""The cells of a notebook as HTML."""
+"""Tests of notebook cells as HTML."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from tests.site.notebook_stores import result, shown
 
 
 def test_a_result_is_shown() -> None:
-    """A result with only plain text is shown as text, and HTML in it is escaped."""
+    """A result with only plain text is shown as escaped text."""
     assert "&lt;Box&gt; &amp; 3" in shown(result(text_plain="<Box> & 3")).html
 
 
 def test_html_is_cleaned() -> None:
-    """The page shows the HTML of a result without scripts, and does not show the text of the same result."""
+    """The page shows the HTML of a result without scripts."""
     body = shown(result(text_html="<p onclick=f()>yes</p><script>no()</script>", text_plain="text")).html
     assert "<p>yes</p>" in body
     assert "onclick" not in body
@@ -29,12 +29,12 @@ def test_html_is_cleaned() -> None:
 
 
 def test_a_script_among_the_outputs_is_left_out() -> None:
-    """The page does not show a result of type JavaScript, not even as text."""
+    """The page does not show a JavaScript result."""
     assert "alert" not in shown(result(application_javascript="alert(1)")).html
 
 
 def test_a_drawing_is_a_picture() -> None:
-    """An SVG becomes an <img>, in which no script can run; its description stays."""
+    """An SVG becomes an <img>, because no script can run in an <img>."""
     drawing = "<svg><script>alert(1)</script></svg>"
     output = result(text_plain="x") | {
         "data": {"image/svg+xml": drawing},
@@ -47,7 +47,7 @@ def test_a_drawing_is_a_picture() -> None:
 
 
 def test_a_figure_is_described_by_its_own_text() -> None:
-    """The alternative text of a matplotlib figure contains its labels and its title, but no numbers."""
+    """The alternative text of a matplotlib figure contains its labels and title."""
     texts = ("0.0", "\u22125", "10", "time (s)", "a &amp; b", "How late?")
     drawing = "<svg>" + "".join(f'<text x="1">{each}</text>' for each in texts) + "</svg>"
     output = result(text_plain="<Figure>") | {"data": {"image/svg+xml": drawing, "text/plain": "<Figure>"}}
@@ -55,12 +55,7 @@ def test_a_figure_is_described_by_its_own_text() -> None:
 
 
 def test_a_picture_of_a_panel_is_shown_if_there_is_no_state() -> None:
-    """If a panel has a state, the page shows the panel.
-
-    Otherwise it shows the picture, or the text if there is no picture.
-
-    The title of the picture is used as its description.
-    """
+    """A panel without a state is shown as a picture, or as text if there is no picture."""
     drawing = '<svg width="1"><title>The ROS graph: 2 &lt; 3 nodes</title><text>/a</text></svg>'
     data = {"image/svg+xml": drawing, "text/plain": "GraphPanel()"}
     body = shown(result() | {"data": data}).html
@@ -80,24 +75,21 @@ def test_an_error_looks_different_from_other_output() -> None:
 
 
 def test_a_terminals_output_is_shown_as_in_a_terminal() -> None:
-    """Text before a carriage return is removed, and all line ends are equal.
-
-    There are no control characters.
-    """
+    """Text before a carriage return and control characters are removed."""
     assert terminal("one\r\ntwo\r\n") == "one\ntwo"
     assert terminal("10 %\r20 %\rdone\x1b[K\x07") == "done"
     assert terminal("<b>") == "&lt;b&gt;"
 
 
 def test_an_exercise_can_be_linked_to() -> None:
-    """The HTML id of an exercise is the chapter's prefix and the id of the cell."""
+    """The HTML id of an exercise contains the chapter's prefix and the id of the cell."""
     body = Exporter().body(book(exercise("05.1"), code("x")), "c05-")
     assert 'class="in exercise" id="c05-exercise-05-1"' in body.html
     assert body.html.count("id=") == 1
 
 
 def test_the_states_of_panels_cannot_add_markup() -> None:
-    """The states are compressed, so that a browser finds no tag in them."""
+    """The states of panels are compressed, so they contain no HTML tags."""
     output = result() | {"data": {PANEL: {"panel": "graph", "state": {"title": "</script><script>alert(1)"}}}}
     body = shown(output).html
     assert 'data-panel="graph"' in body
@@ -131,7 +123,7 @@ ATTACKS = [
 
 
 class Reader(HTMLParser):
-    """Collects the tags and the attributes that a browser would find."""
+    """Collects all tags and attributes of a page."""
 
     def __init__(self, html: str) -> None:
         super().__init__()
@@ -146,7 +138,7 @@ class Reader(HTMLParser):
 
 @pytest.mark.parametrize("attack", ATTACKS)
 def test_nothing_runs_or_loads(attack: str) -> None:
-    """The sanitizer removes scripts, requests and imitations of the page; only their text may stay."""
+    """The sanitizer removes scripts, styles and addresses of other files."""
     for tag, name, value in Reader(Sanitizer()(attack)).seen:
         assert tag in ("p", "a", "div", "section", "img", "table")
         assert name in ("", "title")
@@ -154,7 +146,7 @@ def test_nothing_runs_or_loads(attack: str) -> None:
 
 
 def test_the_sanitizer_keeps_a_report() -> None:
-    """A check's report keeps its text, its structure and its coloured edge."""
+    """The sanitizer does not change the text, structure and colours of a check's report."""
     rule = Assertion("it answers", holds=False, asked="2", expected="4", actual="<5>", hint="Add.")
     report = Report("05.1", Verdict.FAILED, "A goal.", 0, 2, (rule,), "Again.", "printed")
     clean = Sanitizer()(report.html())
@@ -170,6 +162,6 @@ def test_the_sanitizer_keeps_a_report() -> None:
 
 
 def test_a_picture_with_its_data_in_the_page_stays() -> None:
-    """The picture keeps its description and its size, too."""
+    """The sanitizer does not change a picture whose data are in the page."""
     picture = '<img src="data:image/png;base64,iVBORw0KGgo=" alt="a chair" width="64" height="48">'
     assert Sanitizer()(picture) == picture

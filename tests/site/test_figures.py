@@ -1,4 +1,4 @@
-"""Figures in the Markdown of a notebook, as they are on a page."""
+"""Tests of figures in Markdown cells."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ DRAWING = (
 
 
 def page(folder: Path, *sources: str, prefix: str = "") -> Body:
-    """Return the body of a page with one Markdown cell for each source; the notebook is in `folder`."""
+    """Return the body of a page with one Markdown cell for each source."""
     return Exporter().body(book(*(text(source, f"t{n}") for n, source in enumerate(sources))), prefix, folder)
 
 
 def test_a_drawing_is_a_part_of_the_page(tmp_path: Path) -> None:
-    """The drawing has the description from the Markdown and its own text. Its ids are unique on the page."""
+    """An SVG drawing becomes part of the page, with the description from the Markdown and unique ids."""
     (tmp_path / "a b.svg").write_text(DRAWING)
     html = page(tmp_path, '![A "box" & more](a%20b.svg)', "![Again](a%20b.svg)", prefix="c07-").html
     assert html.count('<figure class="wide"><svg ') == 2
@@ -41,7 +41,7 @@ def test_a_drawing_is_a_part_of_the_page(tmp_path: Path) -> None:
 
 
 def test_a_page_contains_the_data_of_a_picture(tmp_path: Path) -> None:
-    """A page may not load other files, so the address of the picture contains its data."""
+    """The address of a picture contains the picture's data, because a page loads no other files."""
     content = b"\x89PNG"
     (tmp_path / "chair.png").write_bytes(content)
     html = page(tmp_path, "Look: ![a chair](chair.png)").html
@@ -62,7 +62,7 @@ def test_a_page_contains_the_data_of_a_picture(tmp_path: Path) -> None:
     ],
 )
 def test_a_figure_that_a_page_cannot_show_is_refused(tmp_path: Path, markdown: str, problem: str) -> None:
-    """The error contains the figure and the problem."""
+    """The error message contains the figure and the problem."""
     namespace = 'xmlns="http://www.w3.org/2000/svg" xmlns:l="http://www.w3.org/1999/xlink"'
     files = {
         "drawing.svg": DRAWING,
@@ -79,7 +79,7 @@ def test_a_figure_that_a_page_cannot_show_is_refused(tmp_path: Path, markdown: s
 
 
 def test_a_site_with_a_missing_figure_is_not_written(tmp_path: Path) -> None:
-    """The error contains the folder of the notebook, because the path of the figure is relative to it."""
+    """The error message contains the folder of the notebook."""
     books = store(tmp_path, _00_try=[text("![x](../figures/none.svg)", "t")])
     with pytest.raises(SiteError, match=r"no figure \.\./figures/none\.svg in .*solutions"):
         write_site(Settings(tmp_path / "site", execute=False), books, runs(tmp_path / "cache"))
@@ -89,10 +89,7 @@ def test_a_site_with_a_missing_figure_is_not_written(tmp_path: Path) -> None:
     "path", sorted((Places.of().checkout / "figures").iterdir()), ids=lambda path: path.name
 )
 def test_each_figure_of_the_course_can_be_shown(path: Path) -> None:
-    """Each figure of the course can be shown on a page.
-
-    Each drawing has a white background, so that its text is readable.
-    """
+    """Each figure of the course can be shown, and each drawing has a white background."""
     assert figure(path.parent, path.name, "A figure", "f1-")
     if path.suffix == ".svg":
         assert re.search(r'<rect [^>]*fill="(#fff|#ffffff|white)"', path.read_text("utf-8"))

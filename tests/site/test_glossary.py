@@ -1,4 +1,4 @@
-"""The glossary, and the texts for the search."""
+"""Tests of the glossary and of the search texts."""
 
 from __future__ import annotations
 
@@ -17,10 +17,7 @@ WRITTEN: dict[str, str] = json.loads((Path(module.__file__).parent / "glossary.j
 
 
 def test_most_terms_link_to_their_explanation() -> None:
-    """A term links to the first section in which it is bold or italic.
-
-    At least 80 % of the terms have such a section.
-    """
+    """At least 80 % of the terms link to the section that explains the term."""
     exporter, texts = Exporter(), []
     for path in NotebookStore().solutions():
         notebook = read(path)
@@ -33,19 +30,19 @@ def test_most_terms_link_to_their_explanation() -> None:
 
 
 def test_every_entry_is_a_sentence() -> None:
-    """Each entry ends with a full stop, and the entries of the file are in alphabetical order."""
+    """Each glossary entry ends with a full stop, and the entries are in alphabetical order."""
     assert [term for term, meaning in WRITTEN.items() if not meaning.endswith(".")] == []
     assert list(WRITTEN) == sorted(WRITTEN, key=str.lower)
 
 
 def test_no_two_entries_share_an_anchor() -> None:
-    """Each anchor occurs once, so that a link leads to one entry."""
+    """All entries have different anchors."""
     anchors = [entry.anchor for entry in Glossary.of([]).entries]
     assert len(set(anchors)) == len(anchors)
 
 
 def test_each_section_has_its_anchor_and_its_text() -> None:
-    """The text of a section contains its prose and its code. A # in code does not begin a section."""
+    """The search text of a section contains its prose and its code. A # in code does not begin a section."""
     notebook = book(
         text("# Title\n\nThe lead.", "t1"),
         text("## One\n\n```\n## no heading\n```\nA **word**.", "t2"),
@@ -63,12 +60,12 @@ def test_each_section_has_its_anchor_and_its_text() -> None:
 
 
 def test_marks_of_markdown_are_removed() -> None:
-    """The texts of links, and the cells of tables, stay."""
+    """The texts of links and table cells remain."""
     assert (
         plain("See [there](a.html), `code`, **bold**\n| a | b |\n|---|---|") == "See there, code , bold a b"
     )
 
 
 def test_the_texts_are_a_script() -> None:
-    """The texts for the search are in a script, because a page in a local folder cannot fetch a file."""
+    """The search texts are in a script, because a page in a local folder cannot fetch a file."""
     assert script([]) == "courseTexts([]);\n"

@@ -1,4 +1,4 @@
-"""The pages in a real browser: from a folder or a server, in wide and narrow windows, in light and dark."""
+"""Tests of the pages in a real browser."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from tests.browser.pages import picture
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
 # These rules are added to axe-core's default rules.
 RULES = {name: {"enabled": True} for name in ("target-size", "label-content-name-mismatch")}
-OPTIONS = {"rules": RULES, "preload": False}  # a page may not fetch files, so axe-core cannot preload them
-# the slowest rule of axe-core; its result does not depend on the width of the window
+OPTIONS = {"rules": RULES, "preload": False}  # A page may not fetch files, so axe-core cannot preload them.
+# This rule is the slowest rule of axe-core, and does not depend on the width of the window.
 CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
-# checked in every run; other combinations are checked only if a page may have changed
+# Each run checks this combination. The test checks other combinations only after a change of the pages.
 ALWAYS = (1200, "light")
 SWEEPS = [
     pytest.param(width, colours, marks=() if (width, colours) == ALWAYS else pytest.mark.when_changed)
@@ -29,7 +29,7 @@ SWEEPS = [
     for colours in COLOURS
 ]
 PAGE = "00_panels.html"
-ENOUGH = ("index.html", "glossary.html", PAGE)  # the pages to check in narrow dark windows
+ENOUGH = ("index.html", "glossary.html", PAGE)  # The test checks these pages in narrow dark windows.
 
 
 @contextmanager
@@ -38,8 +38,7 @@ def reader(
 ) -> Iterator[Page]:
     """Open a page in a browser that can connect only to 127.0.0.1.
 
-    The test fails if a request fails, if the console shows an error or a warning, or if a script raises an
-    exception.
+    The test fails if a request fails, a script raises an error, or the console shows a warning.
     """
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
     troubles: list[str] = []
@@ -57,7 +56,7 @@ def reader(
 
 
 def pages(site: Path) -> list[str]:
-    """Return the names of a site's pages; the book is left out, because it is only printed."""
+    """Return the names of a site's pages without the book."""
     return sorted(path.name for path in site.glob("*.html") if path.name != "book.html")
 
 
@@ -71,7 +70,7 @@ def open_page(page: Page, site: Path, name: str) -> None:
 def test_every_page_is_whole_without_a_network(
     browser: Browser, course: Path, panels: Path, served: dict[Path, str], way: str
 ) -> None:
-    """Each page draws all its panels, and is not wider than the window; no request fails."""
+    """Each page draws all its panels and fits into the window, and no request fails."""
     with reader(browser, 390) as page:
         for site in (course, panels):
             for name in [*pages(site), *(["book.html"] if site == course else [])]:
@@ -80,12 +79,12 @@ def test_every_page_is_whole_without_a_network(
                 assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
 
 
-@pytest.mark.timeout(360)  # this test needs much CPU time, and the machine may be busy
+@pytest.mark.timeout(360)  # This test needs much CPU time, and the machine may be busy.
 @pytest.mark.parametrize(("width", "colours"), SWEEPS)
 def test_axe_finds_no_problem(
     browser: Browser, course: Path, panels: Path, width: int, colours: Literal["light", "dark"]
 ) -> None:
-    """axe-core finds no problem on any page, both with and without the open search dialog.
+    """axe-core finds no problem on any page, with and without the search dialog.
 
     `tests/bench/site.py axe` checks every rule in every width and colour.
     """
@@ -99,7 +98,7 @@ def test_axe_finds_no_problem(
                 page.evaluate(AXE)
                 found[name] = violations(page, options)
                 look_for(page, "service")
-                # while the dialog is open, a user cannot reach the other parts of the page
+                # The search dialog covers the page, so axe-core checks only the dialog.
                 found[f"{name}, searching"] = violations(page, options, "dialog")
         picture(page, f"site-search-{width}-{colours}")
     assert {name: what for name, what in found.items() if what} == {}
@@ -113,7 +112,7 @@ def options_for(width: int, colours: str) -> dict[str, Any]:
 
 
 def violations(page: Page, options: Mapping[str, Any] = OPTIONS, part: str = "html") -> list[str]:
-    """Return the problems that axe-core finds in a part of the page; the page must have loaded axe-core."""
+    """Return the problems that axe-core finds in the element `part`. The page must have loaded axe-core."""
     run = "([part, options]) => axe.run(part, options)"
     found: list[dict[str, Any]] = page.evaluate(run, [part, options])["violations"]
     return [f"{each['id']}: {node['html'][:200]}" for each in found for node in each["nodes"]]
@@ -127,7 +126,7 @@ def look_for(page: Page, words: str) -> None:
 
 
 def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
-    """The page draws each panel from its saved state; the plot is shown with its description."""
+    """The page draws each panel from its saved state."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         shown = page.locator("[data-panel]").evaluate_all(
@@ -140,7 +139,10 @@ def test_every_kind_of_panel_is_drawn(browser: Browser, panels: Path) -> None:
 
 
 def test_the_book_draws_its_panels_without_animation_frames(browser: Browser, panels: Path) -> None:
-    """All panels are drawn even without animation frames and timers. Chromium prints without frames."""
+    """The book draws all panels without animation frames and timers.
+
+    Chromium does not run animation frames while it prints.
+    """
     with reader(browser) as page:
         page.add_init_script("requestAnimationFrame = setTimeout = () => 0")
         open_page(page, panels, "book.html")
@@ -148,7 +150,7 @@ def test_the_book_draws_its_panels_without_animation_frames(browser: Browser, pa
 
 
 def test_a_recorded_form_answers(browser: Browser, panels: Path) -> None:
-    """For a recorded request, the page shows the real response and the label "Recorded".
+    """For a recorded request, the page shows the recorded response.
 
     A panel without a recording says that there is no kernel.
     """
@@ -175,7 +177,7 @@ def test_the_turtles_can_be_replayed(browser: Browser, panels: Path) -> None:
 
 
 def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
-    """The key Home moves the slider to the beginning; at this time, there is no topic /rosout yet."""
+    """The key Home moves the slider to the beginning of the recording."""
     with reader(browser) as page:
         open_page(page, panels, PAGE)
         graph = page.get_by_role("region", name="Graph panel")
@@ -188,7 +190,7 @@ def test_the_graph_can_be_replayed(browser: Browser, panels: Path) -> None:
 
 
 def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
-    """The search works with the keyboard only: press its key, type a word, press Down and Enter."""
+    """With the keyboard only, the reader opens a section from the search."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         look_for(page, "idempotent")
@@ -199,7 +201,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
-    """The message contains the searched word, and the key Escape closes the search."""
+    """The message contains the search text, and Escape closes the search."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()
@@ -212,10 +214,7 @@ def test_a_search_without_results_shows_a_message(browser: Browser, course: Path
 def test_the_next_page_keeps_the_chosen_colours(
     browser: Browser, served: dict[Path, str], course: Path
 ) -> None:
-    """A click on the button changes the theme from system to light and dark.
-
-    The next page has the same theme.
-    """
+    """A click on the button changes the theme, and the next page has the same theme."""
     with reader(browser, colours="light") as page:
         page.goto(served[course])
         button = page.locator("button.theme")
@@ -230,10 +229,7 @@ def test_the_next_page_keeps_the_chosen_colours(
 
 
 def test_the_contents_mark_the_current_section(browser: Browser, course: Path) -> None:
-    """The table of contents marks the section at the top of the window.
-
-    In a narrow window, the table of contents is closed.
-    """
+    """The table of contents marks the section at the top of the window."""
     with reader(browser) as page:
         open_page(page, course, "05_write_a_server.html")
         page.locator("h2").nth(4).evaluate("heading => heading.scrollIntoView({behavior: 'instant'})")
@@ -247,7 +243,7 @@ def test_the_contents_mark_the_current_section(browser: Browser, course: Path) -
 
 
 def test_code_can_be_copied(browser: Browser, course: Path) -> None:
-    """The button copies the text of the cell, but not the label of the button."""
+    """The button copies the text of the cell."""
     with reader(browser) as page:
         page.context.grant_permissions(["clipboard-read", "clipboard-write"])
         open_page(page, course, "05_write_a_server.html")
@@ -259,7 +255,7 @@ def test_code_can_be_copied(browser: Browser, course: Path) -> None:
 
 
 def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> None:
-    """Without scripts, the page shows the code and a message about the missing panels, but no buttons."""
+    """Without scripts, the page shows the code and a message about the missing panels."""
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((panels / PAGE).as_uri())
@@ -270,10 +266,7 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
 
 
 def test_a_page_opens_no_connection(browser: Browser, course: Path, served: dict[Path, str]) -> None:
-    """The page's policy forbids all connections, even to the page's server.
-
-    It forbids all scripts without the nonce.
-    """
+    """The page's policy forbids all connections, and all scripts without the nonce."""
     context = browser.new_context()
     page = context.new_page()
     page.goto(served[course])

@@ -1,4 +1,4 @@
-"""Markdown on a page."""
+"""Tests of Markdown on a page."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ from course_pkg.site.prose import Prose, page_of
 
 
 def prose(prefix: str = "") -> Prose:
-    """Return a renderer that leaves code unchanged."""
+    """Return a renderer that does not change code."""
     return Prose(lambda code, _language: code, prefix)
 
 
 def test_raw_html_is_shown_as_text() -> None:
-    """The tags of HTML in prose are escaped."""
+    """HTML tags in prose are escaped."""
     assert "&lt;script&gt;" in prose()("<script>alert(1)</script>")
     assert "&lt;b&gt;" in prose()("a <b>word</b>")
 
 
 @pytest.mark.parametrize("link", ["javascript:alert(1)", "data:text/html,x", "vbscript:x"])
 def test_a_link_cannot_run(link: str) -> None:
-    """If the address of a link is a script, it is removed."""
+    """A script in a link's address is removed."""
     assert link.partition(":")[0] not in prose()(f"[here]({link})")
 
 
 def test_each_heading_has_a_different_anchor() -> None:
-    """Two equal headings get different anchors. All anchors begin with the prefix of the chapter."""
+    """Two equal headings have different anchors, which begin with the chapter's prefix."""
     page = prose("c05-")
     page("# Ask, and wait\n\n## Again")
     page("## Again\n\n### `rosservice`?")
@@ -48,13 +48,13 @@ def test_each_heading_has_a_different_anchor() -> None:
     ],
 )
 def test_a_link_to_a_chapter_leads_to_its_page(link: str, page: str) -> None:
-    """A link to a notebook becomes a link to its page; other links do not change."""
+    """A link to a notebook becomes a link to its page."""
     assert page_of(link) == page
     assert f'href="{page}"' in prose()(f"[there]({link})")
 
 
 def test_a_formula_is_mathml() -> None:
-    """A formula becomes MathML without its dollar signs, both within a line and as a block."""
+    """A formula becomes MathML without dollar signs."""
     html = prose()("so $d_n = 2^n$ it is\n\n$$\n\\sum_{n=0}^{7} 2^n\n$$")
     assert html.count("<math ") == 2
     assert 'display="inline"' in html
@@ -72,6 +72,6 @@ def test_other_dollar_signs_stay_text(text: str) -> None:
 
 
 def test_an_invalid_formula_is_refused() -> None:
-    """The error contains the formula, so that the author can find it."""
+    """The error message contains the invalid formula."""
     with pytest.raises(SiteError, match=r"The formula \$2\^2\^2\$ cannot be read"):
         prose()("so $2^2^2$")

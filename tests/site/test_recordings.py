@@ -1,4 +1,4 @@
-"""The recording of panels while a chapter runs for the site."""
+"""Tests of recording panels while a chapter runs for the site."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from tests.site.notebook_stores import result
 
 
 class Noted:
-    """A panel that stores the calls of its methods in `done`.
+    """A fake panel that stores the calls of its methods in `done`.
 
     If `trouble` is not None, `record` raises it.
     """
@@ -41,7 +41,7 @@ class Noted:
         self.done.append((kind, content))
 
     def record(self, requests: list[dict[str, Plain]]) -> None:
-        """Store the requests, and raise `trouble` if there is one."""
+        """Store the requests, and raise `trouble` if it is not None."""
         self.done.append(requests)
         if self.trouble:
             raise self.trouble
@@ -59,7 +59,7 @@ class Noted:
 def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) -> None:
     """The panel gets the name of the service before the requests.
 
-    If there is no server yet, the run of the notebook continues.
+    An error in the recording does not stop the notebook.
     """
     panel = Noted(trouble)
     record_panel(panel, {"pick": "/add_two_ints", "record": [{"a": 1, "b": 2}]})
@@ -67,14 +67,14 @@ def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) 
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """The panel is shown and then hidden. If the notebook has no node, no calls are made."""
+    """The panel is shown and then hidden."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]
 
 
 def test_the_panel_is_found_even_if_a_notebook_uses_the_name_underscore() -> None:
-    """The added cell finds the panel in `_oh`. A loop with the variable `_` replaces IPython's own `_`."""
+    """The added cell finds the panel in `_oh`, because a notebook may assign to `_`."""
     notebook = book(code("for _ in range(2): pass"), code("GraphPanel()", id="graphpanel"))
     added = with_recordings("00_start_the_graph", notebook)["cells"][-1]
     panel, results = Noted(), {1: "earlier"}
@@ -89,10 +89,7 @@ SYSTEMS = json.loads((HERE / "systems.json").read_text("utf-8"))
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_each_plan_belongs_to_a_cell_with_a_panel(path: Path) -> None:
-    """The cell exists in the solution and in the student's notebook.
-
-    It ends with a panel of the right kind.
-    """
+    """Each plan belongs to a cell of the notebook that ends with a panel of the right kind."""
     for folder in ("solutions", "notebooks"):
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / path.name))}
         for cell, plan in plans(path.stem).items():
@@ -111,7 +108,7 @@ def test_the_added_cells_are_removed_again(path: Path) -> None:
 
 @pytest.mark.parametrize("system", SYSTEMS, ids=lambda system: system["name"])
 def test_the_command_of_each_system_exists(system: dict[str, str]) -> None:
-    """Each command on the landing page starts an existing launch file or program of the package."""
+    """Each command on the start page starts an existing launch file or program."""
     tool, package, name, *_ = system["start"].split()
     folders = {"course_pkg": "nodes/ chapters/*/programs/", "turtlesim": "turtlesim/"}[package].split()
     programs = [found for folder in folders for found in (ROOT / "course_pkg").glob(f"{folder}{name}.py")]
@@ -122,7 +119,7 @@ GRAPH = "course_pkg.panels.graph.view.GraphPanel"
 
 
 def saved(kind: str, **state: Plain) -> Notebook:
-    """Return a notebook with one view of a widget whose class is `kind`."""
+    """Return a notebook with a view of a widget of the class `kind`."""
     view = result(text_plain="GraphPanel()")
     view["data"][VIEW] = {"model_id": "m"}
     notebook = book(code("GraphPanel()", outputs=[view]))
@@ -132,13 +129,13 @@ def saved(kind: str, **state: Plain) -> Notebook:
 
 
 def data(notebook: Notebook) -> dict[str, Plain]:
-    """Return the data of the notebook's first output, by MIME type."""
+    """Return the data of the notebook's first output by MIME type."""
     held: dict[str, Plain] = notebook["cells"][0]["outputs"][0]["data"]
     return held
 
 
 def test_a_panel_is_kept_without_its_script() -> None:
-    """The output keeps the name and the state of the widget. The script and the style are left out."""
+    """The output contains the name and the state of the widget, but no script."""
     notebook = saved(GRAPH, data={"x": 1})
     embed_states(notebook)
     assert data(notebook) == {
@@ -149,7 +146,7 @@ def test_a_panel_is_kept_without_its_script() -> None:
 
 
 def test_a_widget_of_another_library_is_shown_as_text() -> None:
-    """Only panels of the course keep their state, because a page has only their scripts."""
+    """A widget of another library is shown as text."""
     for kind in ("elsewhere.Widget", "course_pkg.panels.graph.view.GraphPanel2.x", "", f"{GRAPH}\n"):
         notebook = saved(kind)
         embed_states(notebook)
@@ -157,7 +154,7 @@ def test_a_widget_of_another_library_is_shown_as_text() -> None:
 
 
 def test_a_view_without_a_state_is_shown_as_text() -> None:
-    """If the kernel ended before its widgets were saved, the page shows the text of each widget."""
+    """A widget without a saved state is shown as text."""
     notebook = saved(GRAPH)
     notebook["metadata"] = {}
     embed_states(notebook)

@@ -1,4 +1,4 @@
-"""A chapter runs again only if its code or the package has changed."""
+"""Tests of running a chapter again after a change of its code or of the package."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ COUNT = "from pathlib import Path\nruns = Path({!r})\nruns.write_text(runs.read_
 
 @pytest.fixture
 def counter(tmp_path: Path) -> Path:
-    """Return a file; every run of a chapter adds a letter to it."""
+    """Return a file to which every run of a chapter adds a letter."""
     path = tmp_path / "runs.txt"
     path.write_text("")
     return path
@@ -33,7 +33,7 @@ def chapter(root: Path, counter: Path, prose: str = "Some prose.", last: str = "
 
 
 def executed(kept: Runs, path: Path) -> Notebook:
-    """Return the last run of a chapter; first run it again if this is necessary."""
+    """Return the last run of a chapter, and run the chapter first if necessary."""
     assert kept.update([path]) == {}
     notebook = kept.latest(path)
     assert notebook is not None
@@ -46,10 +46,7 @@ def result(kept: Runs, path: Path) -> str:
 
 
 def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -> None:
-    """After a change of prose, the page shows the change without a new run.
-
-    A change of code starts a new run, whose outputs replace the old ones.
-    """
+    """A change of prose needs no new run, but a change of code starts a new run."""
     kept = runs(tmp_path / "cache")
     assert result(kept, chapter(tmp_path, counter)) == "2"
     path = chapter(tmp_path, counter, prose="Other prose.")
@@ -62,7 +59,7 @@ def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -
 
 
 def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, counter: Path) -> None:
-    """The chapter runs again at the next update; until then, the page shows the outputs of the last run."""
+    """After a change of the package, the next update runs the chapter again."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter)
     executed(kept, path)
     other = runs(tmp_path / "cache")
@@ -76,7 +73,7 @@ def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, coun
 def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
     tmp_path: Path, counter: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A new file in one of the folders that `folders_for` returns for the chapter starts a new run."""
+    """A new file in one of the folders from `folders_for` starts a new run."""
     imported = tmp_path / "imported"
     imported.mkdir()
     monkeypatch.setattr("course_pkg.site.runs.folders_for", lambda number: [imported][: number == "00"])
@@ -88,7 +85,7 @@ def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
 
 
 def test_a_run_that_fails_is_not_kept(tmp_path: Path, counter: Path) -> None:
-    """The error contains the cell that failed, and `latest` returns None."""
+    """The error message contains the failed cell, and `latest` returns None."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter, last="1 / 0")
     errors = kept.update([path])
     assert "cell last stopped the run with ZeroDivisionError" in str(errors[path])
@@ -96,7 +93,7 @@ def test_a_run_that_fails_is_not_kept(tmp_path: Path, counter: Path) -> None:
 
 
 def test_chapters_run_at_the_same_time_in_separate_folders(tmp_path: Path) -> None:
-    """Two chapters run at the same time, and share no folder, temporary folder, results or logs."""
+    """Two chapters run at the same time in separate folders."""
     meet = (
         "import time, pathlib, os, tempfile\n"
         f"mine, other = [pathlib.Path({str(tmp_path)!r}, name) for name in NAMES]\n"

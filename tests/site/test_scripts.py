@@ -1,4 +1,4 @@
-"""The front ends of the panels, joined into one script."""
+"""Tests of the script that contains all front ends."""
 
 from __future__ import annotations
 
@@ -15,22 +15,19 @@ from course_pkg.site.scripts import PANELS, fronts, panels_script, panels_sheet
 
 
 def test_every_panel_with_a_view_has_a_front_end() -> None:
-    """The page finds the front end of a panel by the name of its folder.
-
-    Pictures are HTML, so they need no front end.
-    """
+    """Each panel has a front end with the name of the panel's folder."""
     views = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(fronts()) == views - {"image"}
     assert set(re.findall(r"(\w+): _\w+", panels_script().rpartition("coursePanels")[2])) == set(fronts())
 
 
 def test_the_script_has_no_import_and_no_export() -> None:
-    """A page in a local folder cannot load modules."""
+    """The script has no import and no export, because a page in a local folder cannot load modules."""
     assert re.findall(r"^(?:import|export)\b.*", panels_script(), re.MULTILINE) == []
 
 
 def test_the_script_contains_each_module_once(tmp_path: Path) -> None:
-    """A module comes after the modules that it imports, even if it imports a function under another name."""
+    """The script contains each module once, after the modules that it imports."""
     (tmp_path / "kit.js").write_text("export function h() {}\n")
     (tmp_path / "one").mkdir()
     (tmp_path / "one" / "part.js").write_text('import { h } from "../kit.js";\nexport const part = h;\n')
@@ -46,7 +43,7 @@ def test_the_script_contains_each_module_once(tmp_path: Path) -> None:
 
 
 def test_the_shared_styles_come_first() -> None:
-    """A panel's own styles come later, because they override the shared styles."""
+    """The shared styles come before the styles of a panel, so that the panel can override them."""
     assert panels_sheet().startswith((PANELS / "look.css").read_text("utf-8"))
 
 
@@ -54,7 +51,7 @@ HERE = Path(__file__).parent
 
 
 def test_the_stored_bundle_matches_its_sources(tmp_path: Path) -> None:
-    """A new build with the versions of the lock file gives the same bytes as the stored files."""
+    """A new build gives the same bytes as the stored files."""
     if not shutil.which("npm"):
         pytest.skip("this machine has no npm, so the bundle was not built and compared")
     try:
@@ -68,7 +65,7 @@ def test_the_stored_bundle_matches_its_sources(tmp_path: Path) -> None:
 
 
 def test_every_library_is_pinned_and_named() -> None:
-    """Each library has a version in package.json, a hash in the lock file, and a licence in LICENSES.txt."""
+    """Each library has a version, a hash and a licence."""
     package = json.loads((BUNDLE / "package.json").read_text("utf-8"))
     wanted = {**package["dependencies"], **package["devDependencies"]}
     locked = json.loads((BUNDLE / "package-lock.json").read_text("utf-8"))["packages"]

@@ -1,4 +1,4 @@
-"""The site as a whole, without a browser."""
+"""Tests of the whole site without a browser."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from tests.site.notebook_stores import runs, store
 
 
 def test_the_course_has_no_fault(course: Path) -> None:
-    """`faults` finds no fault in the site of the whole course."""
+    """`faults` finds no fault in the course's site."""
     assert faults(course) == []
 
 
 def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> None:
-    """Each chapter has a page, a notebook to download, and links to the previous and to the next chapter."""
+    """Each chapter has a page, a notebook to download, and links to the previous and next chapter."""
     for path in NotebookStore().solutions():
         page = (course / f"{path.stem}.html").read_text("utf-8")
         assert f'href="notebooks/{path.name}" download' in page
@@ -36,11 +36,9 @@ def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> No
 
 
 def test_pages_are_small(course: Path, panels: Path) -> None:
-    """The files that all pages share have at most 170 kB (compressed).
+    """The shared files of all pages have at most 170 kB (compressed).
 
-    The median of the pages without their pictures is at most 60 kB (compressed).
-
-    The page with all panels also has at most 60 kB (compressed).
+    The median page without its pictures, and the page with all panels, have at most 60 kB (compressed).
     """
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]
     shared = sum(len(compress(path.read_bytes())) for path in loaded if path.name != "texts.js")
@@ -51,10 +49,7 @@ def test_pages_are_small(course: Path, panels: Path) -> None:
 
 
 def test_a_chapter_that_fails_does_not_stop_the_other_chapters(tmp_path: Path) -> None:
-    """The failed chapter is reported, and its page shows the stored outputs.
-
-    The other pages show a new run.
-    """
+    """The failed chapter is reported, and its page shows the stored outputs."""
     chapters = {"_00_good": [code("1 + 1")], "_01_bad": [text("Some prose."), code("1 / 0", id="boom")]}
     troubles = write_site(Settings(tmp_path / "site"), store(tmp_path, **chapters), runs(tmp_path / "cache"))
     assert troubles == [
@@ -67,7 +62,7 @@ def test_a_chapter_that_fails_does_not_stop_the_other_chapters(tmp_path: Path) -
 
 
 def test_a_students_site_contains_no_answer(tmp_path: Path) -> None:
-    """The pages, the search index and the notebooks to download contain no answers."""
+    """The pages, the search texts and the notebooks contain no answers."""
     books = store(tmp_path, _05_ask=[exercise("05.1", source="def secret_answer():\n    return 42")])
     given = tmp_path / "notebooks" / "05_ask.ipynb"
     given.write_text(given.read_text("utf-8").replace("return 42", "..."), "utf-8")
@@ -78,7 +73,7 @@ def test_a_students_site_contains_no_answer(tmp_path: Path) -> None:
 
 
 def test_a_page_links_to_binder_if_its_address_is_given(tmp_path: Path) -> None:
-    """The link opens the students' notebook. If Binder's address is not given, there is no link."""
+    """The page has a link to Binder only if Binder's address is given."""
     books = store(tmp_path, _05_ask=[])
     for address in ("", "https://binder.example/v2/gh/a/b/main"):
         write_site(
@@ -90,7 +85,7 @@ def test_a_page_links_to_binder_if_its_address_is_given(tmp_path: Path) -> None:
 
 
 def test_the_same_course_makes_the_same_site(tmp_path: Path) -> None:
-    """Two builds write the same bytes, so that a site can be kept in a version control system."""
+    """Two builds of the same course write the same bytes."""
     books, kept = store(tmp_path, _05_ask=[code("1")]), runs(tmp_path / "cache")
     for name in ("one", "two"):
         write_site(Settings(tmp_path / name, execute=False), books, kept)
@@ -103,7 +98,7 @@ def test_the_same_course_makes_the_same_site(tmp_path: Path) -> None:
 
 @pytest.mark.timeout(300)
 def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
-    """The command prints the paths of the book and of the first page."""
+    """The command prints the paths of the book and of the start page."""
     command = [
         sys.executable,
         "-m",
@@ -124,26 +119,26 @@ def test_the_command_writes_checks_and_prints(tmp_path: Path) -> None:
 
 
 def write(path: Path, *names: str) -> None:
-    """Write a site with files of these names; the content of each file is its name."""
+    """Write a site with files of these names."""
     with Folder(path) as folder:
         for name in names:
             folder.write(name, name)
 
 
 def names(path: Path) -> set[str]:
-    """Return the paths of the files in a folder, except the site's list of its own files."""
+    """Return the paths of the site's files, except its list of files."""
     return {str(file.relative_to(path)) for file in path.rglob("*") if file.is_file() and file.suffix} - {""}
 
 
 def test_old_files_of_an_earlier_site_are_removed(tmp_path: Path) -> None:
-    """A new site removes the page of a deleted chapter, because a search engine could still find it."""
+    """A new site removes the page of a deleted chapter."""
     write(tmp_path / "site", "a.html", "assets/b.js")
     write(tmp_path / "site", "a.html", "c.html")
     assert names(tmp_path / "site") == {"a.html", "c.html"}
 
 
 def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
-    """The error is raised before anything is written, and the files in the folder do not change."""
+    """A folder with other files is refused and does not change."""
     (tmp_path / "thesis.txt").write_text("mine")
     with pytest.raises(SiteError, match="contains files that are not a site"):
         write(tmp_path, "a.html")
@@ -151,7 +146,7 @@ def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_file_that_a_user_added_to_a_site_stays(tmp_path: Path) -> None:
-    """A new site removes only files that an earlier site wrote."""
+    """A new site removes only files of an earlier site."""
     write(tmp_path / "site", "a.html")
     (tmp_path / "site" / "own.txt").write_text("mine")
     write(tmp_path / "site", "b.html")
@@ -159,7 +154,7 @@ def test_a_file_that_a_user_added_to_a_site_stays(tmp_path: Path) -> None:
 
 
 def test_a_site_that_fails_half_way_removes_nothing(tmp_path: Path) -> None:
-    """After a failed build, the previous pages still exist. The next successful build removes old pages."""
+    """After a failed build, the previous pages still exist."""
     write(tmp_path / "site", "a.html", "b.html")
     with suppress(ZeroDivisionError), Folder(tmp_path / "site") as folder:
         folder.write("a.html", "new")
@@ -170,7 +165,7 @@ def test_a_site_that_fails_half_way_removes_nothing(tmp_path: Path) -> None:
 
 
 def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
-    """The error message says that the user can give another folder with --out."""
+    """The error message contains the option --out."""
     (tmp_path / "file").write_text("")
     with pytest.raises(SiteError, match="Name another folder with --out"):
         write(tmp_path / "file", "a.html")

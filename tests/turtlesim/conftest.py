@@ -1,4 +1,4 @@
-"""A turtle simulator; all tests of a module use the same one."""
+"""A turtle simulator for all tests of a module."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.ros import NodeProcess, PrivateMaster
 
 @pytest.fixture(scope="module")
 def simulator(master: PrivateMaster) -> Iterator[NodeProcess]:
-    """Run `rosrun turtlesim turtlesim_node` until it answers."""
+    """Run `rosrun turtlesim turtlesim_node` until its services are available."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node"]) as process:
         process.wait_for_service("/spawn")
         yield process

@@ -1,4 +1,4 @@
-"""A client that makes random calls, with unusual numbers and names, and with incomplete requests."""
+"""A client that makes random calls with unusual values and incomplete requests."""
 
 from __future__ import annotations
 
@@ -38,11 +38,11 @@ ODD_NAMES = (
     "t/",
     "con",
 )
-MOST = 12  # maximum number of turtles; if there are more, the simulator is reset
+MOST = 12  # If there are more turtles than this number, the fuzzer resets the simulator.
 
 
 class Fuzzer:
-    """Chooses random actions and executes them. `refused` counts the refused calls."""
+    """Chooses and executes random actions. `refused` counts the refused calls."""
 
     def __init__(self, node: Node, seed: int) -> None:
         self._node = node
@@ -64,7 +64,7 @@ class Fuzzer:
         self._draw.choice(deeds)()
 
     def number(self) -> float:
-        """Return a random number. One number in three is unusual, for example NaN."""
+        """Return a random number; one number in three is unusual, for example NaN."""
         return self._draw.choice(ODD_NUMBERS) if self._draw.random() < 1 / 3 else self._draw.uniform(-20, 20)
 
     def _turtle(self) -> str:
@@ -116,7 +116,7 @@ class Fuzzer:
         self._publishers.clear()
 
     def _cut_off(self) -> None:
-        """Send only a part of a call, and close the connection."""
+        """Send an incomplete request, and close the connection."""
         pairs = [b"service=/spawn", b"callerid=/rude", b"md5sum=" + Spawn._md5sum.encode()]
         body = b"".join(struct.pack("<I", len(pair)) + pair for pair in pairs)
         request = struct.pack("<IfffI", 16, 1.0, 1.0, 0.0, 0)
@@ -136,7 +136,7 @@ class Fuzzer:
 
 
 def sane(node: Node) -> None:
-    """Assert that turtle1 is in the middle after a reset, and that a teleport moves it."""
+    """Assert that turtle1 is in the middle after a reset, and that a teleport moves turtle1."""
     node.call("/reset", Empty, timeout=10)
     with node.subscribe("/turtle1/pose", Pose) as heard:
         heard.wait(1)

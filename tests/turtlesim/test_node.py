@@ -1,4 +1,4 @@
-"""On a real graph, the course's node behaves like the turtlesim of ROS."""
+"""Tests that the course's node behaves like the turtlesim of ROS."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ def pose(name="turtle1", after=0):
 
 @pytest.fixture
 def client(kernel: Kernel, simulator: NodeProcess) -> Kernel:
-    """Return a kernel that is a node; the simulator contains only turtle1."""
+    """Return a kernel that runs a node. The simulator contains only turtle1."""
     kernel.run(CLIENT + "node.call('/reset', Empty)")
     return kernel
 
 
 def terminal(*command: str) -> str:
-    """Run a command in the same way as a student, and return its output."""
+    """Run a command, and return its output."""
     done = subprocess.run(
         command, capture_output=True, text=True, timeout=30, env=dict(os.environ), check=False
     )
@@ -58,13 +58,13 @@ def terminal(*command: str) -> str:
 
 @pytest.mark.parametrize("name", MD5)
 def test_the_types_are_those_of_the_real_package(name: str) -> None:
-    """The MD5 sums are the same as in ROS; they have to be, because clients compare them."""
+    """The types have the same MD5 sums as in ROS."""
     kind = message_type if name in ("Color", "Pose") else service_type
     assert kind(f"turtlesim/{name}").cls._md5sum == MD5[name]
 
 
 def test_the_node_has_the_topics_and_services_of_turtlesim(simulator: NodeProcess) -> None:
-    """The topics and services have the names and types of the real node."""
+    """The topics and services have the names and types of turtlesim."""
     seen = eventually(lambda: look() if look().service("/turtle1/teleport_absolute") else None)
     own = [each for each in seen.services if each.node == "/turtlesim"]
     services = {each.name: each.type for each in own if "logger" not in each.name}
@@ -84,16 +84,13 @@ def test_the_node_has_the_topics_and_services_of_turtlesim(simulator: NodeProces
 
 
 def test_parameters(simulator: NodeProcess) -> None:
-    """The background colour is in three private parameters of the node."""
+    """Three private parameters of the node contain the background colour."""
     shown = [terminal("rosparam", "get", f"/turtlesim/background_{each}").strip() for each in "rgb"]
     assert shown == ["69", "86", "255"]
 
 
 def test_a_used_name_is_refused(client: Kernel, simulator: NodeProcess) -> None:
-    """A second spawn with the same name fails with an empty message.
-
-    The log of the node contains the reason.
-    """
+    """A second spawn with the same name fails, and the node's log contains the reason."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'MyTurtle')")
     assert said == "service [/spawn] responded with an error: b''"
@@ -101,27 +98,27 @@ def test_a_used_name_is_refused(client: Kernel, simulator: NodeProcess) -> None:
 
 
 def test_an_unknown_turtle_cannot_be_killed(client: Kernel, simulator: NodeProcess) -> None:
-    """A call of /kill fails with an empty message; the log of the node contains the reason."""
+    """Killing an unknown turtle fails, and the node's log contains the reason."""
     said = client.run("result = words('/kill', Kill, 'nobody')")
     assert said == "service [/kill] responded with an error: b''"
     eventually(lambda: "Tried to kill turtle [nobody], which does not exist" in simulator.output())
 
 
 def test_an_illegal_name(client: Kernel) -> None:
-    """The error contains the invalid character and its position, and no turtle is created."""
+    """The error message contains the invalid character and its position."""
     said = client.run("result = words('/spawn', Spawn, 3, 3, 0, 'my turtle')")
     assert "Character [ ] at element [2] is not valid in Graph Resource Name [my turtle]" in said
     assert not [topic for topic in look().topics if topic.name.startswith("/my")]
 
 
 def test_a_name_in_a_namespace(client: Kernel) -> None:
-    """The name a/b is accepted, and the turtle's topics begin with a/b."""
+    """The name a/b is valid, and the turtle's topics begin with a/b."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'a/b')")
     assert client.run("result = round(pose('a/b').x, 3)") == 3.0
 
 
 def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
-    """When a turtle was killed, its services do not exist any more, and its name is free."""
+    """A killed turtle has no services, and its name can be used again."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'brief')")
     client.run("node.call('/kill', Kill, 'brief')")
     assert not look().service("/brief/set_pen")
@@ -129,7 +126,7 @@ def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
 
 
 def test_driving(client: Kernel) -> None:
-    """One message with linear.x = 1 moves the turtle by about 1.008 m; the error is at most two ticks."""
+    """One message with linear.x = 1 moves the turtle by about 1.008 m."""
     client.run("order = Twist(); order.linear.x = 1.0; before = pose().x")
     client.run("publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)")
     client.run(
@@ -156,7 +153,7 @@ def test_teleport_and_colour(client: Kernel) -> None:
 
 
 def test_subscribers_keep_their_connection_after_a_reset(client: Kernel) -> None:
-    """After a reset, a subscriber of turtle1 still receives poses; now they are in the middle."""
+    """After a reset, a subscriber of turtle1 still receives poses."""
     client.run("heard = node.subscribe('/turtle1/pose', Pose)")
     client.run("node.call('/turtle1/teleport_absolute', TeleportAbsolute, 1, 1, 0); heard.wait()")
     client.run("node.call('/reset', Empty); count = heard.count")
@@ -167,7 +164,7 @@ def test_subscribers_keep_their_connection_after_a_reset(client: Kernel) -> None
 
 
 def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
-    """If turtle1 was killed, a reset creates it again in the middle."""
+    """After turtle1 was killed, a reset creates turtle1 again."""
     client.run("node.call('/kill', Kill, 'turtle1'); node.call('/reset', Empty)")
     assert client.run("result = round(pose().x, 3)") == 5.544
 
@@ -181,14 +178,14 @@ def test_reset_brings_a_killed_first_turtle_back(client: Kernel) -> None:
     ],
 )
 def test_numbers_that_are_not_finite_are_refused(client: Kernel, name: str, kind: str, values: str) -> None:
-    """The call fails with an error message, and turtle1 does not move."""
+    """A call with NaN or infinity fails, and turtle1 does not move."""
     said = client.run(f"result = words('{name}', {kind}, {values})")
     assert "not finite" in said
     assert client.run("result = round(pose().x, 3)") == 5.544
 
 
 def test_a_velocity_that_is_not_finite_is_ignored(client: Kernel) -> None:
-    """A message with NaN on cmd_vel does not move or turn the turtle."""
+    """A velocity message with NaN does not move the turtle."""
     client.run(
         "import time\norder = Twist(); order.angular.z = float('nan')\n"
         "publisher = rospy.Publisher('/turtle1/cmd_vel', Twist, queue_size=1)\n"
@@ -200,17 +197,14 @@ def test_a_velocity_that_is_not_finite_is_ignored(client: Kernel) -> None:
 
 
 def test_two_simulators_side_by_side(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """If a simulator is in a namespace, all its names begin with the namespace.
-
-    This includes the names of its turtles.
-    """
+    """All names of a simulator in a namespace begin with the namespace."""
     with NodeProcess(["rosrun", "turtlesim", "turtlesim_node", "__ns:=/left"]) as left:
         left.wait_for_service("/left/spawn")
         eventually(lambda: look().service("/left/turtle1/set_pen"))
 
 
 def test_an_invalid_background_colour_is_ignored(client: Kernel) -> None:
-    """If a parameter is not a number, /clear still works, and the background has the default colour."""
+    """If a colour parameter is not a number, /clear uses the default colour."""
     terminal("rosparam", "set", "/turtlesim/background_r", "blue")
     assert "ERROR" not in terminal("rosservice", "call", "/clear")
     seen = client.run(
@@ -222,7 +216,7 @@ def test_an_invalid_background_colour_is_ignored(client: Kernel) -> None:
 
 
 def test_a_request_may_have_a_field_called_name(client: Kernel) -> None:
-    """node.call accepts a field called `name`. The service's name is a positional-only argument."""
+    """node.call accepts a field called `name`."""
     made = client.run("result = node.call('/spawn', Spawn, x=2, y=2, theta=0, name='Named').name")
     assert made == "Named"
 

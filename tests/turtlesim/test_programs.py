@@ -1,4 +1,4 @@
-"""The programs draw_square and turtle_teleop_key, which drive turtle1."""
+"""Tests of the programs draw_square and turtle_teleop_key."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tests.support import eventually
 
 
 def test_a_square_closes() -> None:
-    """After four sides and four corners, the distance of the turtle from its start is less than 0.1 m."""
+    """After a square, the turtle is less than 0.1 m from its start."""
     world = World()
     turtle = world.turtles["turtle1"]
     start, corners, now = (turtle.x, turtle.y), 0, 0.0
@@ -39,7 +39,7 @@ def test_a_square_closes() -> None:
 
 
 def test_draw_square_drives_the_turtle(simulator: NodeProcess, kernel: Kernel) -> None:
-    """On a real graph, the turtle moves from the middle to the end of the first side."""
+    """The turtle moves from the middle along the first side of the square."""
     kernel.run(
         "from course_pkg import join\nfrom turtlesim.msg import Pose\n"
         "node = join('watcher'); heard = node.subscribe('/turtle1/pose', Pose)"
@@ -51,10 +51,7 @@ def test_draw_square_drives_the_turtle(simulator: NodeProcess, kernel: Kernel) -
 
 @pytest.mark.parametrize("chunks", [[b"\x1b[A\x1b[Dq"], [b"\x1b[", b"A", b"x\x1b", b"[D", b"q"]])
 def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
-    """Arrow keys are recognised even if their escape codes arrive in two parts.
-
-    Other keys do nothing, and q ends the program.
-    """
+    """Arrow keys are recognised even if their bytes arrive separately."""
     reader, writer = os.pipe()
     found = []
     keys = commands(reader)
@@ -67,10 +64,7 @@ def test_arrow_keys_whole_or_in_pieces(chunks: list[bytes]) -> None:
 
 
 def test_the_keyboard_drives(simulator: NodeProcess, kernel: Kernel) -> None:
-    """An arrow key publishes a velocity, and q ends the node.
-
-    After this, the terminal has its old settings.
-    """
+    """An arrow key publishes a velocity, and q ends the node and restores the terminal's settings."""
     kernel.run(
         "from course_pkg import join\nfrom geometry_msgs.msg import Twist\n"
         "node = join('watcher'); heard = node.subscribe('/turtle1/cmd_vel', Twist)"

@@ -1,4 +1,4 @@
-"""Services, names and publishers behave as in a roscpp node, even where rospy behaves differently."""
+"""Tests that services, names and publishers behave like those of a roscpp node."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.soc
 
 
 def framed(sock: socket.socket) -> bytes:
-    """Read a length and the block with this length, and return both."""
+    """Read and return a length and a block of this length."""
     size = exactly(sock, 4)
     return size + exactly(sock, struct.unpack("<I", size)[0])
 
@@ -47,7 +47,7 @@ def exactly(sock: socket.socket, count: int) -> bytes:
 
 
 def request(message: object) -> bytes:
-    """Return the bytes of a request as a client sends them: the length, and then the fields."""
+    """Return the bytes of a request: the length and then the fields."""
     body = BytesIO()
     message.serialize(body)  # type: ignore[attr-defined]
     return struct.pack("<I", len(body.getvalue())) + body.getvalue()
@@ -69,7 +69,7 @@ def test_the_header_names_the_types_of_request_and_response(
 
 
 def test_a_failed_call_sends_an_empty_error_message(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """For a failed call, the server sends five bytes: the ok byte 0, and 0 as the length of the message."""
+    """For a failed call, the server sends the ok byte 0 and an empty error message."""
     sock, _ = connected(master, "/kill", service="/kill", md5sum=Kill._md5sum)
     with sock:
         sock.sendall(request(Kill._request_class("nobody")))
@@ -80,7 +80,7 @@ def test_a_failed_call_sends_an_empty_error_message(master: PrivateMaster, simul
 def test_a_persistent_connection_takes_one_request_after_another(
     master: PrivateMaster, simulator: NodeProcess
 ) -> None:
-    """After a failed call, the client can send another request on this connection."""
+    """After a failed call, the client can send another request on the same connection."""
     sock, _ = connected(master, "/kill", service="/kill", md5sum=Kill._md5sum, persistent="1")
     with sock:
         for _ in range(3):
@@ -99,7 +99,7 @@ def test_a_persistent_connection_takes_one_request_after_another(
 def test_a_wrong_header_is_answered(
     master: PrivateMaster, simulator: NodeProcess, fields: dict[str, str], words: str
 ) -> None:
-    """The field `error` of the received header contains roscpp's error message."""
+    """For a wrong header, the field `error` of the response contains roscpp's error message."""
     sock, header = connected(master, "/kill", **fields)
     sock.close()
     assert words in header["error"]
@@ -108,7 +108,7 @@ def test_a_wrong_header_is_answered(
 def test_an_incomplete_request_does_not_disturb_the_node(
     master: PrivateMaster, simulator: NodeProcess
 ) -> None:
-    """If clients disconnect in the middle of a request, the node still accepts connections."""
+    """After incomplete requests, the node still accepts connections."""
     for cut in (0, 1, 3, 4, 7):
         sock, _ = connected(master, "/spawn", service="/spawn", md5sum=Spawn._md5sum)
         sock.sendall(request(Spawn._request_class(1, 1, 0, "half"))[:cut])
@@ -120,7 +120,7 @@ def test_an_incomplete_request_does_not_disturb_the_node(
 
 @pytest.mark.parametrize("name", ["MyTurtle", "a", "a/b", "/left/turtle", "t_1"])
 def test_valid_names(name: str) -> None:
-    """Valid graph names, including those with namespaces, cause no error message."""
+    """A valid graph name causes no error message."""
     assert name_error(name) == ""
 
 
@@ -137,15 +137,12 @@ def test_valid_names(name: str) -> None:
     ],
 )
 def test_invalid_names(name: str, message: str) -> None:
-    """The error message contains the character and its position, as in roscpp."""
+    """The error message contains the invalid character and its position, as in roscpp."""
     assert message in name_error(name)
 
 
 def test_a_subscriber_that_does_not_read_blocks_no_publisher() -> None:
-    """While the socket is full, the publisher drops messages.
-
-    When there is space, it sends messages again.
-    """
+    """A publisher drops messages while a subscriber does not read."""
     near, far = socket.socketpair()
     with near, far:
         near.setblocking(True)
@@ -155,7 +152,7 @@ def test_a_subscriber_that_does_not_read_blocks_no_publisher() -> None:
         assert impl.add_connection(connection)
         writes = connection.write_data
         message = bytes(32)
-        for _ in range(100_000):  # many more messages than fit into a socket's buffer
+        for _ in range(100_000):  # The loop sends more messages than the socket's buffer can store.
             assert writes(message)
         far.setblocking(False)
         taken = 0

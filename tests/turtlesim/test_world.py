@@ -1,4 +1,4 @@
-"""The simulated world of turtles, without ROS; the tests control its clock."""
+"""Tests of the simulated turtle world without ROS."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def run(world: World, ticks: int, start: float = 0.0) -> list[str]:
 
 
 def driven(forward: float = 0.0, sideways: float = 0.0, turn: float = 0.0) -> tuple[World, Turtle]:
-    """Return a world, and its turtle, whose velocity was just set."""
+    """Return a world with a turtle that has the given velocity."""
     world = World()
     turtle = world.turtles["turtle1"]
     turtle.velocity = Velocity(forward, sideways, turn, since=0.0)
@@ -46,14 +46,14 @@ def float32(value: float) -> float:
 
 
 def test_the_first_turtle_is_in_the_middle() -> None:
-    """As a float32, x and y of turtle1 are 5.544444561004639; the world is 11.088889 m wide."""
+    """turtle1 starts at 5.544444561004639 m in x and y (as a float32)."""
     turtle = World().turtles["turtle1"]
     assert (float32(turtle.x), float32(turtle.y)) == (5.544444561004639, 5.544444561004639)
     assert (turtle.theta, round(WIDTH, 6)) == (0.0, 11.088889)
 
 
 def test_a_velocity_is_valid_for_a_second() -> None:
-    """A velocity of 1 m/s moves the turtle 0.016 m per tick and 1.008 m in total. Then the turtle stops."""
+    """A velocity of 1 m/s is valid for one second and moves the turtle by 1.008 m."""
     world, turtle = driven(forward=1.0)
     world.tick(0.0)
     assert turtle.x - HOME == pytest.approx(0.016)
@@ -63,10 +63,7 @@ def test_a_velocity_is_valid_for_a_second() -> None:
 
 
 def test_an_arc() -> None:
-    """A velocity of (2 m/s, 1.8 rad/s) turns the turtle by 1.8144 rad. The turtle is close to the ideal end.
-
-    There is a small difference, because the turtle first turns and then moves in each tick.
-    """
+    """A velocity of (2 m/s, 1.8 rad/s) turns the turtle by 1.8144 rad."""
     world, turtle = driven(forward=2.0, turn=1.8)
     run(world, 100)
     assert turtle.theta == pytest.approx(1.8144)
@@ -76,7 +73,7 @@ def test_an_arc() -> None:
 
 
 def test_sideways() -> None:
-    """linear.y moves the turtle sideways, and the reported speed is the length of the velocity vector."""
+    """linear.y moves the turtle sideways, and the pose contains the length of the velocity vector."""
     world, turtle = driven(forward=3.0, sideways=-4.0)
     world.tick(0.0)
     assert (turtle.x - HOME, turtle.y - HOME) == (pytest.approx(0.048), pytest.approx(-0.064))
@@ -84,10 +81,7 @@ def test_sideways() -> None:
 
 
 def test_the_wall() -> None:
-    """At the wall, the turtle stops, but it keeps its velocity.
-
-    Each tick returns a warning that contains the position.
-    """
+    """At the wall, the turtle stops moving, and each tick returns a warning."""
     world, turtle = driven(forward=1000.0)
     warnings = run(world, 3)
     assert turtle.x == WIDTH
@@ -100,12 +94,15 @@ def test_the_wall() -> None:
     ("angle", "read"), [(math.pi, -3.141593), (-math.pi, 3.141593), (7.0, 0.716815), (-4.0, 2.283185), (0, 0)]
 )
 def test_theta_is_normalized(angle: float, read: float) -> None:
-    """The result is an angle from -π to π. The float32 of π becomes -3.141593, and that of -π 3.141593."""
+    """The result is an angle from -π to π.
+
+    The float32 of π becomes -3.141593, and the float32 of -π becomes 3.141593.
+    """
     assert round(normalized(float32(angle)), 6) == read
 
 
 def test_spawn_outside_is_clamped() -> None:
-    """If a turtle is spawned outside the world, it is at the wall after one tick."""
+    """A turtle that is spawned outside the world is at the wall after one tick."""
     world = World()
     turtle = world.spawn(-3.0, 99.0, 0.0, "far")
     assert len(world.tick(0.0)) == 1
@@ -113,7 +110,7 @@ def test_spawn_outside_is_clamped() -> None:
 
 
 def test_a_turtle_without_a_name_gets_one() -> None:
-    """The names are turtle2, turtle3, … A used name is not used again, even if its turtle was killed."""
+    """The automatic names are turtle2, turtle3 and so on, and a name is not used twice."""
     world = World()
     world.spawn(1, 1, 0, "turtle3")
     assert [world.spawn(1, 1, 0).name for _ in range(2)] == ["turtle2", "turtle4"]
@@ -125,7 +122,7 @@ def test_a_turtle_without_a_name_gets_one() -> None:
 
 
 def test_used_and_unknown_names_are_refused() -> None:
-    """A used name in spawn and an unknown name in kill are refused with turtlesim's messages."""
+    """spawn() refuses a used name, and kill() refuses an unknown name."""
     world = World()
     with pytest.raises(NameTaken, match=r"A turtled named \[turtle1\] already exists"):
         world.spawn(1, 1, 0, "turtle1")
@@ -134,14 +131,14 @@ def test_used_and_unknown_names_are_refused() -> None:
 
 
 def test_teleport_relative_turns_first() -> None:
-    """teleport_relative with an angle of 90° moves the turtle up, not to the right."""
+    """teleport_relative first turns the turtle and then moves it."""
     world, turtle = driven()
     turtle.teleport_relative(world.canvas, 2.0, math.pi / 2)
     assert (turtle.x, turtle.y) == (pytest.approx(HOME), pytest.approx(HOME + 2))
 
 
 def test_the_sensor_reads_what_the_pens_drew() -> None:
-    """The sensor reads the colour of a line, or the background. If the pen is up, no new line is drawn."""
+    """The sensor reads the colour of a line, or the background colour."""
     world, turtle = driven()
     turtle.pen = Pen(colour=(10, 20, 30), width=6)
     turtle.teleport(world.canvas, HOME + 2, HOME, 0.0)
@@ -155,7 +152,7 @@ def test_the_sensor_reads_what_the_pens_drew() -> None:
 
 
 def test_clear_keeps_turtles_and_erases_lines() -> None:
-    """After clear, the sensor reads the new background, and the turtle has not moved."""
+    """After clear(), the sensor reads the background colour, and the turtle has not moved."""
     world, turtle = driven()
     turtle.teleport(world.canvas, 2.0, 2.0, 0.0)
     world.clear((1, 2, 3))
@@ -165,7 +162,7 @@ def test_clear_keeps_turtles_and_erases_lines() -> None:
 
 @pytest.mark.parametrize("command", [(1e308, -1e308, 1e308), (-1e300, 1e-300, -1e300), (3e38, 3e38, 3e38)])
 def test_huge_velocities_keep_the_world_valid(command: tuple[float, float, float]) -> None:
-    """At every finite velocity, the turtle stays inside the world, and its angle stays finite."""
+    """With every finite velocity, the turtle stays inside the world."""
     world, turtle = driven(*command)
     run(world, 5)
     assert 0.0 <= turtle.x <= WIDTH
@@ -174,24 +171,21 @@ def test_huge_velocities_keep_the_world_valid(command: tuple[float, float, float
 
 
 def coloured(start: Point, end: Point, width: int) -> set[tuple[int, int]]:
-    """Return the pixels of a line, within the area of 60 by 60 px at the top left."""
+    """Return the line's pixels in an area of 60 by 60 px at the top left."""
     canvas = Canvas(GROUND)
     canvas.line(start, end, LINE, width)
     return {(x, y) for x in range(60) for y in range(60) if canvas.colour_at((x, y)) == LINE}
 
 
 def test_a_line_has_its_width() -> None:
-    """A horizontal line with width 3 colours three rows of pixels.
-
-    It extends by half its width at both ends.
-    """
+    """A horizontal line with width 3 colours three rows of pixels."""
     pixels = coloured((10.0, 20.0), (30.0, 20.0), 3)
     assert {y for _, y in pixels} == {19, 20, 21}
     assert (min(x for x, _ in pixels), max(x for x, _ in pixels)) == (9, 31)
 
 
 def test_width_0_draws_one_pixel() -> None:
-    """A line of width 0 colours one row of pixels."""
+    """A line with width 0 colours one row of pixels."""
     assert len({y for _, y in coloured((10.0, 20.0), (30.0, 20.0), 0)}) == 1
 
 
@@ -209,15 +203,12 @@ def test_a_slanted_line_has_no_gaps(end: Point) -> None:
 
 
 def test_a_line_without_length_is_a_square() -> None:
-    """A line from a point to the same point colours a square with the width of the pen."""
+    """A line without a length is a square with the width of the pen."""
     assert len(coloured((20.5, 20.5), (20.5, 20.5), 4)) == 16
 
 
 def test_a_line_may_leave_the_canvas() -> None:
-    """A line is drawn up to the edge of the canvas.
-
-    Outside the canvas, the sensor reads the colour at the edge.
-    """
+    """A line is drawn up to the edge of the canvas."""
     canvas = Canvas(GROUND)
     canvas.line((-1000.0, 5.0), (1500.0, 5.0), LINE, 255)
     assert canvas.colour_at((-7.0, 5.0)) == canvas.colour_at((SIDE + 50.0, 5.0)) == LINE
@@ -225,7 +216,7 @@ def test_a_line_may_leave_the_canvas() -> None:
 
 
 def test_fill_colours_all_pixels() -> None:
-    """After fill(), no pixel has the colour of a line any more."""
+    """After fill(), all pixels have the new colour."""
     canvas = Canvas(GROUND)
     canvas.line((0.0, 0.0), (499.0, 499.0), LINE, 9)
     canvas.fill((9, 9, 9))
@@ -233,7 +224,7 @@ def test_fill_colours_all_pixels() -> None:
 
 
 def test_the_widest_line_fits_into_a_tick() -> None:
-    """A line across the canvas with the widest pen takes less CPU time than a tick of 16 ms."""
+    """Drawing the widest line takes less CPU time than a tick of 16 ms."""
     canvas = Canvas(GROUND)
     took = []
     for _ in range(5):

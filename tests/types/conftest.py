@@ -1,4 +1,4 @@
-"""Two packages for these tests: one is built in the same way as by catkin, and the other one is not built."""
+"""Two packages for these tests: a built package, and a package that is not built."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def package(folder: Path, name: str, **files: str) -> Path:
 
 
 def build(root: Path, into: Path) -> None:
-    """Generate the package's modules with genpy's generators, as generate_messages() does."""
+    """Generate the package's modules with genpy, as generate_messages() does."""
     search = {each: [f"/usr/share/{each}/msg"] for each in ("std_msgs", "geometry_msgs")}
     search[root.name] = [str(root / "msg")]
     (into / root.name).mkdir(parents=True)
@@ -65,10 +65,7 @@ def build(root: Path, into: Path) -> None:
 
 @pytest.fixture(scope="module")
 def packages(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """Create `odd_pkg` and `raw_pkg`.
-
-    `odd_pkg` is built and on both paths, and `raw_pkg` is only on ROS_PACKAGE_PATH.
-    """
+    """Create the built package `odd_pkg`, and the package `raw_pkg`, which is not built."""
     folder = tmp_path_factory.mktemp("packages")
     odd = package(folder, "odd_pkg", Part_msg=PART, Everything_srv=EVERYTHING, Scalars_srv=SCALARS)
     package(folder, "raw_pkg", Crate_msg="odd_pkg/Part[] parts\n", Pack_srv="Crate crate\n---\nbool packed\n")

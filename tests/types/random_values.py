@@ -1,4 +1,4 @@
-"""Random service types and random values of these types; with the same seed, they are the same."""
+"""Random service types and random values for these types."""
 
 from __future__ import annotations
 
@@ -101,20 +101,20 @@ FLOATS = (
 
 
 def half(chance: random.Random, fields: int | None = None) -> str:
-    """Return the text of a random request or response."""
+    """Return the definition of a random request or response."""
     count = chance.randrange(6) if fields is None else fields
     return "".join(f"{type_name(chance)} f{index}\n" for index in range(count))
 
 
 def service(chance: random.Random) -> str:
-    """Return the text of a random service type."""
+    """Return the definition of a random service type."""
     return f"{half(chance)}---\n{half(chance)}"
 
 
 def type_name(chance: random.Random) -> str:
-    """Return the name of a random type; it may be an array of fixed or variable length."""
+    """Return the name of a random field type, which may be an array."""
     name = chance.choice(BUILTIN if chance.random() < 0.75 else MESSAGES)
-    # `Header` means std_msgs/Header, but an array of `Header` is not valid
+    # `Header` means std_msgs/Header, but an array of `Header` is not valid.
     return (
         name if name == "Header" else name + chance.choice(("", "", "", "[]", f"[{chance.randrange(1, 5)}]"))
     )
@@ -126,7 +126,7 @@ def values(chance: random.Random, message: MessageType) -> dict[str, object]:
 
 
 def value(chance: random.Random, field: Field) -> object:
-    """Return a random value of a field, often at the end of its range."""
+    """Return a random value for a field."""
     if field.kind is Kind.ARRAY:
         assert field.item is not None
         count = chance.randrange(4) if field.length is None else field.length
@@ -143,7 +143,7 @@ def value(chance: random.Random, field: Field) -> object:
 
 
 def number(chance: random.Random, type_name: str) -> float:
-    """Return a random float: one with random bits, or a number that people type."""
+    """Return a random float."""
     width, code = (4, "<f") if type_name == "float32" else (8, "<d")
     any_bits = struct.unpack(code, chance.randbytes(width))[0]
     typed = round(chance.uniform(-1000, 1000), chance.randrange(5))
@@ -151,7 +151,7 @@ def number(chance: random.Random, type_name: str) -> float:
 
 
 def text(chance: random.Random) -> str:
-    """Return a string, which is usually difficult for YAML or a shell."""
+    """Return a string with special characters of YAML or of a shell."""
     if chance.random() < 0.7:
         return chance.choice(AWKWARD)
     return "".join(chance.choices(AWKWARD, k=3))

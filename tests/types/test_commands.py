@@ -1,4 +1,4 @@
-"""The commands are the ones that people type, and they work unchanged."""
+"""Tests of the commands that the panels show for a request or message."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from tests.types.random_values import AWKWARD
 
 
 def line(text: str, **values: object) -> str:
-    """Return the shell line for a request of the given definition."""
+    """Return the shell command for a request of the given definition."""
     return rosservice_line("/x", compile_service("course_pkg/Demo", f"{text}\n---\n"), values)
 
 
@@ -50,15 +50,12 @@ def line(text: str, **values: object) -> str:
     ],
 )
 def test_the_line_is_the_one_to_type(text: str, values: dict[str, object], expected: str) -> None:
-    """Numbers and strings are separate arguments, and other fields are one dict.
-
-    Ambiguous strings are in quotes.
-    """
+    """In the command, numbers and strings are separate arguments, and ambiguous strings are quoted."""
     assert line(text, **values) == expected
 
 
 def test_bash_passes_the_same_arguments() -> None:
-    """The shell passes one argument per field to rosservice, on one line, without changing a byte."""
+    """Bash passes one unchanged argument per field to rosservice."""
     fields = "\n".join(f"string f{index}" for index in range(len(AWKWARD)))
     command = line(fields, **{f"f{index}": text for index, text in enumerate(AWKWARD)})
     assert "\n" not in command
@@ -69,13 +66,13 @@ def test_bash_passes_the_same_arguments() -> None:
 
 
 def test_values_that_do_not_fit_make_no_command() -> None:
-    """If a value does not fit the type, there is no command."""
+    """For a value that does not fit the type, there is no command."""
     with pytest.raises(FieldError, match="length"):
         rosservice_line("/x", service_type("course_pkg/geometry"), {"length": 1e39, "width": 1, "height": 1})
 
 
 def test_python_is_written_as_a_person_would() -> None:
-    """The lines contain the imports, the proxy, and one call with keyword arguments."""
+    """The Python code contains the imports, the proxy, and one call with keyword arguments."""
     values = {"length": 1.2, "width": 5.2, "height": 8.9}
     assert rospy_line("/getGeometry", service_type("course_pkg/geometry"), values) == (
         "import rospy\n"
@@ -87,7 +84,7 @@ def test_python_is_written_as_a_person_would() -> None:
 
 
 def test_python_keeps_types_of_one_name_apart() -> None:
-    """If a message type has the same short name as the service type, the lines contain its package, too."""
+    """If two types have the same short name, the Python code also contains their packages."""
     kind = compile_service("course_pkg/Point", "geometry_msgs/Point p\n---\n")
     lines = rospy_line("/x", kind, kind.request.default())
     assert "import geometry_msgs.msg\n" in lines
@@ -95,7 +92,7 @@ def test_python_keeps_types_of_one_name_apart() -> None:
 
 
 def test_python_of_unbuilt_parts_runs(packages: Path) -> None:
-    """Types that are not built, and the messages in them, are made from their texts."""
+    """Python code for types that are not built makes these types from their text."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     value = {"crate": {"parts": [{"size": 2.0, "label": "nut"}]}}
@@ -134,19 +131,19 @@ def server(packages: Path, master: PrivateMaster) -> Iterator[Kernel]:
 
 
 def shell(command: str) -> str:
-    """Run a line in bash, and return its output."""
+    """Run a command in bash, and return its output."""
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
 
 def test_lines_call_a_running_service(server: Kernel) -> None:
-    """The shell line, run by bash, and the lines of Python send exactly these values to a server."""
+    """The shell command and the Python code send the same values to a server."""
     scalars, everything = service_type("odd_pkg/Scalars"), service_type("odd_pkg/Everything")
     one = {"a": -1.5, "b": -7, "c": True, "d": "it's 'yes': a:=b\n$HOME 🐢", "e": 2**64 - 1}
     many = {
         **everything.request.default(),
-        # rospy replaces each seq in a request with its own count of the calls
+        # rospy replaces each seq in a request with its own count of the calls.
         "header": {"seq": 1, "stamp": {"secs": 1, "nsecs": 5}, "frame_id": "map"},
         "data": [0, 255],
         "signed": [-128, 127],
@@ -163,7 +160,7 @@ def test_lines_call_a_running_service(server: Kernel) -> None:
 
 
 def test_a_compiled_type_serves_a_built_one(server: Kernel) -> None:
-    """In servers and clients, rospy accepts a class that was made from text, because its MD5 sum is right."""
+    """In a call, rospy accepts a class that was made from text instead of the built class."""
     told = server.run("""
 text = service_type("odd_pkg/Scalars").text
 compiled = compile_service("odd_pkg/Scalars", text).cls
@@ -196,15 +193,12 @@ result += rospy.ServiceProxy("/again", compiled)(d="cd").told
 def test_the_publishing_line_is_the_one_to_type(
     kind: str, values: dict[str, object], how: dict[str, Plain], expected: str
 ) -> None:
-    """The options come before the topic, and a negative number comes after --."""
+    """The options come before the topic, and negative numbers come after --."""
     assert rostopic_line("/x", message_type(f"std_msgs/{kind}"), values, **how) == expected
 
 
 def test_a_publisher_is_written_as_a_person_would() -> None:
-    """The lines contain the imports and the publisher with its options.
-
-    They publish one message, or have a loop with a rate.
-    """
+    """The Python code contains the imports, the publisher, and one message or a loop with a rate."""
     kind = message_type("std_msgs/Float64")
     once = publisher_lines("/x", kind, {"data": -1.0}, queue_size=1, latch=True)
     assert once == (
@@ -224,7 +218,7 @@ def test_a_publisher_is_written_as_a_person_would() -> None:
 
 
 def test_a_publisher_of_a_type_that_is_not_built_comes_from_its_text() -> None:
-    """The lines make the class from the text, and import the nested messages that are built."""
+    """For a type that is not built, the Python code makes the class from the text."""
     kind = compile_message("demo/Spot", "geometry_msgs/Point at\nstring what\n")
     lines = publisher_lines("/x", kind, {"at": {"x": 1.0, "y": 2.0, "z": 3.0}, "what": "a"})
     names: dict[str, object] = {}
@@ -244,7 +238,7 @@ words = node.subscribe("/words", "std_msgs/String")
 
 
 def test_lines_publish_to_a_running_subscriber(master: PrivateMaster) -> None:
-    """The shell lines, run by bash, and the lines of Python publish exactly these values."""
+    """The shell command and the Python code publish the same values."""
     assert master.running
     joint, text = message_type("sensor_msgs/JointState"), message_type("std_msgs/String")
     moved = {

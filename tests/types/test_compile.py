@@ -1,4 +1,4 @@
-"""A type that is made from text is the same as the built type, and no files are left."""
+"""Tests that a type made from text is equal to the built type."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from tests.types.conftest import EVERYTHING, PART, package
 
 
 def test_class_has_the_attributes_that_rospy_needs() -> None:
-    """A service class has its type, its MD5, and the classes of request and response."""
+    """A service class has its type, its MD5 sum, and the classes of request and response."""
     cls = compile_service("course_pkg/Demo", "int8 x\n---\nint8 y\n").cls
     assert cls._type == "course_pkg/Demo"
     assert cls._request_class._type == "course_pkg/DemoRequest"
@@ -29,7 +29,7 @@ def test_class_has_the_attributes_that_rospy_needs() -> None:
 
 @pytest.mark.parametrize("name", ["course_pkg/geometry", "std_srvs/SetBool", "std_srvs/Empty"])
 def test_md5_and_text_are_those_of_the_build(name: str) -> None:
-    """If a built type is made again from its text, it has the same text and the same MD5 sums."""
+    """A type that is made from text has the same text and MD5 sums as the built type."""
     built = service_type(name)
     again = compile_service(name, built.text)
     assert built.built
@@ -39,10 +39,7 @@ def test_md5_and_text_are_those_of_the_build(name: str) -> None:
 
 
 def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
-    """For fields of every kind, the MD5 sum, the fields and the bytes are the same as with genpy.
-
-    Nested messages have the same classes.
-    """
+    """For fields of every kind, the MD5 sum and the bytes are the same as with genpy."""
     assert packages.is_dir()
     built, again = service_type("odd_pkg/Everything"), compile_service("odd_pkg/Everything", EVERYTHING)
     assert again == built
@@ -55,14 +52,14 @@ def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
 
 
 def test_a_class_gives_the_same_type_as_its_name() -> None:
-    """service_type accepts an imported class, and a class that service_type itself has made."""
+    """service_type accepts an imported class, and its own classes."""
     kind = service_type(std_srvs.srv.SetBool)
     assert kind == service_type("std_srvs/SetBool") == service_type(kind)
     assert service_type(compile_service("a/B", "geometry_msgs/Point p\n---\n").cls).request.fields[0].fields
 
 
 def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> None:
-    """A type on ROS_PACKAGE_PATH without generated modules can be used, and so can the messages in it."""
+    """A type on ROS_PACKAGE_PATH that is not built can be used."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     assert not kind.built
@@ -73,10 +70,7 @@ def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> No
 def test_changed_text_of_a_nested_message_is_used(
     packages: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If the text of a nested message differs from the built type, the text is used.
-
-    The next build will use it, too.
-    """
+    """If the text of a nested message differs from the built type, the text is used."""
     package(tmp_path, "odd_pkg", Part_msg=f"{PART}int8 added\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", f"{tmp_path}:{os.environ['ROS_PACKAGE_PATH']}")
     assert packages.is_dir()
@@ -87,10 +81,7 @@ def test_changed_text_of_a_nested_message_is_used(
 def test_definitions_that_genmsg_accepts_are_accepted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The course accepts everything that genmsg accepts.
-
-    Examples are underscores at the end of names, and repeated separators.
-    """
+    """The course accepts every definition that genmsg accepts."""
     text = 'string from  # "quoted\\xzz"\nstring PATH=C:\\new\\\nstring in="\n----\nint8 x\n---\nint8 y\n'
     package(tmp_path, "lax_pkg", Lax_srv=text)
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
@@ -102,10 +93,7 @@ def test_definitions_that_genmsg_accepts_are_accepted(
 
 
 def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If messages contain each other, the error lists them in order.
-
-    It contains a line of the last message.
-    """
+    """If messages contain each other, the error message lists these messages in order."""
     package(tmp_path, "round_pkg", A_msg="B b\n", B_msg="# back again\nA[] a\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(BrokenDefinition, match="round_pkg/A → round_pkg/B → round_pkg/A") as caught:
@@ -114,7 +102,7 @@ def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_error_in_a_nested_message_names_its_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An error in the text of a nested message contains the message's file and line."""
+    """An error in a nested message contains the message's file and line."""
     package(tmp_path, "slip_pkg", Bad_msg="int8 x\nflaot32 y\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(BrokenDefinition) as caught:
@@ -124,7 +112,7 @@ def test_error_in_a_nested_message_names_its_file(tmp_path: Path, monkeypatch: p
 
 
 def test_compilation_leaves_no_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After fifty compilations, there is no new file, no new entry in sys.path, and no new module."""
+    """After fifty compilations, no new file, sys.path entry or module exists."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     compile_service("course_pkg/Demo", "geometry_msgs/Point p\n---\n")
     before = set(sys.modules), list(sys.path)
@@ -135,7 +123,7 @@ def test_compilation_leaves_no_files(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 
 def test_threads_may_compile_at_once() -> None:
-    """Eight threads compile at the same time, and each gets the right fields.
+    """Eight threads compile at the same time, and each thread gets the right fields.
 
     genpy itself is not thread-safe.
     """
@@ -157,7 +145,7 @@ def test_threads_may_compile_at_once() -> None:
 
 @pytest.mark.parametrize("given", [3, None, object(), std_srvs.srv.SetBoolRequest])
 def test_value_that_is_not_a_type_is_refused(given: object) -> None:
-    """A number, or the request or response class of a service, is not accepted as a service type."""
+    """A number, or a request or response class, is refused as a service type."""
     with pytest.raises(UnknownType):
         service_type(given)
     with pytest.raises(UnknownType):
@@ -165,6 +153,6 @@ def test_value_that_is_not_a_type_is_refused(given: object) -> None:
 
 
 def test_half_of_a_service_type_is_explained() -> None:
-    """If SetBoolRequest is given in place of SetBool, the error message explains this mistake."""
+    """If SetBoolRequest is given instead of SetBool, the error message explains the mistake."""
     with pytest.raises(UnknownType, match="one half of a service type; pass the whole type, SetBool"):
         service_type(std_srvs.srv.SetBoolRequest)

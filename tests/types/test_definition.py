@@ -1,7 +1,4 @@
-"""The error for an invalid definition contains the position, the problem, and how to correct it.
-
-A valid definition keeps its comments.
-"""
+"""Tests of the parser for definitions."""
 
 from __future__ import annotations
 
@@ -12,7 +9,7 @@ from course_pkg.types import compile_message, compile_service, service_type
 
 
 def refused(text: str) -> BrokenDefinition:
-    """Return the error for a .srv text."""
+    """Return the error for the text of a .srv file."""
     with pytest.raises(BrokenDefinition) as caught:
         compile_service("course_pkg/Broken", text)
     return caught.value
@@ -72,7 +69,7 @@ def refused(text: str) -> BrokenDefinition:
     ],
 )
 def test_mistake_has_its_place_and_remedy(text: str, line: int, column: int, remedy: str) -> None:
-    """For each mistake, the error contains its line and column, counted from 1, and how to correct it."""
+    """The error message contains the line and column of the mistake, and how to correct it."""
     error = refused(text)
     assert (error.line, error.column) == (line, column), error
     assert remedy in error.remedy
@@ -80,10 +77,7 @@ def test_mistake_has_its_place_and_remedy(text: str, line: int, column: int, rem
 
 
 def test_the_message_shows_the_line_with_a_mark() -> None:
-    """The message contains the source, line, column and problem, and how to correct it.
-
-    Below the shown line is a mark.
-    """
+    """The error message shows the invalid line with a mark below it."""
     assert str(refused("float32 x\nflaot32 y\n---\n")) == (
         "course_pkg/Broken.srv, line 2, column 1: unknown type 'flaot32'; write float32\n    flaot32 y\n    ^"
     )
@@ -103,12 +97,12 @@ def test_the_message_shows_the_line_with_a_mark() -> None:
     ],
 )
 def test_definitions_that_ros_accepts(text: str) -> None:
-    """An empty request or response, Windows line ends, tabs, comments and constants are accepted."""
+    """Empty requests, Windows line ends, tabs, comments and constants are accepted."""
     assert compile_service("course_pkg/Good", text).name == "course_pkg/Good"
 
 
 def test_a_message_has_no_halves() -> None:
-    """In a message, --- is refused."""
+    """In a message definition, --- is refused."""
     with pytest.raises(BrokenDefinition, match="a message cannot have a --- line"):
         compile_message("course_pkg/Broken", "int8 x\n---\n")
 
@@ -121,10 +115,7 @@ def test_a_type_needs_its_package(name: str) -> None:
 
 
 def test_comments_are_kept_with_their_fields() -> None:
-    """The comment after a field, or in the line before it, is the help for this field.
-
-    The comment at the top is the help for the message.
-    """
+    """The comment after a field, or in the line before it, is the help text of the field."""
     text = "# A box.\n# All of it.\n\n# in metres\nfloat32 a\nfloat32 b # in feet\nfloat32 c\n"
     request = compile_service("course_pkg/Box", f"{text}---\nbool done # or not\n").request
     assert request.help == "A box. All of it."
@@ -136,7 +127,7 @@ def test_comments_are_kept_with_their_fields() -> None:
 def test_constants_have_their_values() -> None:
     """Constants have a type and a value.
 
-    The value of a string constant is everything after the equals sign.
+    A string constant's value is everything after the equals sign.
     """
     kind = compile_message(
         "course_pkg/Held", "string X= a # b\nint8 LOW=-3 # least\nbool ON=True\nfloat32 pi=3.14\n"

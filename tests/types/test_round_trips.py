@@ -1,4 +1,4 @@
-"""Values stay the same when they are converted to strings, messages, bytes and commands, and back."""
+"""Tests that convert values to strings, messages, bytes and commands, and back."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tests.types.random_values import service, values
 
 TYPES = 30
 VALUES = 5
-SEEDS = range(4)  # 120 types, and 5 values for each request and each response
+SEEDS = range(4)  # The tests use 120 types, and 5 values for each request and response.
 
 
 def drawn(seed: int) -> Iterator[tuple[ServiceType, random.Random]]:
@@ -42,7 +42,7 @@ def sent(message: genpy.Message) -> genpy.Message:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_text_and_wire_give_every_value_back(seed: int) -> None:
-    """A value does not change if it is formatted and parsed, or sent as bytes and read."""
+    """A value does not change if it is formatted and parsed, or encoded and decoded."""
     for kind, chance in drawn(seed):
         for half in (kind.request, kind.response):
             for _ in range(VALUES):
@@ -53,18 +53,18 @@ def test_text_and_wire_give_every_value_back(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If the line is split as in a shell and rosservice reads it, the result is the same request."""
+    """The command rosservice makes the same request from the shell command."""
     for kind, chance in drawn(seed):
         for _ in range(2):
             plain = kind.request.check(values(chance, kind.request))
             line = rosservice_line("/x", kind, plain)
             arrived = kind.request.to_values(sent(read_by_rosservice(line, kind, monkeypatch)))
-            # The values are compared, not the bytes, because YAML's NaN has another sign.
+            # The test does not compare the bytes, because YAML's NaN has another sign.
             assert repr(arrived) == repr(plain), line
 
 
 def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyPatch) -> genpy.Message:
-    """Return the request that rosservice makes from a line; it is not sent."""
+    """Return the request that rosservice makes from a command."""
     given: list[list[Plain]] = []
 
     def catch(_name: str, arguments: list[Plain], **_options: object) -> None:
@@ -80,7 +80,7 @@ def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyP
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_python_lines_make_the_same_request(seed: int) -> None:
-    """The lines of Python, run up to the line with the call, make the same request."""
+    """The Python code makes the same request."""
     for kind, chance in drawn(seed):
         plain = kind.request.check(values(chance, kind.request))
         lines = rospy_line("/x", kind, plain)
@@ -88,7 +88,7 @@ def test_the_python_lines_make_the_same_request(seed: int) -> None:
 
 
 def request_of(lines: str) -> genpy.Message:
-    """Run all lines of Python except the last one; return the request of the call in the last line."""
+    """Run the Python code without its last line, and return the request of the call in the last line."""
     *before, last = ast.parse(lines).body
     assert isinstance(last, ast.Assign)
     assert isinstance(last.value, ast.Call)

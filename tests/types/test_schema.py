@@ -1,4 +1,4 @@
-"""The description of a form is complete, and contains only JSON data."""
+"""Tests of the JSON description of a form."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ uint8 SLOW=1
 
 
 def described() -> tuple[MessageSchema, dict[str, FieldSchema]]:
-    """Return the request and its fields by name, after they were encoded as JSON and decoded."""
+    """Return the request and its fields by name after JSON encoding and decoding."""
     request = json.loads(json.dumps(schema(compile_service("course_pkg/Move", TEXT))))["request"]
     return request, {field["name"]: field for field in request["fields"]}
 
 
 def test_request_and_response_are_described() -> None:
-    """A service has a name, an md5, a request and a response."""
+    """A service has a name, an MD5 sum, a request and a response."""
     kind = service_type("course_pkg/geometry")
     whole = schema(kind)
     assert (whole["name"], whole["md5"]) == (kind.name, kind.md5)
@@ -39,7 +39,7 @@ def test_limits_are_strings() -> None:
 
 
 def test_nested_fields_are_described() -> None:
-    """An array has a length and an element type; a message and a time have fields."""
+    """An array has a length and an element type, and a message has fields."""
     _, fields = described()
     assert fields["way"]["length"] == 2
     assert [part["name"] for part in fields["way"]["item"]["fields"]] == ["x", "y", "z"]

@@ -1,7 +1,4 @@
-"""Types are found in the same folders as by ROS, as files and as built classes.
-
-For an unknown name, the error contains advice.
-"""
+"""Tests of finding types on ROS_PACKAGE_PATH."""
 
 from __future__ import annotations
 
@@ -22,10 +19,7 @@ from tests.types.conftest import build, package
 
 
 def test_all_types_on_the_path_are_listed(packages: Path) -> None:
-    """The sorted list contains the types of all packages or of one package.
-
-    The list is empty for an unknown package.
-    """
+    """The sorted list contains the types of all packages, or of the given package."""
     assert packages.is_dir()
     everything = list_service_types()
     assert everything == sorted(everything)
@@ -36,7 +30,7 @@ def test_all_types_on_the_path_are_listed(packages: Path) -> None:
 
 
 def test_a_type_that_is_new_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A definition that is written after the first search is found by the second one."""
+    """A new definition is found by the next search."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(UnknownType):
         service_type("late_pkg/Late")
@@ -57,7 +51,7 @@ def test_a_type_that_is_new_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyP
     ],
 )
 def test_an_unknown_service_type_gets_advice(name: str, advice: str) -> None:
-    """The error contains the given name, similar names, and what to do next."""
+    """The error message contains the name, similar names, and what to do next."""
     with pytest.raises(UnknownType) as caught:
         service_type(name)
     assert advice in str(caught.value)
@@ -65,19 +59,19 @@ def test_an_unknown_service_type_gets_advice(name: str, advice: str) -> None:
 
 
 def test_an_unknown_message_type_gets_advice_from_messages() -> None:
-    """The name of a message type is compared only with the names of message types."""
+    """The error message for an unknown message type suggests only message types."""
     with pytest.raises(UnknownType, match="did you mean geometry_msgs/Point"):
         message_type("geometry_msgs/point")
 
 
 def test_header_is_short_for_that_of_std_msgs() -> None:
-    """`Header` without a package is a valid name, as it is in a definition."""
+    """`Header` without a package means std_msgs/Header."""
     assert message_type("Header") == message_type("std_msgs/Header")
 
 
 @pytest.fixture
 def built_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Create a package that is built and is on both paths."""
+    """Create a built package that is on both paths."""
     root = package(tmp_path, "filed_pkg", Ask_srv="int8 x\n---\n", Say_msg="int8 y\n")
     build(root, tmp_path / "python")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
@@ -86,7 +80,7 @@ def built_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_file_counts_and_not_the_built_type(built_package: Path) -> None:
-    """When the file was edited, its text differs from the class until the next build."""
+    """After a change of the file, its text differs from the class until the next build."""
     assert type_in_file("filed_pkg/Ask", "srv").md5 == service_type("filed_pkg/Ask").md5
     (built_package / "srv" / "Ask.srv").write_text("int16 x\n---\n")
     now = type_in_file("filed_pkg/Ask", "srv")
@@ -95,10 +89,7 @@ def test_the_file_counts_and_not_the_built_type(built_package: Path) -> None:
 
 
 def test_errors_name_the_file(built_package: Path) -> None:
-    """The error for an invalid text contains the file and the line.
-
-    If there is no file, the type is unknown.
-    """
+    """The error message for an invalid text contains the file and the line."""
     file = built_package / "msg" / "Say.msg"
     file.write_text("int8\n")
     with pytest.raises(BrokenDefinition, match=r"Say\.msg, line 1"):
@@ -111,7 +102,7 @@ def test_errors_name_the_file(built_package: Path) -> None:
 
 @pytest.mark.parametrize("kind", ["srv", "msg"])
 def test_all_files_of_this_machine_are_what_was_built_from_them(kind: DefinitionKind) -> None:
-    """For every type of the distribution, the file and the imported class have the same MD5 sum."""
+    """For every type of the distribution, the file and the class have the same MD5 sum."""
     names = list_service_types("std_srvs") if kind == "srv" else list_message_types("geometry_msgs")
     built = service_type if kind == "srv" else message_type
     assert names

@@ -1,4 +1,4 @@
-"""Values as strings: all notations that a person can type, and the errors for other strings."""
+"""Tests of converting strings to values and back."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from course_pkg.types import MessageType, compile_message, message_type, service
 
 
 def parse(type_name: str, text: object) -> object:
-    """Return the value for a field of this type that the string means."""
+    """Return the value of the string `text` for a field of this type."""
     return compile_message("course_pkg/One", f"{type_name} x\n").parse({"x": text})["x"]
 
 
 def refused(type_name: str, text: object) -> FieldError:
-    """Return the error for a string that is not valid."""
+    """Return the error for an invalid string."""
     with pytest.raises(FieldError) as caught:
         parse(type_name, text)
     return caught.value
@@ -29,7 +29,7 @@ def geometry() -> MessageType:
 
 
 def test_numbers_are_shown_as_short_as_they_were_typed(geometry: MessageType) -> None:
-    """1.2 is shown as 1.2; the float32 nearest to 1.2 is also shown as 1.2."""
+    """A float32 that was typed as 1.2 is shown as 1.2."""
     texts = {"length": "1.2", "width": "5.2", "height": "8.9"}
     assert geometry.format(geometry.parse(texts)) == texts
     wire = {"length": 1.2000000476837158, "width": 5.199999809265137, "height": 8.899999618530273}
@@ -107,15 +107,12 @@ def test_notations_that_can_be_typed(type_name: str, text: object, value: object
     ],
 )
 def test_error_about_an_invalid_string(type_name: str, text: str, words: str) -> None:
-    """The error contains the field, the mistake and the allowed values.
-
-    It also contains the value that was probably meant.
-    """
+    """The error message contains the field, the mistake and the allowed values."""
     assert words in str(refused(type_name, text))
 
 
 def test_an_error_carries_its_parts() -> None:
-    """The error is a ValueError with the attributes field, value, range and hint, which a panel uses."""
+    """The error has the attributes field, value, range and hint."""
     error = refused("float32", "1,5")
     assert (error.field, error.value, error.hint) == ("x", "1,5", "write 1.5")
     assert error.allowed.startswith("a float32 from")
@@ -123,7 +120,7 @@ def test_an_error_carries_its_parts() -> None:
 
 
 def test_nan_equals_itself_in_values() -> None:
-    """Two values are equal if both contain NaN at the same place."""
+    """Two values with NaN at the same position are equal."""
     number = message_type("std_msgs/Float32")
     assert number.parse({"data": "nan"}) == number.parse({"data": ".NaN"})
     assert number.parse(number.format({"data": math.nan})) == number.check({"data": math.nan})

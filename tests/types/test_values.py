@@ -1,4 +1,4 @@
-"""Values of fields: the defaults, the values that a field accepts, and the errors for other values."""
+"""Tests of default values, and of valid and invalid values of fields."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ Header header
 
 @pytest.fixture(scope="module")
 def mixed() -> MessageType:
-    """Return the type of a message with a field of every kind."""
+    """Return a message type with a field of every kind."""
     return compile_message("course_pkg/Mixed", TEXT)
 
 
 @pytest.fixture
 def refusal(mixed: MessageType) -> Callable[..., FieldError]:
-    """Return a function that returns the error for one value of the message."""
+    """Return a function that returns the error for one invalid value."""
 
     def ask(**values: object) -> FieldError:
         with pytest.raises(FieldError) as caught:
@@ -51,7 +51,7 @@ def refusal(mixed: MessageType) -> Callable[..., FieldError]:
 
 
 def test_defaults_are_those_of_genpy(mixed: MessageType) -> None:
-    """A message with the default values is equal to a new message."""
+    """The default values are equal to those of a new message."""
     assert mixed.to_message(mixed.default()) == mixed.cls()
     assert mixed.to_values(mixed.cls()) == mixed.default()
 
@@ -83,7 +83,7 @@ def test_fields_have_type_kind_and_parts(mixed: MessageType) -> None:
 def test_integers_have_the_range_of_their_type(
     mixed: MessageType, refusal: Callable[..., FieldError], name: str, low: int, high: int
 ) -> None:
-    """The limits of a range are valid, but the next values are not; char starts at 0, and byte at -128."""
+    """The limits of an integer type are valid, and the next values are not valid."""
     for edge in (low, high):
         assert mixed.check({**mixed.default(), name: edge})[name] == edge
     for beyond in (low - 1, high + 1):
@@ -92,32 +92,26 @@ def test_integers_have_the_range_of_their_type(
 
 @pytest.mark.parametrize("value", [1.0, True, "1", None, 1.5])
 def test_an_integer_field_takes_integers_only(refusal: Callable[..., FieldError], value: object) -> None:
-    """For an integer field, a float, a bool, a string and None are refused.
-
-    For a float such as 2.0, the error suggests the integer.
-    """
+    """An integer field refuses a float, a bool, a string and None."""
     error = refusal(i8=value)
     assert error.field == "i8"
     assert error.hint == ("write 1" if value == 1.0 and isinstance(value, float) else "")
 
 
 def test_float32_is_kept_as_its_shortest_number(mixed: MessageType) -> None:
-    """1.2000000476837158 in a message becomes 1.2.
-
-    The product of 1.2 and 5.2 becomes the float32 nearest to 6.24.
-    """
+    """A float32 value 1.2000000476837158 becomes 1.2."""
     assert mixed.check({**mixed.default(), "f32": 1.2000000476837158})["f32"] == 1.2
     assert mixed.check({**mixed.default(), "f32": 6.240000247955322})["f32"] == 6.2400002
 
 
 @pytest.mark.parametrize("value", [math.inf, -math.inf, 3.4028234663852886e38, 3.4028235e38, 7])
 def test_floats_take_what_fits(mixed: MessageType, value: float) -> None:
-    """A float32 accepts infinity, the largest number, this number as rounded text, and an int."""
+    """A float32 field accepts infinity, its largest number, and an int."""
     assert mixed.check({**mixed.default(), "f32": value})["f32"] == pytest.approx(value)
 
 
 def test_floats_refuse_what_does_not_fit(refusal: Callable[..., FieldError]) -> None:
-    """The largest float32 is 3.4e38, and the largest float64 is 1.8e308; a bool is valid for neither."""
+    """A float field refuses a number that is too large, and a bool."""
     assert "3.4e38" in str(refusal(f32=1e39))
     assert "1.8e308" in str(refusal(f64=10**400))
     assert refusal(f64=True).field == "f64"
@@ -126,7 +120,7 @@ def test_floats_refuse_what_does_not_fit(refusal: Callable[..., FieldError]) -> 
 def test_times_are_unsigned_and_durations_signed(
     mixed: MessageType, refusal: Callable[..., FieldError]
 ) -> None:
-    """A duration may be negative, but a time may not; nsecs are always less than a second."""
+    """A duration may be negative, but a time may not be negative."""
     assert mixed.check({**mixed.default(), "d": {"secs": -1, "nsecs": 5}})["d"]["secs"] == -1
     assert refusal(t={"secs": -1, "nsecs": 0}).field == "t.secs"
     assert refusal(d={"secs": 0, "nsecs": -1}).field == "d.nsecs"
@@ -134,7 +128,7 @@ def test_times_are_unsigned_and_durations_signed(
 
 
 def test_messages_and_times_may_be_given_as_such(mixed: MessageType) -> None:
-    """A genpy message or a time inside a value is converted."""
+    """A genpy message or time inside a value is converted."""
     given = {"t": genpy.Time(1, 2), "points": [Point(1, 2, 3)], "data": b"\x01\x02"}
     checked = mixed.check({**mixed.default(), **given})
     assert checked["t"] == {"secs": 1, "nsecs": 2}
@@ -143,7 +137,7 @@ def test_messages_and_times_may_be_given_as_such(mixed: MessageType) -> None:
 
 
 def test_errors_name_the_path(refusal: Callable[..., FieldError]) -> None:
-    """The error for a nested value contains the index of the element and the name of the field."""
+    """The error for a nested value contains the element's index and the field's name."""
     points = [{"x": 0.0, "y": 0.0, "z": 0.0}, {"x": 0.0, "y": 0.0, "z": "high"}]
     assert refusal(points=points).field == "points[1].z"
     assert refusal(data=[0, 256]).field == "data[1]"
@@ -157,7 +151,7 @@ def test_a_fixed_array_wants_its_length(refusal: Callable[..., FieldError]) -> N
 
 
 def test_missing_and_unknown_fields_are_named(mixed: MessageType) -> None:
-    """The error for a missing or misspelt field contains this field and the field that was probably meant."""
+    """The error message for a misspelt field contains this field and the most similar field."""
     values = mixed.default()
     del values["f32"]
     with pytest.raises(FieldError, match="f32: this field is missing"):
@@ -167,13 +161,13 @@ def test_missing_and_unknown_fields_are_named(mixed: MessageType) -> None:
 
 
 def test_a_string_holds_what_utf_8_holds(mixed: MessageType, refusal: Callable[..., FieldError]) -> None:
-    """NUL is an ordinary character; half of a surrogate pair is not valid."""
+    """A string may contain NUL, but no half of a surrogate pair."""
     assert mixed.check({**mixed.default(), "word": "a\x00ä"})["word"] == "a\x00ä"
     assert "surrogate" in str(refusal(word="\ud800"))
 
 
 def test_invalid_values_in_a_message_are_found(mixed: MessageType) -> None:
-    """A message with invalid values, which a handler may return, raises a FieldError."""
+    """A message with invalid values raises a FieldError."""
     message = mixed.cls()
     message.points = [None]
     with pytest.raises(FieldError, match=r"points\[0\]"):
@@ -181,14 +175,14 @@ def test_invalid_values_in_a_message_are_found(mixed: MessageType) -> None:
 
 
 def test_an_image_becomes_bytes() -> None:
-    """An array of numbers may be given as bytes."""
+    """The value of a number array may be bytes."""
     image = message_type("std_msgs/UInt8MultiArray")
     values = {**image.default(), "data": [7] * 100_000}
     assert image.to_message(values).data == b"\x07" * 100_000
 
 
 def test_an_empty_half_has_no_values() -> None:
-    """The value of an empty request is an empty dict; other values are refused."""
+    """The value of an empty request is an empty dict."""
     empty = service_type("std_srvs/Empty").request
     assert empty.check({}) == empty.default() == {}
     with pytest.raises(FieldError, match="no fields"):

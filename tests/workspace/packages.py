@@ -1,4 +1,4 @@
-"""A small package that can be built, and changes after which it cannot be built."""
+"""A small package that can be built, and changes that make its build fail."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ GOOD = {"package.xml": MANIFEST, "CMakeLists.txt": LISTS, "srv/Box.srv": BOX}
 
 
 def spoilt(file: str, *changes: tuple[str, str]) -> dict[str, str]:
-    """Return the files of the package after a replacement of text in one of the files."""
+    """Return the files of the package after text replacements in `file`."""
     text = GOOD[file]
     for old, new in changes:
         assert old in text
@@ -54,12 +54,12 @@ def write(workspace: Path, files: Mapping[str, str]) -> None:
 
 
 def surroundings(workspace: Path) -> dict[str, str]:
-    """Return the course's environment, with PWD set, because catkin_make builds in PWD."""
+    """Return the course's environment with PWD set to the workspace."""
     return {**environment.merged(Places.of(), os.environ), "PWD": str(workspace)}
 
 
 def build(workspace: Path, *arguments: str, path: str = "") -> tuple[int, str]:
-    """Return the exit status and the output of catkin_make; the folder `path` is the first one in PATH."""
+    """Return the exit status and output of catkin_make; `path` is the first folder in PATH."""
     known = surroundings(workspace)
     known["PATH"] = f"{path}:{known['PATH']}" if path else known["PATH"]
     done = subprocess.run(
@@ -75,7 +75,7 @@ def build(workspace: Path, *arguments: str, path: str = "") -> tuple[int, str]:
 
 
 def shell(workspace: Path, line: str, *, sourced: bool = True) -> str:
-    """Return the output of a command of bash in the workspace, with or without its setup.bash."""
+    """Return the output of a bash command in the workspace, with or without its setup.bash."""
     line = f"source devel/setup.bash && {line}" if sourced else line
     done = subprocess.run(
         ["bash", "-c", line],

@@ -1,7 +1,4 @@
-"""missing_for_cpp() reports whether C++ can be built on this machine.
-
-Errors of the compiler and linker are explained.
-"""
+"""Tests of missing_for_cpp() and of the explanations of compiler errors."""
 
 from __future__ import annotations
 
@@ -16,12 +13,12 @@ needs_compiler = pytest.mark.skipif(bool(missing_for_cpp()), reason=missing_for_
 
 
 def test_nothing_is_missing_in_the_environment_of_the_course() -> None:
-    """The environment of the course includes a compiler and roscpp."""
+    """In the course's environment, missing_for_cpp() finds a compiler and roscpp."""
     assert missing_for_cpp() == ""
 
 
 def test_a_missing_compiler_is_named_with_what_to_type(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message contains the compiler that CMake would use, and the command that installs it."""
+    """The error message contains the missing compiler, and the command that installs it."""
     monkeypatch.setenv("CXX", "/nowhere/c++")
     words = missing_for_cpp()
     assert words.startswith("No C++ compiler is installed (/nowhere/c++).")
@@ -30,7 +27,7 @@ def test_a_missing_compiler_is_named_with_what_to_type(monkeypatch: pytest.Monke
 
 
 def test_missing_headers_are_named_with_what_to_type(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Without roscpp, the message contains the command that installs it."""
+    """Without roscpp, the error message contains the command that installs roscpp."""
     monkeypatch.setattr(cpp_support, "prefixes", lambda: [tmp_path])
     assert "apt-get install --no-install-recommends libroscpp-dev" in missing_for_cpp()
 
@@ -38,7 +35,7 @@ def test_missing_headers_are_named_with_what_to_type(monkeypatch: pytest.MonkeyP
 def test_each_prefix_is_searched_for_headers_and_libraries(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """Workspaces come before the conda environment; the compiler itself finds the system's folders."""
+    """The search uses the workspaces first, and then the conda environment."""
     monkeypatch.setenv("CMAKE_PREFIX_PATH", f"{tmp_path}/devel")
     monkeypatch.setenv("CONDA_PREFIX", f"{tmp_path}/conda")
     command = cpp_support.compile_command("in.cpp", "out")
@@ -52,7 +49,7 @@ def test_each_prefix_is_searched_for_headers_and_libraries(
 ROS = "#include <ros/ros.h>\n#include <std_srvs/Trigger.h>\n"
 FILE = "src/boxes/src/program.cpp"
 
-# The program, the expected line, and a part of the problem or of the advice.
+# Each mistake has a program, the expected line, and a text that the explanation must contain.
 MISTAKES = {
     "no such header": ("#include <roz/ros.h>\nint main() {}\n", 1, "the header roz/ros.h"),
     "no return": (
@@ -87,7 +84,7 @@ MISTAKES = {
 @needs_compiler
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_recognised(mistake: str, tmp_path: Path) -> None:
-    """The fault contains the student's file below src, its line, and advice."""
+    """The fault contains the student's file, its line, and advice."""
     text, line, words = MISTAKES[mistake]
     source = tmp_path / FILE
     source.parent.mkdir(parents=True)
@@ -103,10 +100,7 @@ def test_a_mistake_is_recognised(mistake: str, tmp_path: Path) -> None:
 
 @needs_compiler
 def test_the_first_fault_is_one_of_the_student(tmp_path: Path) -> None:
-    """An error in the student's file is reported before an error in a system header.
-
-    The student's error is the cause.
-    """
+    """The first fault is in the student's file, even if a system header has an error before it."""
     printed = (
         "/usr/include/boost/function.hpp:7:3: error: no type named 'type'\n"
         f"{tmp_path}/{FILE}:9:3: error: 'x' was not declared in this scope\n"
@@ -118,7 +112,7 @@ def test_the_first_fault_is_one_of_the_student(tmp_path: Path) -> None:
 
 @needs_compiler
 def test_a_good_program_builds_and_runs(tmp_path: Path) -> None:
-    """The command with which a check compiles finds roscpp, its libraries, and the course's types."""
+    """The check's compile command finds roscpp and the course's types."""
     source = tmp_path / "good.cpp"
     source.write_text(
         "#include <course_pkg/geometry.h>\n#include <ros/ros.h>\n"

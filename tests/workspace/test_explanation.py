@@ -1,7 +1,7 @@
-"""The course explains the messages of ROS's tools, with the line and what to do next.
+"""Tests that the course explains the messages of ROS tools.
 
-Each case is a package with one mistake; the real catkin_make builds it. All cases use the same workspace,
-because CMake then searches for the compilers only once.
+Each case is a package with one mistake, which the real catkin_make builds. All cases use the same workspace
+to save time.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ GENERATE = "generate_messages()\n"
 PACKAGE = "catkin_package(CATKIN_DEPENDS message_runtime)\n"
 C, S, X = "CMakeLists.txt", "srv/Box.srv", "package.xml"
 
-# The files, the expected place, and a part of the problem or of the advice.
+# Each case has the files, the expected position, and a text that the explanation must contain.
 SLIPS = {
     "message_generation missing": (
         spoilt(C, (" COMPONENTS message_generation", "")),
@@ -204,7 +204,7 @@ SLIPS = {
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Create a workspace with a long path, so that CMake wraps its messages at other places."""
+    """Create a workspace with a long path."""
     return tmp_path_factory.mktemp("workspace-with-a-long-name")
 
 
@@ -212,7 +212,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_mistake_in_a_package_is_explained(
     workspace: Path, files: dict[str, str], place: str, words: str
 ) -> None:
-    """The explanation contains the place, the problem, and advice."""
+    """The explanation contains the position, the problem and advice."""
     write(workspace, files)
     _, printed = build(workspace)
     fault = explain(printed)
@@ -232,7 +232,7 @@ def test_mistake_in_a_package_is_explained(
     ids=["good", "Windows line ends", "a byte order mark", "no minimum"],
 )
 def test_successful_build_has_no_fault(workspace: Path, files: dict[str, str]) -> None:
-    """There is no fault in the output of a successful build."""
+    """The output of a successful build contains no fault."""
     write(workspace, files)
     status, printed = build(workspace)
     assert (status, explain(printed)) == (0, None)
@@ -250,7 +250,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
-# Command lines that are run after the build, and a part of the advice.
+# Each command runs after the build, and its explanation must contain the text.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
     "another Python": ("/usr/bin/python3 -S -c 'import numpy'", True, "#!/usr/bin/env python3"),
@@ -272,7 +272,7 @@ SAID = {
 
 @pytest.mark.parametrize(("line", "sourced", "words"), SAID.values(), ids=SAID)
 def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourced: bool, words: str) -> None:
-    """Mistakes after the build are explained: a wrong import, a missing shebang, a wrong command."""
+    """A wrong import, a missing shebang or a wrong command is explained."""
     scripts = {"plain": 'print("hello")\n', "shell": 'print("hello")\n'}
     scripts["windows"] = "#!/usr/bin/env python3\r\nprint(1)\r\n"
     write(workspace, {**GOOD, **{f"scripts/{name}.py": text for name, text in scripts.items()}})
@@ -286,7 +286,7 @@ def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourc
 
 
 def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None:
-    """A script without a shebang is run by the shell, which starts ImageMagick's program `import`."""
+    """For a script without a shebang, the explanation works even if ImageMagick's `import` is installed."""
     fault = explain(
         "import-im6.q16: unable to open X server `' @ error/import.c/ImportImageCommand/346.\n"
         "shell.py: line 2: syntax error near unexpected token `('"
@@ -298,7 +298,7 @@ def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None
 
 
 def test_types_that_were_not_generated_are_explained(tmp_path: Path) -> None:
-    """Without generate_messages, the build succeeds, but Python finds no types."""
+    """If generate_messages is missing, the explanation contains this reason."""
     write(tmp_path, spoilt(C, (GENERATE, f"# {GENERATE}")))
     status, printed = build(tmp_path)
     assert (status, explain(printed)) == (0, None)
@@ -314,7 +314,7 @@ def test_unknown_output_has_no_explanation(text: str) -> None:
 
 
 def test_unknown_message_is_quoted() -> None:
-    """The problem is one line with short paths, and the place is a line of the student's package."""
+    """The problem is one line with short paths, and the position is a line of the student's package."""
     fault = explain(
         "-- Configuring\n\x1b[31mCMake Error at /usr/share/x/y.cmake:3 (message):\n  Something about\n"
         "  /home/me/ws/src/a/b.txt is\n  wrong.\nCall Stack (most recent call first):\n"
@@ -326,7 +326,7 @@ def test_unknown_message_is_quoted() -> None:
 
 
 def test_tags_have_lines() -> None:
-    """Tags with attributes are found, but tags in comments are not."""
+    """Tags with attributes are found, but tags in comments are not found."""
     text = '<?xml version="1.0"?>\n<package format="2">\n<!-- <name>old</name>\n-->\n  <name> mine </name>\n'
     assert [(tag.name, tag.line, tag.text) for tag in manifest_tags(text)] == [
         ("package", 2, ""),
@@ -347,7 +347,7 @@ CONDITION = MANIFEST.replace("<exec_depend", '<exec_depend condition="$A == b"')
     ],
 )
 def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None:
-    """`depend` means both build and run; a dependency with a condition does not count."""
+    """`depend` means both build and run."""
     assert (dependencies(text, "build"), dependencies(text, "run")) == (build, run)
 
 
@@ -361,7 +361,7 @@ def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None
     ],
 )
 def test_a_fault_is_located(problem: str, text: str, line: int) -> None:
-    """The build's message contains only the name of the tag; its line is found in the file's text."""
+    """The line of a tag is found in the text of the file."""
     assert locate(Fault(problem, "", "my_services/package.xml"), text).line == line
 
 

@@ -1,4 +1,4 @@
-"""A kernel finds the student's own packages as soon as they are built, after the course's packages."""
+"""Tests that a kernel finds the student's built packages."""
 
 from __future__ import annotations
 
@@ -25,10 +25,7 @@ SERVER = '#!/bin/sh\necho "of the student"\n'
 
 @pytest.fixture
 def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Return a workspace in tmp_path.
-
-    After the test, the environment, search path and modules are restored.
-    """
+    """Return a workspace in tmp_path, and restore the environment and modules after the test."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     for name in SEARCHED:
         monkeypatch.setenv(name, os.environ.get(name, ""))
@@ -40,7 +37,7 @@ def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def package(root: Path, name: str, **files: str) -> None:
-    """Write a package that needs no build, with the given files in its folder `scripts`."""
+    """Write a package with scripts that needs no build."""
     folder = root / "src" / name
     (folder / "scripts").mkdir(parents=True)
     (folder / "package.xml").write_text(
@@ -52,10 +49,7 @@ def package(root: Path, name: str, **files: str) -> None:
 
 
 def test_workspace_is_next_to_the_notebooks(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """The workspace is next to the notebooks in the checkout, and git ignores it.
-
-    Notebooks that a test runs have another workspace.
-    """
+    """The workspace is next to the notebooks in the checkout."""
     for name in ("COURSE_STATE", "COURSE_WORKSPACE"):
         monkeypatch.delenv(name, raising=False)
     checkout = Places.of().checkout
@@ -69,7 +63,7 @@ def test_workspace_is_next_to_the_notebooks(monkeypatch: pytest.MonkeyPatch, tmp
 
 
 def test_what_is_built_can_be_imported_and_a_changed_type_is_reported_once(root: Path) -> None:
-    """A kernel imports a package's new types without a restart; a changed type needs a restart."""
+    """A kernel imports a new type without a restart, and reports a changed type once."""
     packages = OwnPackages(root)
     assert packages.refresh() == ""
     with pytest.raises(ModuleNotFoundError):
@@ -94,7 +88,7 @@ def test_what_is_built_can_be_imported_and_a_changed_type_is_reported_once(root:
 
 
 def test_kernel_finds_the_packages_after_join(root: Path) -> None:
-    """After join(), a cell can import new types; a message on stderr reports a changed type."""
+    """After join(), a cell can import new types, and stderr contains a message about a changed type."""
     write(root, GOOD)
     change = f"open({str(root / 'src/my_services/srv/Box.srv')!r}, 'a').write('bool round\\n')"
     cells = [
@@ -116,7 +110,7 @@ def test_kernel_finds_the_packages_after_join(root: Path) -> None:
 
 
 def test_the_courses_programs_are_never_the_students(root: Path) -> None:
-    """A student's package or program never replaces one of the course with the same name."""
+    """A student's package or program never replaces one of the course."""
     package(root, "course_pkg", client=SERVER, mine=SERVER)
     package(root, "lab_sheet", client=SERVER)
     OwnPackages(root).refresh()
@@ -124,7 +118,7 @@ def test_the_courses_programs_are_never_the_students(root: Path) -> None:
     assert find_executable("course_pkg", "client") == course
     assert find_executable("lab_sheet", "client") == root / "src" / "lab_sheet" / "scripts" / "client"
     assert "of the student" not in program("client", "--help").stdout
-    assert program("mine").returncode == 3  # rosrun's exit status 3 means that there is no such program
+    assert program("mine").returncode == 3  # rosrun's exit status 3 means that the program does not exist.
     assert terminal("rosrun", "lab_sheet", "client").stdout == "of the student\n"
     found = terminal("rospack", "find", "course_pkg").stdout.strip()
     assert found == str(Places.of().workspace / "src" / "course_pkg")
@@ -134,10 +128,7 @@ def test_the_courses_programs_are_never_the_students(root: Path) -> None:
     "text", ["", "<package><name>my_arm</name>", "<package><version>1</version></package>"]
 )
 def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str) -> None:
-    """If a package.xml is not XML, the tools of ROS would fail.
-
-    Therefore, a kernel leaves this package out.
-    """
+    """A kernel ignores a package whose package.xml is not valid XML."""
     package(root, "my_arm", client=SERVER)
     package(root, "my_hand", client=SERVER)
     manifest = root / "src" / "my_arm" / "package.xml"
@@ -147,7 +138,7 @@ def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str)
     message = packages.refresh()
     assert message.startswith("src/my_arm/package.xml cannot be read (")
     assert "my_hand" not in message
-    assert packages.refresh() == ""  # the problem is reported only once
+    assert packages.refresh() == ""  # The problem is reported only once.
     assert terminal("rosrun", "my_hand", "client").stdout == "of the student\n"
     assert terminal("rossrv", "md5", "course_pkg/geometry").returncode == 0
     assert find_executable("my_hand", "client").is_file()
@@ -159,7 +150,7 @@ def test_a_broken_manifest_hides_one_package_and_no_other(root: Path, text: str)
 
 
 def test_a_removed_package_is_not_found_any_more(root: Path) -> None:
-    """A package that CATKIN_IGNORE hides from the build is also hidden from a kernel."""
+    """A kernel does not find a package with a CATKIN_IGNORE file."""
     package(root, "my_arm", client=SERVER)
     packages = OwnPackages(root)
     packages.refresh()
@@ -171,7 +162,7 @@ def test_a_removed_package_is_not_found_any_more(root: Path) -> None:
 
 
 def test_a_link_to_a_package_is_followed_and_a_loop_is_not(root: Path, tmp_path: Path) -> None:
-    """A link to a package in another folder is followed; a link to a parent folder causes no endless loop."""
+    """A link to a package is followed, but a link to a parent folder is not followed."""
     package(tmp_path / "elsewhere", "my_arm", client=SERVER)
     (root / "src" / "linked").symlink_to(tmp_path / "elsewhere" / "src" / "my_arm")
     (root / "src" / "loop").symlink_to(root / "src")
@@ -180,7 +171,7 @@ def test_a_link_to_a_package_is_followed_and_a_loop_is_not(root: Path, tmp_path:
 
 
 def test_rosrun_searches_nothing_of_the_checkout_but_the_package() -> None:
-    """The catkin workspace contains only a link to the course's package, so rosrun searches nothing else."""
+    """The command rosrun searches only the course's package, not the checkout."""
     checkout = Places.of().checkout
     shown = Places.of().workspace / "src" / "course_pkg"
     assert shown.is_dir()

@@ -1,4 +1,4 @@
-"""The student's workspace: the folders that can be used for it, and its packages."""
+"""Tests of the student's workspace."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_a_workspace_is_made_once_and_then_left_as_it_is(root: Path) -> None:
-    """JupyterLab makes the workspace at each start, even if it already contains the student's work."""
+    """Creating the workspace again does not change the student's files."""
     (root / "src" / "mine.txt").write_text("mine")
     assert make_own_workspace() == root
     assert (root / "src" / "mine.txt").read_text() == "mine"
@@ -36,7 +36,7 @@ def test_a_workspace_is_made_once_and_then_left_as_it_is(root: Path) -> None:
 def test_unsuitable_folder_is_refused(
     folder: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """An unsuitable folder is refused before anything is written, and the message suggests another folder."""
+    """An unsuitable folder is refused, and the error message suggests another folder."""
     (tmp_path / "photos").mkdir()
     (tmp_path / "photos" / "cat.jpg").write_text("")
     place = folder.format(tmp=tmp_path)
@@ -49,7 +49,7 @@ def test_unsuitable_folder_is_refused(
 
 
 def test_the_workspace_overlays_the_course(root: Path) -> None:
-    """After `source devel/setup.bash` in a terminal, the packages of both workspaces are found."""
+    """After `source devel/setup.bash`, the packages of both workspaces are found."""
     write(root, GOOD)
     build(root)
     found = shell(root, "rossrv md5 my_services/Box && rossrv md5 course_pkg/geometry").split()

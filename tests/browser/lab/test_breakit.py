@@ -1,4 +1,4 @@
-"""The panel "Break it" in a real JupyterLab, and its saved state without a kernel."""
+"""The panel "Break it" in a real JupyterLab, and on a saved page."""
 
 from __future__ import annotations
 
@@ -36,12 +36,12 @@ def begin(lab: Locator, name: str) -> None:
 
 
 def shown(text: str) -> str:
-    """Return a diagnosis or a remedy as the page shows it: without the backticks of Markdown."""
+    """Remove the backticks of Markdown from a text."""
     return text.replace("`", "")
 
 
 def answer(lab: Locator, fault: Fault) -> None:
-    """Choose the right diagnosis and remedy of a fault, and check them."""
+    """Select the right diagnosis and remedy of a fault, and click Check."""
     lab.get_by_label(shown(fault.diagnosis)).check()
     lab.get_by_label(shown(fault.remedy)).check()
     lab.get_by_role("button", name="Check").click()
@@ -66,7 +66,7 @@ def form(shared: Page) -> Locator:
 
 
 def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
-    """At first, only the symptom is shown, then the outputs of tools; each answer gets a reason."""
+    """At first, the panel shows only the symptom. Each answer then gets a reason."""
     picture(form, "breakit-opened")
     begin(form, "stale")
     expect(form.get_by_label("What it printed")).to_contain_text("[Errno 111] Connection refused")
@@ -90,10 +90,7 @@ def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
 
 
 def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
-    """The Tab key reaches the row of cases once; inside it, the arrow keys move.
-
-    Enter begins a case, Space chooses, and Enter checks the answer.
-    """
+    """A student opens and answers a case with the keyboard only."""
     form.get_by_role("button", name=re.compile("^Case")).first.focus()
     at = sorted(number(name) for name in ("stale", "stopped", "returns_none"))
     for _ in range(at.index(number("returns_none"))):
@@ -114,7 +111,7 @@ def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
 
 
 def test_a_hanging_call_is_described(form: Locator) -> None:
-    """If a call gets no response within 2 s, the panel says so; nothing overflows a panel of 560 px."""
+    """If a call gets no response within 2 s, the panel says that the call hangs."""
     begin(form, "stopped")
     expect(form.get_by_text("No answer within 2 s; still waiting.")).to_be_visible()
     form.page.set_viewport_size({"width": 560, "height": 1600})
@@ -125,14 +122,14 @@ def test_a_hanging_call_is_described(form: Locator) -> None:
 
 
 def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) -> None:
-    """When no page shows the panel any more, its fault and its nodes are removed from the graph."""
+    """When the student closes the page, the panel removes its fault and its nodes."""
     with (
         new_page(context) as page,
         running_notebook(page, lab, "leaving", SET_UP.replace("NODE", "leaving"), SHOW),
     ):
         shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
         master = MasterClient(shown.strip().strip("'"))
-        before = master.system_state().nodes  # these nodes can include those of another panel's fault
+        before = master.system_state().nodes  # The list can include nodes of another panel's fault.
         begin(panel(page, LABEL), "stale")
         assert master.system_state().nodes != before
         page.goto("about:blank")
@@ -143,7 +140,7 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
 def test_a_saved_lab_shows_the_last_case(
     page: Page, tmp_path: Path, master: PrivateMaster, theme: str
 ) -> None:
-    """The last symptom and answer are shown. All buttons are disabled, and a sentence gives the reason."""
+    """A saved page shows the last case, and all buttons are disabled."""
     assert master.uri
     widget = BreakIt("stopped", "returns_none", store=CaseStore(tmp_path / "cases.json"))
     widget._model.open(number("returns_none"))

@@ -1,4 +1,4 @@
-"""The graph panel, predictions, choices, a figure, and all panels in the dark theme, in a real JupyterLab."""
+"""The graph panel, predictions, choices, a figure and the themes in a real JupyterLab."""
 
 from __future__ import annotations
 
@@ -62,10 +62,7 @@ PLOT = "plt.plot([0, 1], [1.5, 2.5])\nplt.xlabel('time (s)')\nplt.show()"
 
 
 def test_the_graph_panel_follows_the_graph(lab: Lab, lab_page: Page) -> None:
-    """Nodes and topics appear at once.
-
-    A service that starts later appears, too, and a click shows its type.
-    """
+    """The panel shows a service that starts later, and a click on it shows its type."""
     later = f"import threading\nthreading.Timer(2, lambda: exec({SERVE!r}, globals())).start()"
     with running_notebook(lab_page, lab, "graph", GRAPH, "GraphPanel(node=node)", later):
         graph = panel(lab_page, "Graph panel")
@@ -85,7 +82,7 @@ def test_the_graph_panel_follows_the_graph(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
-    """When the cell runs again, the prediction is still there; the result is shown next to it."""
+    """When the cell runs again, the panel shows the student's prediction next to the result."""
     with running_notebook(
         lab_page, lab, "predict", GRAPH, PREDICT, 'p.compare("an error")', 'predictions("05")'
     ):
@@ -100,7 +97,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
 
 
 def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
-    """When the user has decided all cases by keyboard, the reasons appear. Only the first choices count."""
+    """When all cases are decided, the reasons appear, and later choices do not count."""
     with running_notebook(lab_page, lab, "choose", CHOICES, CHOOSE, 'predictions("03")', PLOT):
         choices = panel(lab_page, "Choices")
         first = choices.get_by_role("radiogroup", name="Joint values")
@@ -125,7 +122,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         expect(panel(lab_page, "Predictions").get_by_text("1 of 2 fit", exact=True)).to_be_visible()
         choices = panel(lab_page, "Choices")
         choices.get_by_role("button", name="Choose again").click()
-        # The old choices stay checked until the kernel answers, and check() would skip them.
+        # Until the kernel answers, the old choices are still checked, and check() would do nothing.
         expect(choices.get_by_text("2 of 2 to decide.")).to_be_visible()
         for name, option in {"Joint values": "a topic", "One picture": "a service"}.items():
             choices.get_by_role("radiogroup", name=name).get_by_label(option).check()
@@ -139,7 +136,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
 
 
 def test_the_dark_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
-    """In JupyterLab's dark theme, each text of each panel has a contrast of at least 4.5 : 1."""
+    """In the dark theme, each text of each panel has a contrast of at least 4.5 : 1."""
     cells = (GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', PREDICT)
     with running_notebook(lab_page, lab, "dark", *cells, theme="Dark"):
         form = panel(lab_page)
@@ -154,7 +151,7 @@ def test_the_dark_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
 
 
 def test_the_light_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
-    """In the light theme, each text has this contrast, too; an error and its explanation are visible."""
+    """In the light theme, each text of each panel has a contrast of at least 4.5 : 1."""
     with running_notebook(
         lab_page, lab, "light", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', "served.stop()"
     ):
@@ -167,14 +164,14 @@ def test_the_light_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
 
 
 def test_an_empty_graph_says_what_to_do(lab: Lab, lab_page: Page) -> None:
-    """A panel without a service is not empty: it explains where services come from."""
+    """A service panel without services explains how to start a service."""
     with running_notebook(lab_page, lab, "empty", "from course_pkg import ServicePanel\nServicePanel()"):
         expect(panel(lab_page).get_by_text("No node offers a service yet.")).to_be_visible()
         picture(panel(lab_page), "service-panel-empty")
 
 
 def test_every_kind_of_field_reaches_the_server(lab: Lab, lab_page: Page) -> None:
-    """Numbers with all digits, times, nested messages and arrays reach the server as they were typed."""
+    """The server receives large numbers, times, nested messages and arrays as the student typed them."""
     with running_notebook(lab_page, lab, "kinds", GRAPH, KINDS, 'ServicePanel("/kinds", kind=kinds)'):
         lab_page.set_viewport_size({"width": 1280, "height": 2000})
         form = panel(lab_page)

@@ -1,4 +1,4 @@
-"""The service panel in a real JupyterLab, on a real graph and in chapter 05."""
+"""The service panel in a real JupyterLab."""
 
 from __future__ import annotations
 
@@ -32,20 +32,20 @@ SHOW = 'form = ServicePanel("/getGeometry")\nform'
 
 
 def serving(page: Page, lab: Lab, node: str) -> AbstractContextManager[None]:
-    """Run a notebook that serves geometry as the node `node`, and that shows a service panel."""
+    """Run a notebook that offers a geometry service and shows a service panel."""
     return running_notebook(page, lab, node, SERVER.replace("NODE", node), SHOW)
 
 
 @pytest.fixture(scope="module")
 def shared(lab: Lab, context: BrowserContext) -> Iterator[Page]:
-    """Open one notebook for all tests that do not change its cells and its kernel."""
+    """Open one notebook for all tests that change neither its cells nor its kernel."""
     with new_page(context) as page, serving(page, lab, "shared"):
         yield page
 
 
 @pytest.fixture
 def form(shared: Page) -> Locator:
-    """Run all cells of the shared notebook again, so that it has a new panel."""
+    """Run the shared notebook again to get a new panel."""
     shared.set_viewport_size({"width": 1280, "height": 1000})
     run_all(shared)
     return panel(shared)
@@ -53,7 +53,7 @@ def form(shared: Page) -> Locator:
 
 @pytest.fixture
 def own_form(lab: Lab, lab_page: Page, request: pytest.FixtureRequest) -> Iterator[Locator]:
-    """Open a notebook with a kernel for one test only."""
+    """Open a notebook for one test only."""
     with serving(lab_page, lab, request.node.name):
         yield panel(lab_page)
 
@@ -71,7 +71,7 @@ def answer(form: Locator, name: str) -> Locator:
 
 
 def run_cell(page: Page, code: str) -> None:
-    """Add a last cell with this code, and run it."""
+    """Append a cell with this code, and run the cell."""
     page.locator(".jp-Notebook-footer").click()
     editor = page.locator(".jp-CodeCell .cm-content").last
     editor.click()
@@ -80,7 +80,7 @@ def run_cell(page: Page, code: str) -> None:
 
 
 def test_fill_call_read(form: Locator) -> None:
-    """A call shows area and volume for length, width and height, and the equivalent terminal command."""
+    """A call shows the response and the equivalent terminal command."""
     fill(form, length="1.2", width="5.2", height="8.9")
     expect(form.get_by_label("Command for a terminal")).to_have_text(
         "rosservice call /getGeometry 1.2 5.2 8.9"
@@ -93,10 +93,7 @@ def test_fill_call_read(form: Locator) -> None:
 
 
 def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
-    """A wrong field gets the focus and a note with the allowed values.
-
-    The note disappears when the field is corrected.
-    """
+    """A wrong field shows a note with the allowed values until the student corrects the field."""
     fill(form, length="1.2", width="five")
     form.get_by_role("button", name="Call").click()
     width = form.get_by_label("width")
@@ -115,10 +112,7 @@ def test_a_wrong_field_is_marked_and_not_called(form: Locator) -> None:
 
 
 def test_an_error_does_not_move_the_button_during_a_press(form: Locator) -> None:
-    """The kernel reports the mistake while Call is pressed.
-
-    The message moves the button only after the click.
-    """
+    """An error message does not move the Call button while the student presses it."""
     fill(form, length="1.2", width="five")
     expect(form.get_by_text("of the last request without a mistake")).to_be_visible()
     form.get_by_role("button", name="Call").click(delay=100)
@@ -127,7 +121,7 @@ def test_an_error_does_not_move_the_button_during_a_press(form: Locator) -> None
 
 
 def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
-    """While the server does not answer, the kernel can run cells, and Escape cancels the call."""
+    """Escape cancels a call that gets no response."""
     fill(form, length="-1", width="1", height="1")
     form.get_by_role("button", name="Call").click()
     expect(form.get_by_text("Calling…")).to_be_visible()
@@ -140,7 +134,7 @@ def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
 
 
 def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
-    """The call ends after the typed number of seconds, and the message says what to do next."""
+    """A call ends after the typed number of seconds, and the panel shows what to do next."""
     fill(form, length="-1")
     form.get_by_label("Wait at most").fill("0.3")
     form.get_by_role("button", name="Call").click()
@@ -151,7 +145,7 @@ def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
 
 
 def test_everything_by_keyboard(form: Locator) -> None:
-    """Tab moves from the service through the fields to Call; an entry of the history fills the form again."""
+    """With the keyboard only, a student makes a call and repeats it from the history."""
     page = form.page
     form.get_by_label("Service", exact=True).focus()
     for text in ("2", "3", "4"):
@@ -172,7 +166,7 @@ def test_everything_by_keyboard(form: Locator) -> None:
 
 
 def test_the_picker_follows_the_graph(own_form: Locator, lab_page: Page) -> None:
-    """A service that starts appears. A service that ends is shown as gone, and the typed values stay."""
+    """The list of services shows new services, and marks services that no longer exist."""
     form = own_form
     fill(form, length="7")
     hello = 'from std_srvs.srv import Trigger\nnode.serve("/hello", Trigger, lambda _: (True, "hi"))'
@@ -188,7 +182,7 @@ def test_the_picker_follows_the_graph(own_form: Locator, lab_page: Page) -> None
 
 
 def test_filling_from_python_shows_in_the_form(own_form: Locator, lab_page: Page) -> None:
-    """A cell and the page use the same form."""
+    """A cell fills in the form, and the page shows the values."""
     form = own_form
     run_cell(lab_page, "form.call(length=1.2, width=5.2, height=8.9).area")
     expect(form.get_by_label("length")).to_have_value("1.2")
@@ -196,14 +190,14 @@ def test_filling_from_python_shows_in_the_form(own_form: Locator, lab_page: Page
 
 
 def test_a_copy_button_copies(form: Locator) -> None:
-    """The button copies the command that is shown."""
+    """The button copies the displayed command."""
     form.get_by_role("button", name="Copy the command").click()
     expect(form.get_by_text("Copied")).to_be_visible()
     assert form.page.evaluate("navigator.clipboard.readText()") == "rosservice call /getGeometry 0.0 0.0 0.0"
 
 
 def test_the_end_of_the_kernel_is_reported(own_form: Locator, lab_page: Page) -> None:
-    """When the kernel was shut down, the panel keeps its last state, shows the reason, and makes no calls."""
+    """When the kernel is shut down, the panel shows this and makes no more calls."""
     form = own_form
     form.get_by_role("button", name="Call").click()
     expect(answer(form, "area")).to_have_text("0.0")
@@ -217,7 +211,7 @@ def test_the_end_of_the_kernel_is_reported(own_form: Locator, lab_page: Page) ->
 
 @pytest.mark.parametrize("width", [1280, 560])
 def test_nothing_is_wider_than_the_page(form: Locator, width: int) -> None:
-    """In a wide and in a narrow window, nothing overflows; a call does not move anything above its result."""
+    """In a wide and in a narrow window, the panel fits into the window."""
     form.page.set_viewport_size({"width": width, "height": 1000})
     fill(form, length="1.2", width="5.2", height="8.9")
     before = form.get_by_role("button", name="Call").bounding_box()
@@ -235,10 +229,7 @@ def test_nothing_is_wider_than_the_page(form: Locator, width: int) -> None:
 
 @pytest.mark.timeout(300)
 def test_a_reader_runs_chapter_05_and_calls_the_server_from_the_form(page: Page) -> None:
-    """All cells run, the first check passes, and the form shows the area and the volume.
-
-    `course lab` removes some parts of JupyterLab; the other parts still work.
-    """
+    """All cells of chapter 05 run, and the panel's call shows the area and the volume."""
     said: list[str] = []
     page.on("console", lambda message: said.append(message.text))
     page.route("**/api/contents/**", _write_nothing)
@@ -254,14 +245,15 @@ def test_a_reader_runs_chapter_05_and_calls_the_server_from_the_form(page: Page)
         expect(page.get_by_text("05.1 passed: 2 of 2 points").first).to_be_visible(timeout=READY)
         for name, value in {"length": "1.2", "width": "5.2", "height": "8.9"}.items():
             form.get_by_label(name).fill(value)
-        form.get_by_role("button", name="Call", exact=True).click(timeout=READY)  # after all cells
+        # The timeout is long because the click waits until all cells have run.
+        form.get_by_role("button", name="Call", exact=True).click(timeout=READY)
         expect(form.get_by_role("cell", name="55.536", exact=True)).to_be_visible(timeout=READY)
         expect(form.get_by_role("cell", name="6.2400002", exact=True)).to_be_visible()
         picture(page, "chapter-05-answered")
 
 
 def _write_nothing(route: Route) -> None:
-    """Prevent the page from writing the solution in the checkout."""
+    """Do not let the page write to the checkout's solution."""
     if route.request.method == "PUT":
         route.abort()
     else:

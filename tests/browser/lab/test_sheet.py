@@ -1,8 +1,4 @@
-"""Chapter 07 in JupyterLab's terminal, from an empty folder to the service's response.
-
-The test types each block of commands in the chapter, writes the file of each exercise, and reads the
-terminal.
-"""
+"""A student works through chapter 07 in JupyterLab's terminal."""
 
 from __future__ import annotations
 
@@ -21,11 +17,12 @@ from tests.support import eventually
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 
-BUILDING = 240.0  # time limit for one block of commands (s); catkin_make takes 3 s on an idle machine
-LAST = "## 13."  # from this section on, the student works without a lab sheet
+# One block of commands may take at most this many seconds; catkin_make takes 3 s on an idle machine.
+BUILDING = 240.0
+LAST = "## 13."  # From this section on, the student works without a lab sheet.
 SERVER = "rosrun my_geometry server.py"
 SERVED = "until rosservice list | grep -q getGeometry; do sleep 0.2; done"
-# Functions that run in the page. They open a terminal, and return the text of the terminal with this number.
+# These functions run in the page. The functions open a terminal and return the text of a terminal.
 OPEN = """async () => {
   const main = await window.jupyterapp.commands.execute("terminal:create-new");
   await main.content.ready;
@@ -42,7 +39,7 @@ TEXT = """(number) => {
 
 
 class Terminal:
-    """A terminal of JupyterLab; the test uses it with the keyboard."""
+    """A terminal of JupyterLab that the test uses with the keyboard."""
 
     def __init__(self, page: Page, number: int) -> None:
         self._page, self._number, self._typed = page, number, 0
@@ -51,19 +48,19 @@ class Terminal:
 
     @property
     def text(self) -> str:
-        """The text of the terminal, including the part above the visible lines."""
+        """The whole text of the terminal, with the lines that are scrolled away."""
         text: str = self._page.evaluate(TEXT, self._number)
         return text
 
     def type(self, commands: str) -> None:
-        """Type each command, and press Enter after it."""
+        """Type each command and press Enter."""
         self._page.evaluate(SHOW, self._number)
         for line in commands.splitlines():
             self._page.keyboard.type(line)
             self._page.keyboard.press("Enter")
 
     def run(self, commands: str) -> str:
-        """Type commands, wait until the last command has ended, and return the output since then."""
+        """Type the commands, wait until the last command has finished, and return the new output."""
         before = len(self.text.rstrip())
         self._typed += 1
         self.type(f"{commands}\necho done-{self._typed} $?")
@@ -74,10 +71,7 @@ class Terminal:
 
 @pytest.fixture
 def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Lab]:
-    """Start a JupyterLab in an empty folder.
-
-    make does not wait for an idle machine, and git knows a user name.
-    """
+    """Start JupyterLab in an empty folder."""
     for name, value in {
         "ROS_PARALLEL_JOBS": "-j2",
         "GIT_AUTHOR_NAME": "You",
@@ -107,7 +101,7 @@ def steps() -> Iterator[tuple[str, str]]:
 
 
 def test_the_lab_sheet_leads_to_both_outputs(context: BrowserContext, lab: Lab) -> None:
-    """In an empty folder, the commands of the lab sheet print the area and the volume of the sheet's box."""
+    """A student types the commands of the lab sheet, and the terminal shows the area and the volume."""
     page = context.new_page()
     page.goto(f"{lab.url}/lab?reset")
     page.wait_for_function("window.jupyterapp", timeout=READY)

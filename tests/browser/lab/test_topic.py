@@ -1,7 +1,4 @@
-"""The topic panel in a real JupyterLab.
-
-It publishes, receives, plots, and says what happened to each message.
-"""
+"""The topic panel in a real JupyterLab."""
 
 from __future__ import annotations
 
@@ -25,14 +22,14 @@ PANEL = 'TopicPanel("/speed", "std_msgs/Float64")'
 
 
 def listening(page: Page) -> Locator:
-    """Return the panel as soon as it has subscribed."""
+    """Return the panel after it has subscribed."""
     found = panel(page, "Topic panel")
     expect(found.locator(".ros-who")).to_contain_text("this panel")
     return found
 
 
 def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Page) -> None:
-    """A message that is published before a subscriber connects is lost; the next message is received."""
+    """A message that is published before a subscriber connects is lost. The next message arrives."""
     with running_notebook(lab_page, lab, "first", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("data").fill("1.5")
@@ -53,7 +50,7 @@ def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Pa
 
 
 def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
-    """A latched message reaches a subscriber that connects later, and the panel says this."""
+    """A latched message reaches a later subscriber, and the panel shows that the message was latched."""
     with running_notebook(lab_page, lab, "latched", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("Latch").check()
@@ -65,10 +62,7 @@ def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
-    """Messages that are published at 50 Hz arrive at about 50 Hz, until a click stops them.
-
-    The messages that are published at this rate are also plotted.
-    """
+    """The panel publishes at about 50 Hz until the student clicks Stop."""
     with running_notebook(lab_page, lab, "rate", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("Rate", exact=True).fill("50")
@@ -85,7 +79,7 @@ def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
 
 
 def test_leaving_the_page_ends_the_node(lab: Lab, lab_page: Page) -> None:
-    """When the page is closed, the panel's publisher ends; the kernel continues."""
+    """When the page is closed, the panel's publisher ends, but the kernel continues."""
     with running_notebook(lab_page, lab, "left", JOIN, 'open("master.txt", "w").write(node.master)', PANEL):
         topic = listening(lab_page)
         topic.get_by_role("button", name="Publish at a rate").click()
@@ -98,7 +92,7 @@ def test_leaving_the_page_ends_the_node(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_busy_kernel_is_reported(lab: Lab, lab_page: Page) -> None:
-    """A click while a cell runs takes effect after the cell; until then, a sentence explains this."""
+    """If the student clicks while a cell runs, the panel says that the kernel is busy."""
     busy = lab.folder / "busy"
     wait = "import os, time\nwhile os.path.exists('busy'): time.sleep(0.05)"
     with running_notebook(lab_page, lab, "waiting", JOIN, PANEL, wait):
@@ -115,7 +109,7 @@ def test_a_busy_kernel_is_reported(lab: Lab, lab_page: Page) -> None:
 
 
 def test_errors_are_shown_at_their_fields(lab: Lab, lab_page: Page) -> None:
-    """While a field or a setting is wrong, nothing is published; the first wrong field gets the focus."""
+    """The panel publishes nothing while a field is wrong, and the wrong field gets the focus."""
     with running_notebook(lab_page, lab, "wrong", JOIN, PANEL):
         topic = listening(lab_page)
         topic.get_by_label("data").fill("fast")
@@ -130,10 +124,7 @@ def test_errors_are_shown_at_their_fields(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_different_type_is_reported(lab: Lab, lab_page: Page) -> None:
-    """The panel names a publisher and a subscriber of another type, with their types.
-
-    rospy reports neither.
-    """
+    """The panel names the publisher and the subscriber that use another message type."""
     others = """
         talker = rospy.Publisher("/speed", String, queue_size=1, latch=True)
         talker.publish("fast")
@@ -152,7 +143,7 @@ def test_a_different_type_is_reported(lab: Lab, lab_page: Page) -> None:
 
 
 def test_a_panel_waits_for_its_topic(lab: Lab, lab_page: Page) -> None:
-    """If no type is given, the panel waits for a publisher and uses its type."""
+    """Without a type, the panel waits for a publisher and uses the publisher's type."""
     later = """
 import threading
 threading.Timer(4, lambda: globals().update(late=rospy.Publisher("/later", Float64, queue_size=1))).start()
@@ -165,7 +156,7 @@ threading.Timer(4, lambda: globals().update(late=rospy.Publisher("/later", Float
 
 
 def test_dark_and_narrow(lab: Lab, lab_page: Page) -> None:
-    """In the dark theme all texts are readable, and a message with many fields fits on a narrow page."""
+    """The panel is readable in the dark theme and on a narrow page."""
     panels = 'TopicPanel("/joints", "sensor_msgs/JointState")'
     with running_notebook(lab_page, lab, "dark", JOIN, panels, theme="Dark"):
         lab_page.set_viewport_size({"width": 760, "height": 1600})

@@ -1,4 +1,4 @@
-"""The wire view on a page: real calls, used with pointer and keyboard, without a kernel and in JupyterLab."""
+"""The wire view on a saved page and in JupyterLab."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def show(page: Page, folder: Path, view: WireView, theme: str = "light") -> Loca
 
 
 def pieces(wire: Locator, name: str) -> Locator:
-    """Return the row of the piece called `name`."""
+    """Return the row of the field `name`."""
     return wire.locator(".ros-sides tbody tr").filter(
         has=wire.page.locator("td:nth-child(3)", has_text=re.compile(f"^{name}$"))
     )
@@ -38,10 +38,7 @@ def lit(wire: Locator) -> str:
 
 
 def test_a_field_and_its_bytes_belong_together(page: Page, tmp_path: Path) -> None:
-    """The view opens at the request. If the pointer is on a value, its bytes are highlighted.
-
-    If it is on a byte, the value is.
-    """
+    """When the pointer is on a value, the view highlights the bytes of this value, and vice versa."""
     wire = show(page, tmp_path, WireView("/getGeometry", **SIDES))
     expect(wire.locator("[aria-current]")).to_contain_text("Request")
     pieces(wire, "width").hover()
@@ -57,7 +54,7 @@ def test_a_field_and_its_bytes_belong_together(page: Page, tmp_path: Path) -> No
 
 
 def test_the_keyboard_reaches_every_step_and_piece(page: Page, tmp_path: Path) -> None:
-    """The arrow keys move through the steps and through the pieces; the Tab key reaches each list once."""
+    """The arrow keys select each step and each field."""
     wire = show(page, tmp_path, WireView("/getGeometry", **SIDES))
     wire.locator("[aria-current]").focus()
     for title in ("Response", "The connection is closed"):
@@ -76,7 +73,7 @@ def test_the_keyboard_reaches_every_step_and_piece(page: Page, tmp_path: Path) -
 
 
 def test_the_whole_exchange_is_a_table(page: Page, tmp_path: Path) -> None:
-    """Each piece is also shown as text: step, offset, bytes, name, type and value."""
+    """The view also shows all steps as a table."""
     wire = show(page, tmp_path, WireView("/getGeometry", **SIDES))
     wire.get_by_text("The whole exchange as a table").click()
     table = wire.get_by_label("The whole exchange")
@@ -85,10 +82,7 @@ def test_the_whole_exchange_is_a_table(page: Page, tmp_path: Path) -> None:
 
 
 def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
-    """For a refused call, the ok byte is 0, and the error message is shown.
-
-    For another MD5, the server's header is shown.
-    """
+    """The view shows the error message of a refused call and the header of a server with another MD5."""
     wire = show(page, tmp_path, WireView("/getGeometry", **{**SIDES, "length": -1.0}))
     expect(wire.get_by_text("The call failed")).to_be_visible()
     wire.get_by_role("button", name=re.compile("Error$")).click()
@@ -104,10 +98,7 @@ def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
 
 
 def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
-    """A call that no server accepts gets an explanation.
-
-    A long field is shown with its beginning and its length.
-    """
+    """A long field is shown with its beginning and its length."""
     wire = show(page, tmp_path, WireView("/nobody"))
     expect(wire.locator("[aria-current]")).to_contain_text("No node provides it")
     expect(wire.get_by_text("unavailable")).to_be_visible()
@@ -121,7 +112,7 @@ def test_what_is_long_is_folded(page: Page, tmp_path: Path) -> None:
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("width", [1000, 560])
 def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> None:
-    """Each text, even a highlighted one, has a contrast of 4.5 : 1 in both themes; nothing overflows."""
+    """Each text has a contrast of at least 4.5 : 1 in both themes, and the view fits into the window."""
     page.set_viewport_size({"width": width, "height": 1100})
     wire = show(page, tmp_path, WireView("/getGeometry", **SIDES), theme)
     for step in ("header of the server", "Request", "Response"):
@@ -133,7 +124,7 @@ def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> N
 
 
 def test_it_runs_in_jupyterlab(lab_page: Page, lab: Lab) -> None:
-    """In a notebook, the arrow keys do not leave the panel."""
+    """In a notebook, the arrow keys move only within the panel."""
     cells = (
         "from course_pkg import WireView, join\nnode = join('wire_view')\n"
         "server = node.run('course_pkg', 'server')\nserver.wait_for_service('/getGeometry', timeout=20)",

@@ -1,7 +1,4 @@
-"""A check waits for the nodes of a launch file.
-
-It finds the line with the error in the output of roslaunch.
-"""
+"""Tests of how a check waits for a launch file and reads the output of roslaunch."""
 
 from __future__ import annotations
 
@@ -25,16 +22,16 @@ from course_pkg.ros import PrivateMaster
     ],
 )
 def test_line_with_the_error_is_found(printed: str, told: str) -> None:
-    """The line contains neither terminal colours nor paths of this machine."""
+    """The check finds the line with the error, and removes colours and paths of this machine."""
     assert telling_line(printed) == told
 
 
 def test_wait_for_a_graph_ends(master: PrivateMaster) -> None:
-    """The wait ends when the graph of this master meets the condition, or after the timeout."""
+    """The wait ends when the ROS graph meets the condition, or after the timeout."""
     assert becomes(master.uri, lambda actual: actual.services is not None, within=10.0)
     assert not becomes(master.uri, lambda actual: actual.service("/nobody"), within=0.2)
 
 
 def test_master_may_start_during_the_wait() -> None:
-    """If there is no master yet, this is not an error, because roslaunch starts one."""
+    """The check waits for roslaunch to start a master."""
     assert not becomes(f"http://localhost:{closed_port()}", lambda _: True, within=0.2)

@@ -1,4 +1,4 @@
-"""A check works in separate folders, with copies and a time limit, and leaves nothing behind."""
+"""A check runs commands on copies of the student's files, with a time limit."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.support import eventually
 
 @pytest.fixture
 def bench(tmp_path: Path) -> Iterator[CommandFolders]:
-    """Return the command folders of a student whose files are in tmp_path."""
+    """Return the command folders for the files in tmp_path."""
     fresh = CommandFolders(lambda name: tmp_path / name)
     yield fresh
     fresh.close()
@@ -26,7 +26,7 @@ def out(bench: CommandFolders, *argv: str, folder: int = 0, within: float = 10.0
 
 
 def test_a_command_runs_on_copies(bench: CommandFolders, tmp_path: Path) -> None:
-    """A copy has the same path as the student's file; a change of the copy does not change the original."""
+    """If a command changes a copy, the student's file does not change."""
     (tmp_path / "src").mkdir()
     (tmp_path / "src" / "client.py").write_text("import sys; print(sys.argv[1:]); sys.exit(3)")
     folder = bench.folder(["src/client.py"], {})["folder"]
@@ -37,7 +37,7 @@ def test_a_command_runs_on_copies(bench: CommandFolders, tmp_path: Path) -> None
 
 
 def test_command_ends_at_its_time_limit(bench: CommandFolders) -> None:
-    """A command that reaches its time limit is ended. All processes that it has started are ended, too."""
+    """A command and its child processes end at the time limit."""
     folder = bench.folder([], {})["folder"]
     answer = bench.run(["bash", "-c", "sleep 60 & sleep 60"], folder, 0.1)
     assert answer["status"] is None
@@ -45,7 +45,7 @@ def test_command_ends_at_its_time_limit(bench: CommandFolders) -> None:
 
 
 def test_copies_keep_permissions(bench: CommandFolders, tmp_path: Path) -> None:
-    """A copy keeps the permission to execute, because an exercise asks the student to set it."""
+    """A copied script stays executable."""
     (tmp_path / "scripts").mkdir()
     for name, mode in (("yes", 0o755), ("no", 0o644)):
         (tmp_path / "scripts" / name).write_text("#!/bin/sh\necho hello\n")
@@ -57,7 +57,7 @@ def test_copies_keep_permissions(bench: CommandFolders, tmp_path: Path) -> None:
 
 
 def test_files_of_the_check_replace_copies(bench: CommandFolders, tmp_path: Path) -> None:
-    """The check's own files replace copies; otherwise, one mistake would lead to failures in two parts."""
+    """A file of the check replaces the student's file with the same path."""
     (tmp_path / "package.xml").write_text("the student's")
     folder = bench.folder(["package.xml"], {"package.xml": "the check's", "srv/A.srv": "---"})["folder"]
     assert out(bench, "cat", "package.xml", "srv/A.srv", folder=folder) == "the check's---"
@@ -65,7 +65,7 @@ def test_files_of_the_check_replace_copies(bench: CommandFolders, tmp_path: Path
 
 @pytest.mark.parametrize("name", ["/etc/hostname", "../hostname"])
 def test_a_copy_stays_in_its_folder(bench: CommandFolders, tmp_path: Path, name: str) -> None:
-    """A copy is always inside the check's folder, even if the path leads out of it."""
+    """A copy is always inside the check's folder, even if its path leads out of this folder."""
     (tmp_path / "hostname").write_text("x")
     bench = CommandFolders(lambda _: tmp_path / "hostname")
     folder = bench.folder([name], {})["folder"]
@@ -76,14 +76,14 @@ def test_a_copy_stays_in_its_folder(bench: CommandFolders, tmp_path: Path, name:
 def test_sourced_packages_of_the_student_are_not_used(
     bench: CommandFolders, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """A module from an older build on the kernel's path does not replace the module to examine."""
+    """The check does not import a student's module from an older build."""
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}")
     folder = bench.folder([], {})["folder"]
     assert str(tmp_path) not in out(bench, "bash", "-c", "echo $PYTHONPATH", folder=folder)
 
 
 def test_pwd_is_the_folder(bench: CommandFolders) -> None:
-    """catkin_make builds in $PWD, not in the working directory."""
+    """In a command, $PWD is the folder of the check, because catkin_make builds in $PWD."""
     folder = bench.folder([], {})["folder"]
     there, believed = out(bench, "python", "-c", "import os; print(os.getcwd(), os.environ['PWD'])").split()
     assert folder == 0
@@ -91,7 +91,7 @@ def test_pwd_is_the_folder(bench: CommandFolders) -> None:
 
 
 def test_stop_ends_a_running_command(bench: CommandFolders) -> None:
-    """stop() interrupts the command in the same way as Ctrl-C, and keeps its output."""
+    """stop() interrupts the command like Ctrl-C, and returns its output."""
     script = "trap 'echo bye; exit 0' INT; echo hello; echo > ready; while :; do sleep 0.01; done"
     folder = bench.folder([], {})["folder"]
     process = bench.start(["bash", "-c", script], folder)["process"]
@@ -103,7 +103,7 @@ def test_stop_ends_a_running_command(bench: CommandFolders) -> None:
 
 
 def test_a_command_that_ended_by_itself_has_a_status(bench: CommandFolders) -> None:
-    """The status tells whether a command has ended or is still running."""
+    """The result contains the exit status of a command that has ended."""
     folder = bench.folder([], {})["folder"]
     process = bench.start(["bash", "-c", "echo no; exit 3"], folder)["process"]
     eventually(lambda: bench.poll(process)["status"] is not None)
@@ -111,7 +111,7 @@ def test_a_command_that_ended_by_itself_has_a_status(bench: CommandFolders) -> N
 
 
 def test_close_leaves_no_folder_and_no_process(tmp_path: Path) -> None:
-    """After close(), no folder and no process is left."""
+    """After close(), no folder and no process remains."""
     bench = CommandFolders(lambda name: tmp_path / name)
     folder = bench.folder([], {})["folder"]
     path = Path(out(bench, "pwd").strip())

@@ -13,7 +13,7 @@ from course_pkg.checking.plain_values import Reply, Value
 
 
 def ask(namespace: dict[str, Value], folder: Path | None = None, **question: Value) -> Reply:
-    """Return the reply to one request."""
+    """Return the reply to a request."""
     return KernelAgent(namespace, folder).reply({"ask": 1, **question})
 
 
@@ -23,14 +23,14 @@ def call(namespace: dict[str, Value], *args: Value, within: float = 1.0) -> Repl
 
 
 def test_result_contains_the_printed_text() -> None:
-    """The value is plain data, and printed text does not become part of the cell's output."""
+    """The reply contains the result as plain data, and the printed text."""
     answer = call({"f": lambda a: (print("hello"), a + 1)[1]}, 2)  # noqa: T201
     assert (answer["value"], answer["printed"]) == (3, "hello\n")
 
 
 @pytest.mark.parametrize(("error", "kind"), [(ValueError("no"), "ValueError"), (SystemExit(3), "SystemExit")])
 def test_error_is_a_result(error: BaseException, kind: str) -> None:
-    """If an exercise calls sys.exit(), this is also an error; it does not end the kernel."""
+    """If an exercise calls sys.exit(), the reply contains an error, and the kernel continues."""
 
     def f() -> None:
         raise error
@@ -39,7 +39,7 @@ def test_error_is_a_result(error: BaseException, kind: str) -> None:
 
 
 def test_an_interrupt_is_passed_on() -> None:
-    """A KeyboardInterrupt is raised in the notebook, and is not a result of the call."""
+    """A KeyboardInterrupt is raised in the notebook."""
 
     def f() -> None:
         raise KeyboardInterrupt
@@ -49,7 +49,7 @@ def test_an_interrupt_is_passed_on() -> None:
 
 
 def test_function_is_interrupted_at_its_time_limit() -> None:
-    """A function is also interrupted if it catches every exception."""
+    """The time limit ends a function that catches every exception."""
 
     def stubborn() -> None:
         until = time.monotonic() + 0.5
@@ -68,7 +68,7 @@ def test_function_is_interrupted_at_its_time_limit() -> None:
 
 
 def test_missing_name_comes_with_a_similar_name() -> None:
-    """The reply contains a similar name, because missing names are often misspelt."""
+    """If a name is missing, the reply contains a similar name."""
     assert ask({"mesure": len}, do="look", name="measure") == {
         "answer": 1,
         "kind": "missing",
@@ -77,12 +77,12 @@ def test_missing_name_comes_with_a_similar_name() -> None:
 
 
 def test_an_imported_name_is_not_offered_for_a_missing_one() -> None:
-    """If all similar names are imported, the reply contains none of them."""
+    """If a name is missing, the reply does not suggest an imported name."""
     assert ask({"Patch": Path}, do="look", name="Path")["alike"] == []
 
 
 def test_the_traceback_of_a_handler_is_kept_once() -> None:
-    """The module rospy logs a handler's exception; the check receives the student's line that raised it."""
+    """If a handler raises an exception, the check gets the student's line that raised it."""
     agent = KernelAgent({})
     try:
         try:
@@ -98,7 +98,7 @@ def test_the_traceback_of_a_handler_is_kept_once() -> None:
 
 
 def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
-    """If a handler has a wrong number of parameters, it does not start; then the error message is enough."""
+    """If the wrong number of parameters prevents a handler's start, there is no traceback."""
     agent = KernelAgent({})
     try:
         logging.getLogger("rosout").error("Error processing request: takes 0 positional arguments")
@@ -108,10 +108,7 @@ def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
 
 
 def test_object_of_the_check_can_be_an_argument() -> None:
-    """The check's own code can create an object in the kernel that is not plain data.
-
-    It can pass the object as an argument.
-    """
+    """A check can pass an object of its own class as an argument."""
     agent = KernelAgent({"f": lambda items: len(items)})
     agent.reply({"ask": 1, "do": "prepare", "code": "made = {1, 2, 3}", "within": 1.0})
     question = {"ask": 2, "do": "call", "name": "f", "args": [{"its": "made"}], "kwargs": {}, "within": 1.0}
@@ -123,12 +120,12 @@ def test_object_of_the_check_can_be_an_argument() -> None:
     [{"do": "fly"}, {"do": "look"}, {"do": "read", "name": "x"}, {}, {"do": "read", "name": "f.x"}],
 )
 def test_invalid_request_gets_an_error(question: dict[str, Value]) -> None:
-    """The reply to an invalid request is an error; no exception ends the check."""
+    """The reply to an invalid request contains an error."""
     assert "wrong" in KernelAgent({"f": len}).reply({"ask": 1, **question})
 
 
 def test_a_file_can_be_a_stub(tmp_path: Path) -> None:
-    """A file that contains only comments and `...` is blank."""
+    """A file with only comments and `...` counts as blank."""
     (tmp_path / "client.py").write_text("#!/usr/bin/env python3\n...\n")
     (tmp_path / "server.py").write_text("print(1)\n")
     kinds = [
@@ -138,7 +135,7 @@ def test_a_file_can_be_a_stub(tmp_path: Path) -> None:
 
 
 def test_missing_file_comes_with_a_similar_name(tmp_path: Path) -> None:
-    """The reply contains the name of a file that differs only in upper and lower case."""
+    """If a file is missing, the reply contains a file name that differs only in upper and lower case."""
     (tmp_path / "lamp.srv").write_text("---\n")
     assert ask({}, tmp_path, do="look", name="file:Lamp.srv") == {
         "answer": 1,
@@ -148,10 +145,7 @@ def test_missing_file_comes_with_a_similar_name(tmp_path: Path) -> None:
 
 
 def test_file_is_found_in_the_workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After a restart, the file is found in the workspace.
-
-    The kernel's working directory is another folder then.
-    """
+    """After a restart of the kernel, the agent finds the file in the workspace."""
     monkeypatch.setenv("COURSE_WORKSPACE", str(tmp_path / "ws"))
     (tmp_path / "ws" / "src").mkdir(parents=True)
     (tmp_path / "ws" / "src" / "Lamp.srv").write_text("bool on\n---\n")

@@ -1,4 +1,4 @@
-"""The time limit and the Stop button both end a student's function, even if it catches all exceptions."""
+"""The time limit and the Stop button end a student's function that catches all exceptions."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ import pytest
 from course_pkg.checking.kernel.time_limit import TimeLimit, TimesUp
 
 LIMIT = 0.2
-SOON = 3.0  # additional s for a busy machine
+SOON = 3.0  # A function on a busy machine may run this many seconds longer.
 LOCK = threading.Lock()
 
 
 def busy() -> None:
-    """Calculate without end."""
+    """Calculate in an endless loop."""
     while True:
         try:
             while True:
@@ -39,7 +39,7 @@ def prints() -> None:
 
 
 def waits() -> None:
-    """Wait in a library that has code for a clean-up."""
+    """Wait in a library function with clean-up code."""
     while True:
         try:
             threading.Event().wait()
@@ -48,7 +48,7 @@ def waits() -> None:
 
 
 def nested() -> None:
-    """Catch all exceptions at two levels."""
+    """Catch all exceptions in two nested try statements."""
     while True:
         try:
             try:  # noqa: SIM105
@@ -60,7 +60,7 @@ def nested() -> None:
 
 
 def goes_on() -> None:
-    """Suppress the exception without an except block."""
+    """Suppress exceptions with `continue` in `finally`."""
     while True:
         try:
             time.sleep(1)
@@ -69,7 +69,7 @@ def goes_on() -> None:
 
 
 def locks() -> None:
-    """Hold a lock while it is interrupted."""
+    """Hold a lock during an endless loop."""
     while True:
         try:
             with LOCK:
@@ -92,7 +92,7 @@ STUBBORN = pytest.mark.parametrize(
 
 @STUBBORN
 def test_limit_ends_it(function: Callable[[], None]) -> None:
-    """The function ends at its time limit, and it releases its lock."""
+    """The function ends at its time limit and releases its lock."""
     started = time.monotonic()
     with pytest.raises(TimesUp):
         TimeLimit(LIMIT).call(function)
@@ -111,7 +111,7 @@ def test_stop_button_ends_it(function: Callable[[], None]) -> None:
 
 
 def test_function_that_ends_in_time() -> None:
-    """The function's value or error is returned, and the signal handlers are restored."""
+    """A function that ends in time returns its value or raises its error."""
     before = signal.getsignal(signal.SIGALRM), signal.getsignal(signal.SIGINT)
     assert TimeLimit(LIMIT).call(lambda: 7) == 7
     with pytest.raises(ZeroDivisionError):
@@ -121,7 +121,7 @@ def test_function_that_ends_in_time() -> None:
 
 
 def test_stop_button_is_not_swallowed() -> None:
-    """If a function catches the interrupt and returns, the call still ends with KeyboardInterrupt."""
+    """If a function catches the interrupt, the call still raises KeyboardInterrupt."""
 
     def swallows() -> int:
         with contextlib.suppress(KeyboardInterrupt):

@@ -1,4 +1,4 @@
-"""A fake node is registered like a running node or like a killed node, and is unregistered at the end."""
+"""A fake node is registered like a running or a killed node."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from course_pkg.ros import MasterClient, NodeProcess, PrivateMaster, look
 
 
 def test_fake_node_is_running_or_killed(master: PrivateMaster) -> None:
-    """The address of the running node responds; the port of the killed node is closed."""
+    """A running fake node accepts connections, and a killed fake node refuses connections."""
     client = MasterClient(master.uri)
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")

@@ -1,4 +1,4 @@
-"""A faulty server fails as planned, and then recovers; a client sees no difference from real faults."""
+"""A faulty server fails as planned and then works again."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from course_pkg.ros import BoundedProxy, MasterClient, PrivateMaster
 from course_pkg.ros.protocol.json_channel import Json
 from tests.support import eventually
 
-# rospy's client does not close its sockets; the garbage collector closes them
+# rospy's client does not close its sockets; the garbage collector closes them.
 pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-AWAY = 0.2  # s until a crashed server is started again
+AWAY = 0.2  # A crashed server is started again after this many seconds.
 
 
 @pytest.fixture
@@ -31,19 +31,19 @@ def node(master: PrivateMaster) -> Node:
 
 @pytest.fixture
 def server(node: Node) -> Iterator[FaultyServer]:
-    """Return a server whose work is to double a length."""
+    """Return a server that doubles a length."""
     with FaultyServer(node, "/f", geometry, lambda request: {"area": 2 * request.length}) as serving:
         yield serving
     assert node.master.lookup_service("/f") is None
 
 
 def ask(length: float, timeout: float = 5.0) -> float:
-    """Call the server within a time limit, and return the area."""
+    """Call the server with a time limit, and return the area."""
     return float(BoundedProxy("/f", geometry, timeout=timeout).call(length, 0, 0).area)
 
 
 def answered(length: float) -> bool:
-    """Return whether a call gets the right response; the server may not be restarted yet."""
+    """Return whether a call gets the right response."""
     try:
         return ask(length) == 2 * length
     except rospy.ServiceException:
@@ -59,7 +59,7 @@ def answered(length: float) -> bool:
     ],
 )
 def test_planned_fault_affects_one_call(server: FaultyServer, fault: Json, text: str) -> None:
-    """The client gets the same error message as from a real fault, and the next call succeeds."""
+    """A planned fault gives the client a real error message, and the next call succeeds."""
     server.plan.append(Fault(fault))
     with pytest.raises(rospy.ServiceException) as error:
         ask(1.0)
@@ -69,13 +69,13 @@ def test_planned_fault_affects_one_call(server: FaultyServer, fault: Json, text:
 
 
 def test_late_response_is_right(server: FaultyServer) -> None:
-    """If a client waits long enough, it gets the right response."""
+    """A client with a long timeout gets the right response."""
     server.plan.append(Fault(Late(0.05, {}), worked=True))
     assert ask(3.0) == 6.0
 
 
 def test_frozen_server_accepts_connections_without_a_response(server: FaultyServer) -> None:
-    """A probe can connect, as to a stopped process. A call gets no response; then the fault is over."""
+    """A frozen server accepts connections, but sends no response."""
     server.plan.append(Fault(Frozen()))
     rospy.wait_for_service("/f", timeout=2)
     with pytest.raises(CallTimeout, match="accepts connections, but sends nothing"):
@@ -88,10 +88,7 @@ def test_frozen_server_accepts_connections_without_a_response(server: FaultyServ
     ("unregisters", "text"), [(False, "Connection refused"), (True, r"service \[/f\] unavailable")]
 )
 def test_registration_after_a_crash(server: FaultyServer, unregisters: bool, text: str) -> None:
-    """The registration of a killed server stays; that of a server that was shut down is removed.
-
-    Both servers run again later.
-    """
+    """A killed server stays registered, and a server that was shut down is unregistered."""
     before = server._uri
     server.plan.append(Fault(Crash(AWAY, unregisters)))
     with pytest.raises(rospy.ServiceException, match="transport error"):
@@ -104,7 +101,7 @@ def test_registration_after_a_crash(server: FaultyServer, unregisters: bool, tex
 
 @pytest.mark.parametrize("worked", [True, False])
 def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None:
-    """The plan decides whether the work of a failed call is done."""
+    """The plan decides whether the server does the work of a failed call."""
     done: list[float] = []
 
     def work(request: Message) -> dict[str, Json]:
@@ -119,7 +116,7 @@ def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None
 
 
 def test_server_that_has_left_does_not_restart(node: Node) -> None:
-    """A server that has stopped serving does not restart after the check."""
+    """A server that was closed does not restart."""
     with FaultyServer(node, "/f", geometry, lambda _: {}) as server:
         server.plan.append(Fault(Crash(AWAY)))
         with pytest.raises(rospy.ServiceException):
@@ -130,7 +127,7 @@ def test_server_that_has_left_does_not_restart(node: Node) -> None:
 
 
 def test_simultaneous_calls_take_one_fault_each(server: FaultyServer) -> None:
-    """Of eight simultaneous calls, the number of failed ones is the number of planned faults."""
+    """If three faults are planned, three of eight simultaneous calls fail."""
     server.plan.extend([Fault(Refuse("busy"))] * 3)
 
     def fails(length: float) -> bool:

@@ -1,4 +1,4 @@
-"""A scripted server does what its script says, and then the previous server is registered again."""
+"""A scripted server follows its script and then restores the previous server."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from course_pkg.checking.peers.scripted_server import (
 from course_pkg.ros import MasterClient, PrivateMaster
 from tests.support import eventually
 
-# rospy's client does not close its sockets; the garbage collector closes them
+# rospy's client does not close its sockets; the garbage collector closes them.
 pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
 
 
@@ -33,13 +33,13 @@ def node(master: PrivateMaster) -> Node:
 
 
 def ask(name: str, *sides: float) -> tuple[float, float]:
-    """Call the service in the same way as a student's client."""
+    """Call the service like a student's client."""
     response = rospy.ServiceProxy(name, geometry)(*sides)
     return response.area, response.volume
 
 
 def test_request_gets_its_response_and_is_stored(node: Node) -> None:
-    """A client that uses rospy gets the response, and the server stores the request."""
+    """A rospy client gets the response, and the server stores the request."""
     with ScriptedServer(node, "/a", geometry, lambda r: {"area": r.length, "volume": 2.0}) as server:
         rospy.wait_for_service("/a", timeout=2)
         assert ask("/a", 1.5, 2.0, 3.0) == (1.5, 2.0)
@@ -83,7 +83,7 @@ def test_error_messages_are_those_of_rospy(node: Node, act: Act, text: str) -> N
 
 
 def test_another_definition_is_refused(node: Node) -> None:
-    """The error message contains both MD5 sums, as the message of a rospy server does."""
+    """If the service definitions differ, the error message contains both MD5 sums."""
     with (
         ScriptedServer(node, "/d", AddTwoInts, lambda _: {"sum": 1}),
         pytest.raises(rospy.ServiceException, match="md5sums do not match"),
@@ -92,7 +92,7 @@ def test_another_definition_is_refused(node: Node) -> None:
 
 
 def test_late_and_silent(node: Node) -> None:
-    """A late response arrives; a call without a response ends when the server stops."""
+    """A late response reaches the client. A call without a response ends when the server stops."""
     with ScriptedServer(node, "/l", geometry, lambda _: Late(0.05, {"area": 4.0})):
         assert ask("/l", 1, 2, 3) == (4.0, 0.0)
     with ScriptedServer(node, "/s", geometry, lambda _: Silence()) as server:
@@ -107,10 +107,7 @@ def test_late_and_silent(node: Node) -> None:
     "take", [lambda node: ScriptedServer(node, "/t", geometry, lambda _: {}), lambda node: Absent(node, "/t")]
 )
 def test_the_former_server_serves_again(node: Node, take: Callable[[Node], ScriptedServer | Absent]) -> None:
-    """The check stores the previous server, because the master does not.
-
-    At the end, it registers this server again.
-    """
+    """When the scripted server stops, the check registers the previous server again."""
     former = Node("/student", "http://localhost:2/", node.master)
     node.master.register_service(former.name, "/t", "rosrpc://localhost:3", former.uri)
     with take(node):
@@ -122,7 +119,7 @@ def test_the_former_server_serves_again(node: Node, take: Callable[[Node], Scrip
 
 
 def test_stale_registration_has_a_closed_port(node: Node) -> None:
-    """The master returns a server, but its port is closed, as after a SIGKILL."""
+    """The master returns the address of a server whose port is closed."""
     with Absent(node, "/x", stale=True), pytest.raises(rospy.ServiceException, match="Connection refused"):
         ask("/x", 1, 2, 3)
     assert node.master.lookup_service("/x") is None

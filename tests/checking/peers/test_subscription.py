@@ -1,4 +1,4 @@
-"""A check's subscription returns messages, times, publishers and types within a time limit."""
+"""A check's subscription returns messages with their times, publishers and types."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def connected(publisher, count=1):
 
 @pytest.fixture
 def student(master: PrivateMaster) -> Iterator[Kernel]:
-    """Return a kernel that is a node."""
+    """Return a kernel that runs a node."""
     with Kernel() as kernel:
         kernel.run(STUDENT)
         yield kernel
@@ -61,7 +61,7 @@ def student(master: PrivateMaster) -> Iterator[Kernel]:
 
 @pytest.fixture
 def check(master: PrivateMaster) -> Iterator[Kernel]:
-    """Return a process with the check's functions for topics: `subscribe`, `publish` and `broken`."""
+    """Return a process with the functions `subscribe`, `publish` and `broken`."""
     with Kernel() as kernel:
         kernel.run(CHECK_RUNNER)
         yield kernel
@@ -70,7 +70,7 @@ def check(master: PrivateMaster) -> Iterator[Kernel]:
 
 
 def test_messages_come_with_their_time_and_their_publisher(check: Kernel, student: Kernel) -> None:
-    """All messages arrive as plain data, in the order of publication."""
+    """All messages arrive in the order of publication, with their time and their publisher."""
     check.run("subscription = subscribe('/count')")
     student.run("p = rospy.Publisher('/count', UInt32, queue_size=100); connected(p)")
     student.run("for number in range(50): p.publish(number)")
@@ -93,7 +93,7 @@ def test_a_wait_ends_when_its_time_is_over(check: Kernel) -> None:
 
 
 def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
-    """The report says that the topic has no publisher, and contains the name of a similar topic."""
+    """The report says that the topic has no publisher, and contains a similar topic name."""
     assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
         "/joint_states is published as std_msgs/UInt32",
         "no publisher",
@@ -106,7 +106,7 @@ def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
 
 @pytest.mark.parametrize("publish", ["", "p.publish(1.5)"])
 def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) -> None:
-    """The wrong type is reported, before and after the first message."""
+    """The report contains the wrong type, both before and after the first message."""
     student.run(f"p = rospy.Publisher('/level', Float64, queue_size=10, latch=True); {publish}")
     _, seen, hint = check.run("result = broken(subscribe('/level'))")
     assert seen == "std_msgs/Float64"
@@ -116,7 +116,7 @@ def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) ->
 
 
 def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
-    """If a type has the right name but another definition, the report says so."""
+    """The report says if the message definition differs."""
     student.run(
         "from course_pkg.types import message_type\n"
         "class Other(Float64): _type, _md5sum = 'std_msgs/UInt32', '0' * 32\n"
@@ -126,7 +126,7 @@ def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
 
 
 def test_published_waits_for_the_connection(check: Kernel, student: Kernel) -> None:
-    """`published` returns when the connection is made, so that the next message is not lost."""
+    """`published` waits until the publisher is connected."""
     student.run("p = rospy.Publisher('/late', UInt32, queue_size=10)")
     check.run("subscription = subscribe('/late'); subscription.published()")
     student.run("connected(p); p.publish(7)")
@@ -134,7 +134,7 @@ def test_published_waits_for_the_connection(check: Kernel, student: Kernel) -> N
 
 
 def test_late_subscription_gets_only_the_latched_message(check: Kernel, student: Kernel) -> None:
-    """A late subscription receives the latched message, but no other message."""
+    """A late subscription receives only the latched message."""
     student.run(
         "p = rospy.Publisher('/kept', UInt32, queue_size=10, latch=True); p.publish(1); p.publish(2)\n"
         "q = rospy.Publisher('/lost', UInt32, queue_size=10); q.publish(1)"
@@ -147,7 +147,7 @@ def test_late_subscription_gets_only_the_latched_message(check: Kernel, student:
 
 
 def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) -> None:
-    """Only the first KEPT messages are stored, but all of them are counted."""
+    """A subscription stores only the first KEPT messages, but counts all messages."""
     check.run("import course_pkg.checking.peers.subscription as module; module.KEPT = 5")
     check.run("subscription = subscribe('/flood')")
     student.run("p = rospy.Publisher('/flood', UInt32, queue_size=0); connected(p)")
@@ -160,7 +160,7 @@ def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) ->
 
 
 def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """A late subscriber receives every message; `sent` contains the times of publishing."""
+    """A late subscriber receives every message, and `sent` contains the times of publishing."""
     check.run("p = publish('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
     assert check.run("result = [p.has_subscriber(0.1), p.finish(0.1), p.sent]") == [False, False, []]
     student.run("subscription = node.subscribe('/few', UInt32)")
@@ -169,7 +169,7 @@ def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: K
 
 
 def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """A subscriber of another type does not count; the hint contains the right type."""
+    """If the only subscriber has another type, the hint contains the right type."""
     student.run("subscription = node.subscribe('/few', Float64)")
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
         "somebody listens to /few",
@@ -182,7 +182,7 @@ def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
 
 
 def test_a_message_in_a_message_is_a_dict(check: Kernel) -> None:
-    """A check receives the same values that were published; they include a header with a time."""
+    """A check receives nested messages as dicts."""
     check.run("from sensor_msgs.msg import JointState; subscription = subscribe('/joints', JointState)")
     check.run(
         "said = {'header': {'stamp': {'secs': 5, 'nsecs': 6}}, 'name': ['a'], 'position': [0.5]}\n"

@@ -1,4 +1,4 @@
-"""`course autograde` in a folder with Gradescope's layout: it always writes results.json."""
+"""`course autograde` writes results.json in a folder with Gradescope's layout."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NOBODY = {
 
 
 def graded(root: Path, files: dict[str, bytes], **settings: float | tuple[str, ...]) -> dict[str, Plain]:
-    """Grade `files` in the layout of Gradescope below `root`, and return results.json."""
+    """Grade `files` in a folder with Gradescope's layout below `root`, and return results.json."""
     known = Settings(**{"chapters": ("05",), "minutes": 5.0, **settings})  # type: ignore[arg-type]
     folder(root, {"source/settings.json": known.as_json().encode()})
     (root / "submission").mkdir(exist_ok=True)
@@ -33,12 +33,12 @@ def graded(root: Path, files: dict[str, bytes], **settings: float | tuple[str, .
 
 
 def blank(chapter: str = "05") -> bytes:
-    """Return the students' notebook of a chapter, without answers."""
+    """Return the students' notebook of a chapter."""
     return raw(handed_out(chapter))
 
 
 def test_without_a_notebook_each_part_is_listed_without_points(tmp_path: Path) -> None:
-    """Without a notebook, the output names the file to hand in, and the maximum of points stays the same."""
+    """Without a notebook, the output contains the name of the missing file, and each part has 0 points."""
     results = graded(tmp_path, {})
     assert results["score"] == 0
     assert f"{NAMES['05']} was not handed in." in str(results["output"])
@@ -55,7 +55,7 @@ def test_without_a_notebook_each_part_is_listed_without_points(tmp_path: Path) -
 
 @pytest.mark.parametrize("case", NOBODY)
 def test_a_file_that_cannot_be_graded_has_a_message(tmp_path: Path, case: str) -> None:
-    """A file that is no notebook of the chapter has a message with its name."""
+    """For a file that is not a notebook, the output contains the file's name."""
     name, content = NOBODY[case]
     results = graded(tmp_path, {name: content})
     assert results["score"] == 0
@@ -63,20 +63,20 @@ def test_a_file_that_cannot_be_graded_has_a_message(tmp_path: Path, case: str) -
 
 
 def test_a_notebook_of_another_chapter_has_a_message(tmp_path: Path) -> None:
-    """A notebook of another chapter is not graded, and the message names both chapters."""
+    """A notebook of another chapter is not graded, and the message contains both chapters."""
     output = str(graded(tmp_path, {NAMES["06"]: blank("06")})["output"])
     assert f"{NAMES['06']} belongs to chapter 06" in output
     assert NAMES["05"] in output
 
 
 def test_a_zip_inside_the_submission_has_a_message(tmp_path: Path) -> None:
-    """A zip inside is not opened; the message says so."""
+    """A zip file inside the submission is not opened, and the message says this."""
     inside = zipped(tmp_path / "work.zip", {NAMES["05"]: blank()}).read_bytes()
     assert "archive" in str(graded(tmp_path / "root", {"work.zip": inside})["output"])
 
 
 def test_links_and_pipes_are_not_read(tmp_path: Path) -> None:
-    """A link to another notebook is refused, and a pipe does not block the run."""
+    """A link is refused, and a pipe does not block the run."""
     (tmp_path / "submission").mkdir()
     (tmp_path / "secret.ipynb").write_bytes(blank())
     (tmp_path / "submission" / NAMES["05"]).symlink_to(tmp_path / "secret.ipynb")
@@ -94,7 +94,7 @@ def test_two_notebooks_of_two_chapters_are_both_graded(tmp_path: Path) -> None:
 
 
 def test_broken_settings_still_give_results(tmp_path: Path) -> None:
-    """A damaged settings.json gives results without points, with a message."""
+    """For a damaged settings.json, the results contain a message and no points."""
     folder(tmp_path, {"source/settings.json": b"{"})
     assert autograde(tmp_path) == 0
     results = json.loads((tmp_path / "results" / "results.json").read_text("utf-8"))
@@ -103,7 +103,7 @@ def test_broken_settings_still_give_results(tmp_path: Path) -> None:
 
 
 def test_the_time_limit_ends_the_run_with_results(tmp_path: Path) -> None:
-    """After the time limit, the remaining parts have the reason in their output."""
+    """After the time limit, the output of each remaining part contains the reason."""
     work = hand_in(tmp_path / "work", "mia", answers={"05.1": WRONG}).read_bytes()
     results = graded(tmp_path / "root", {NAMES["05"]: work}, minutes=0.0)
     assert results["score"] == 0
@@ -112,7 +112,7 @@ def test_the_time_limit_ends_the_run_with_results(tmp_path: Path) -> None:
 
 @pytest.mark.usefixtures("sandbox")
 def test_an_answer_earns_points_and_is_late(tmp_path: Path) -> None:
-    """A right answer earns its points, less the deduction for one day late."""
+    """A right answer that is one day late gets fewer points."""
     answers = dict.fromkeys([f"05.{number}" for number in range(2, 9)], "")
     work = hand_in(tmp_path / "work", "mia", answers=answers).read_bytes()
     metadata = {

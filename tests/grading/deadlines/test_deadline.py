@@ -1,4 +1,4 @@
-"""Deadlines, grace periods, extensions, and the choice of the attempt that counts."""
+"""Deadlines, extensions, and the choice of the counted attempt."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ def _deadlines(*given: str, grace: float = 0.0, extensions: Extensions | None = 
     ],
 )
 def test_days_late(submitted: str, grace: float, days: float) -> None:
-    """Times with different zones are compared correctly; a late day begins at the end of the grace period."""
+    """The days late are counted from the end of the grace period, even with different time zones."""
     assert _deadlines(grace=grace).days_late("s01", "05", _at(submitted)) == pytest.approx(days)
 
 
 def test_one_second_late_costs_a_day() -> None:
-    """Each day that has begun counts as a whole day."""
+    """One second late counts as a whole day."""
     late = _deadlines().days_late("s01", "05", _at("2026-11-01T23:59:01+01:00"))
     assert late_policy(None, 10, None, [DUE]).factor(late) == pytest.approx(0.9)
 
@@ -66,7 +66,7 @@ def test_a_deadline_for_a_chapter() -> None:
 
 
 def test_an_extension_ends_at_the_same_time_of_day() -> None:
-    """On 25 October 2026, the clocks are put back, but the deadline stays at 23:59."""
+    """When the clocks are put back in October, the deadline stays at 23:59."""
     extensions = Extensions({"s01": 2.0})
     made = deadlines(["2026-10-24T23:59"], 0.0, zone_of("Europe/Berlin"), extensions)
     assert made.days_late("s01", "05", _at("2026-10-26T22:59Z")) == 0.0
@@ -92,7 +92,7 @@ def test_a_deadline_that_makes_no_sense(given: list[str], grace: float, said: st
 
 
 def test_extensions_of_a_roster(tmp_path: Path) -> None:
-    """The column extension_days makes a student's deadline later; an empty cell means no extension."""
+    """The column extension_days moves a student's deadline to a later day."""
     path = tmp_path / "roster.csv"
     path.write_text("name;id;username;extension_days\nA One;17;aone;1,5\nA Two;18;atwo;\n", "utf-8")
     students = {name: [f"{name}/{FILE}"] for name in ("aone", "A Two", "other")}
@@ -102,7 +102,7 @@ def test_extensions_of_a_roster(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("written", ["two", "-1", "nan"])
 def test_a_broken_extension(written: str) -> None:
-    """The message contains the number of the line, but not the student's name."""
+    """The error message contains the line number, but not the student's name."""
     person = Person("secret", line=3, more={"extension days": written})
     with pytest.raises(GradingError, match="Line 3 of the roster: extension_days is not") as caught:
         extensions_of({"secret": person})
@@ -119,7 +119,7 @@ def _submission(student: str, origin: str = "") -> Submission:
 
 
 def test_the_note_says_when() -> None:
-    """The note of a late submission contains both times and the extension; other submissions get no note."""
+    """The note of a late submission contains the deadline, the time of submission and the extension."""
     due = _deadlines(extensions=Extensions({"s01": 1.0}))
     lateness = _lateness({"s01": "2026-11-03T23:59+01:00", "s02": "2026-11-01T10:00Z"}, due=due)
     late, early = lateness.applied([_submission("s01"), _submission("s02")])
@@ -132,7 +132,7 @@ def test_the_note_says_when() -> None:
 
 
 def test_a_time_that_is_not_known() -> None:
-    """A submission without a time counts as on time, and gets a note.
+    """A submission without a time counts as on time and gets a note.
 
     If all times are missing, grading stops with an error.
     """
@@ -143,13 +143,13 @@ def test_a_time_that_is_not_known() -> None:
 
 
 def test_without_a_deadline_nothing_is_late() -> None:
-    """If there is no deadline, times are not needed, and submissions get no notes."""
+    """Without a deadline, submissions need no times."""
     given = [_submission("s01")]
     assert Lateness(_deadlines("06=" + DUE), lambda _: None).applied(given) == given
 
 
 def test_the_last_attempt_by_time(tmp_path: Path) -> None:
-    """The last attempt is found by its time, or by the newest file; a note contains the other attempt."""
+    """The last attempt is selected by its time, and a note names the other attempt."""
     content = raw(handed_out())
     source = folder(tmp_path, {f"s01/a/{FILE}": content, f"s01/b/{FILE}": content})
     (given,) = submissions(source)
@@ -164,7 +164,7 @@ def test_the_last_attempt_by_time(tmp_path: Path) -> None:
 
 
 def test_the_best_attempt_counts_after_lateness(tmp_path: Path) -> None:
-    """All attempts are graded, and the one with the most points counts; it gets a note."""
+    """All attempts are graded, and the attempt with the most points counts."""
     content = raw(handed_out())
     names = [f"s01/{FILE.replace('.ipynb', f'{end}.ipynb')}" for end in ("", "-1", "-2")]
     (given,) = submissions(folder(tmp_path, dict.fromkeys(names, content)))

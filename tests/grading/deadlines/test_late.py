@@ -38,15 +38,12 @@ def _table(folder: Path, content: str | bytes) -> Path:
 def test_deduction_for_lateness(
     tmp_path: Path, per_day: float | None, max_days: float | None, late: float, factor: float
 ) -> None:
-    """Each day late costs the percentage, and a day that has begun counts.
-
-    After the maximum, no points are left.
-    """
+    """Each day late costs the given percentage, up to the maximum number of days."""
     assert late_policy(tmp_path, per_day, max_days).factor(late) == pytest.approx(factor)
 
 
 def test_without_a_table_no_submission_is_late() -> None:
-    """Without the options, no submission is late."""
+    """Without a table and a deadline, no submission is late."""
     assert late_policy(None, None, None).factor(9) == 1.0
 
 
@@ -66,25 +63,25 @@ def test_without_a_table_no_submission_is_late() -> None:
 def test_invalid_policy_is_refused(
     table: Path | None, per_day: float | None, max_days: float | None, message: str
 ) -> None:
-    """The message contains the option and the expected value."""
+    """The error message contains the option and the expected value."""
     with pytest.raises(GradingError, match=message):
         late_policy(table, per_day, max_days)
 
 
 def test_a_table_by_student(tmp_path: Path) -> None:
-    """A row applies to all chapters; a student without a row is on time."""
+    """A student's row applies to all chapters."""
     table = late_table(_table(tmp_path, "student,days\ns01,2\ns02,0.5\n\n"))
     assert [table.days(each, "05") for each in ("s01", "s02", "s03")] == [2.0, 0.5, 0.0]
 
 
 def test_row_for_a_chapter_replaces_the_general_row(tmp_path: Path) -> None:
-    """A row for a chapter replaces the student's general row; "5" means chapter 05."""
+    """A row for a chapter replaces the student's general row."""
     table = late_table(_table(tmp_path, "student,chapter,days\ns01,,1\ns01,5,3\n"))
     assert (table.days("s01", "05"), table.days("s01", "06")) == (3.0, 1.0)
 
 
 def test_as_a_spreadsheet_saves_it(tmp_path: Path) -> None:
-    """The table may have a byte order mark, semicolons, decimal commas, capitals and other line ends."""
+    """The table may have a byte order mark, semicolons and decimal commas."""
     table = late_table(_table(tmp_path, "\ufeffStudent;Days\r\nGro\u0308ße;1,5\r\n".encode()))
     assert table.days("Größe", "05") == 1.5
 
@@ -108,23 +105,20 @@ def test_as_a_spreadsheet_saves_it(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table(tmp_path: Path, content: str | bytes, words: str) -> None:
-    """The message contains the line and the mistake, but not the student's name."""
+    """The error message contains the line and the mistake, but not the student's name."""
     with pytest.raises(GradingError, match=words) as caught:
         late_table(_table(tmp_path, content))
     assert "secret" not in str(caught.value)
 
 
 def test_no_table(tmp_path: Path) -> None:
-    """The message contains the name of the missing file."""
+    """The error message contains the name of the missing file."""
     with pytest.raises(GradingError, match=r"none\.csv"):
         late_table(tmp_path / "none.csv")
 
 
 def test_lateness_goes_to_the_submissions(tmp_path: Path) -> None:
-    """Each submission gets the days of its student.
-
-    Students in the table without a submission are counted.
-    """
+    """Each submission gets its student's number of late days."""
     table = late_table(_table(tmp_path, "student,days\ns01,2\ns99,1\n"))
     given = [Submission(name, "05", b"", "") for name in ("s01", "s02")]
     assert [each.late for each in table.applied(given)] == [2.0, 0.0]

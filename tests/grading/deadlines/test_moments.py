@@ -1,4 +1,4 @@
-"""Points in time in the formats of the platforms."""
+"""Tests of the time formats of the platforms."""
 
 from __future__ import annotations
 
@@ -28,11 +28,12 @@ BERLIN = zone_of("Europe/Berlin")
         ("Sunday, 1 November 2026, 23:59", "2026-11-01T22:59"),
         ("Sunday, 1 November 2026, 12:05\u202fAM", "2026-10-31T23:05"),
         ("1 Nov 2026, 12:05 p.m.", "2026-11-01T11:05"),
-        ("2026-10-25 02:30", "2026-10-25T00:30"),  # this time occurs twice; the first one is used
+        # On this day the local time 02:30 occurs twice, and the parser returns the first of the two times.
+        ("2026-10-25 02:30", "2026-10-25T00:30"),
     ],
 )
 def test_the_forms(written: str, utc: str) -> None:
-    """If a time contains no zone, it is in the given zone."""
+    """A time without a zone is in the given zone."""
     moment = moment_of(written, BERLIN)
     assert moment is not None
     assert moment.astimezone(timezone.utc) == datetime.fromisoformat(utc).replace(tzinfo=timezone.utc)
@@ -42,12 +43,12 @@ def test_the_forms(written: str, utc: str) -> None:
     "written", ["", "-", "tomorrow", "2026-11-01", "2026-13-01 10:00", "1 Foo 2026, 10:00"]
 )
 def test_no_time(written: str) -> None:
-    """If a text is not a time, the result is None."""
+    """For a text that is not a time, the result is None."""
     assert moment_of(written, BERLIN) is None
 
 
 def test_a_time_without_any_zone() -> None:
-    """If neither the text nor the argument contains a zone, the result is None."""
+    """Without a zone in the text or in the argument, the result is None."""
     assert moment_of("2026-11-01 23:59", None) is None
     assert moment_of("2026-11-01 23:59 Z", None) is not None
 

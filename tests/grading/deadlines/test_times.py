@@ -1,4 +1,4 @@
-"""The times of submissions in files of Moodle, Gradescope and nbgrader."""
+"""Submission times in files of Moodle, Gradescope and nbgrader."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _utc(moment: datetime | None) -> str:
 
 
 def test_the_worksheet_of_moodle(tmp_path: Path) -> None:
-    """The row is found by the number in the folder's name; the instructor has to give the time zone."""
+    """The number in the folder's name selects the row of Moodle's worksheet."""
     names = [f"{name}_assignsubmission_file_/{FILE}" for name in ("A One_17", "A Two_18", "A Three_19")]
     source = folder(tmp_path / "in", dict.fromkeys(names, NOTEBOOK))
     table = tmp_path / "worksheet.csv"
@@ -68,7 +68,7 @@ def test_the_worksheet_of_moodle(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("pack", [False, True])
 def test_gradescope(tmp_path: Path, pack: bool) -> None:
-    """Gradescope's metadata are used without an option; all members of a group get the same time."""
+    """Gradescope's metadata contain the times, and all members of a group get the same time."""
     files = {
         f"assignment_9_export/submission_456/{FILE}": NOTEBOOK,
         f"assignment_9_export/submission_457/{FILE}": NOTEBOOK,
@@ -86,7 +86,7 @@ def test_gradescope(tmp_path: Path, pack: bool) -> None:
 
 @pytest.mark.parametrize("outer", ["", "submitted/"])
 def test_nbgrader(tmp_path: Path, outer: str) -> None:
-    """timestamp.txt is read only with --times nbgrader, and only in the folder of the assignment."""
+    """timestamp.txt is read only with --times nbgrader."""
     files = {
         f"{outer}s01/ps1/{FILE}": NOTEBOOK,
         f"{outer}s01/ps1/timestamp.txt": b"2026-11-01 22:59:30.123456 UTC",
@@ -101,7 +101,7 @@ def test_nbgrader(tmp_path: Path, outer: str) -> None:
 
 
 def test_a_table_of_the_instructor(tmp_path: Path) -> None:
-    """A row for a file comes before a row for a chapter, and this one comes before a row for a student."""
+    """A row for a file replaces a row for a chapter, and a row for a chapter replaces a row for a student."""
     source = folder(tmp_path / "in", {f"{name}/{FILE}": NOTEBOOK for name in ("s01", "s02", "s03", "s04")})
     table = tmp_path / "times.csv"
     table.write_text(
@@ -115,7 +115,7 @@ def test_a_table_of_the_instructor(tmp_path: Path) -> None:
 
 
 def test_the_table_of_collected_files(tmp_path: Path) -> None:
-    """times.csv in the folder of the students' folders is used; the latest file of a submission counts."""
+    """times.csv next to the students' folders is used, and the latest file of a submission counts."""
     source = folder(
         tmp_path, {"s01/07_build_a_package.ipynb": raw(handed_out("07")), f"s02/{FILE}": NOTEBOOK}
     )
@@ -145,7 +145,7 @@ def test_the_table_of_collected_files(tmp_path: Path) -> None:
     ],
 )
 def test_a_broken_table_of_times(tmp_path: Path, text: str, said: str) -> None:
-    """The message contains the number of the line, but not the student's name."""
+    """The error message contains the line number, but not the student's name."""
     table = tmp_path / "times.csv"
     table.write_text(text, "utf-8")
     with pytest.raises(GradingError, match=said) as caught:

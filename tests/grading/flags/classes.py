@@ -1,4 +1,4 @@
-"""Small classes of students; the tests compare or search their answers."""
+"""Small classes of students for the tests of flags."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tests.grading.handing_in import raw, reference
 
 @cache
 def solutions(chapter: str) -> Mapping[str, str]:
-    """Return the solutions of a chapter's exercises; the keys are the ids of the parts."""
+    """Return the solutions of a chapter by the ids of the parts."""
     return {part: cell["source"] for cell in code_cells(reference(chapter)) if (part := exercise_of(cell))}
 
 
@@ -28,7 +28,7 @@ def submission(student: str, answers: Mapping[str, str], chapter: str = "05", or
 
 
 def flags_of(kinds: Sequence[str], *submissions: Submission) -> dict[str, tuple[Flag, ...]]:
-    """Return the flags of these kinds for each student; students without flags are left out."""
+    """Return the flags of these kinds for each student with flags."""
     grades = [Grade(each.student, each.chapter, (), origin=each.origin) for each in submissions]
     flagged = with_flags(grades, submissions, kinds)
     return {grade.student: grade.flags for grade in flagged if grade.flags}

@@ -1,7 +1,4 @@
-"""Copies are found even if names, comments and the order were changed.
-
-Code that a class shares is not a copy.
-"""
+"""Copies are found even if names, comments and the order were changed."""
 
 from __future__ import annotations
 
@@ -147,23 +144,23 @@ int main(int count, char** words)
 
 
 def _class(**answers: str) -> dict[str, tuple[str, ...]]:
-    """Return the similar students of each student; each student has answered only 05.4."""
+    """Return the similar students of each student, for answers to 05.4."""
     handed_in = [submission(student, {"05.4": source}) for student, source in answers.items()]
     return {student: flags[0].others for student, flags in flags_of(["copies"], *handed_in).items()}
 
 
 def test_identical_answers() -> None:
-    """Both students get the flag, with the name of the other student; a third student gets none."""
+    """Two students with identical answers get a flag, and a third student gets no flag."""
     assert _class(s01=SWITCH, s02=OTHER, s03=SWITCH) == {"s01": ("s03",), "s03": ("s01",)}
 
 
 def test_a_disguised_copy() -> None:
-    """A copy with other names, comments, types of variables and another order is found."""
+    """A copy with other names, comments, types and another order gets a flag."""
     assert _class(s01=SWITCH, s02=OTHER, s03=DISGUISED) == {"s01": ("s03",), "s03": ("s01",)}
 
 
 def test_the_words_of_a_flag() -> None:
-    """A flag says whether the copy is identical or disguised, and contains a line as evidence."""
+    """The flag says whether the copy is identical or disguised, and contains a line as evidence."""
     first = flags_of(
         ["copies"], submission("s01", {"05.4": SWITCH}), submission("s02", {"05.4": SWITCH + "\n"})
     )
@@ -175,33 +172,33 @@ def test_the_words_of_a_flag() -> None:
 
 
 def test_a_disguised_copy_in_cpp() -> None:
-    """Programs in C++ are also compared."""
+    """Copies of C++ programs get a flag."""
     first = submission("s01", {"14.1": CPP}, "14")
     copy = submission("s02", {"14.1": CPP_DISGUISED}, "14")
     assert set(flags_of(["copies"], first, copy)) == {"s01", "s02"}
 
 
 def test_short_answers_do_not_count() -> None:
-    """An answer with fewer than ten statements is never flagged as a copy."""
+    """An answer with fewer than ten statements gets no flag."""
     short = solutions("05")["05.3"]
     assert flags_of(["copies"], *(submission(f"s{n}", {"05.3": short}) for n in range(2))) == {}
 
 
 def test_code_that_the_class_shares_does_not_count() -> None:
-    """If more than a tenth of a class has the same code, this code does not lead to a flag."""
+    """Code that more than a tenth of a class has in common leads to no flag."""
     assert _class(**{f"s{number:02}": SWITCH for number in range(4)}) == {}
     assert len(_class(**{f"s{number:02}": SWITCH for number in range(3)})) == 3
 
 
 def test_handed_out_code_does_not_count() -> None:
-    """Unchanged cells are not flagged as copies of each other."""
+    """Unchanged cells lead to no flag."""
     assert flags_of(["copies"], *(submission(f"s{number}", {}) for number in range(3))) == {}
 
 
 def test_students_who_handed_in_together() -> None:
-    """The members of a group, who handed in the same file, are not flagged as copies of each other.
+    """The members of a group get no flags for their common file.
 
-    They can be flagged as copies of other students.
+    The members can still get flags for copies of other students.
     """
     team = [submission(name, {"05.4": SWITCH}, origin="submission_1/05.ipynb") for name in ("s01", "s02")]
     assert flags_of(["copies"], *team) == {}

@@ -1,4 +1,4 @@
-"""Flags mark answers that inspect other code, change modules or read files, but no ordinary answers."""
+"""An answer gets a flag if it inspects other code, changes modules or reads files."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ ORDINARY = [
 
 @pytest.fixture(scope="module")
 def found() -> dict[str, set[str]]:
-    """Return the kinds of flags for each line; the line is at the beginning of an answer to 05.1."""
+    """Return the kinds of flags for each line; each line is the first line of an answer to 05.1."""
     lines = [*(line for line, _ in LINES), *ORDINARY]
     handed_in = [submission(line, {"05.1": ANSWER.format(line=line)}) for line in lines]
     flags = flags_of(SEARCHED, *handed_in)
@@ -95,7 +95,7 @@ def test_an_ordinary_line(found: dict[str, set[str]], line: str) -> None:
 
 
 def test_a_flag_shows_the_line() -> None:
-    """The flag contains the part, the number of the line, and the line."""
+    """The flag contains the id of the part, the line number, and the line."""
     answer = ANSWER.format(line="\nimport inspect  # why?")
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": answer}))["s01"]
     assert (flag.where, flag.line, flag.evidence) == ("05.1", 2, "import inspect  # why?")
@@ -103,15 +103,15 @@ def test_a_flag_shows_the_line() -> None:
 
 
 def test_the_solutions_have_no_flags() -> None:
-    """Neither a chapter's solution nor the handed-out notebook gets a flag."""
+    """Neither a solution nor a handed-out notebook gets a flag."""
     for chapter in chapters():
         handed_in = submission("s01", solutions(chapter), chapter), submission("s02", {}, chapter)
         assert flags_of(SEARCHED, *handed_in) == {}, chapter
 
 
 def test_right_example_answers() -> None:
-    """Of all right example answers, only one gets a flag; it runs the command `rosservice find`."""
-    # the keys are chapters; each student has one answer to a part
+    """Only one right example answer gets a flag, because this answer runs the command `rosservice find`."""
+    # The keys are a chapter and a number; the values are answers by part.
     students: dict[tuple[str, int], dict[str, str]] = {}
     for answer in every_answer():
         if answer.right:
@@ -128,7 +128,7 @@ def test_right_example_answers() -> None:
 
 
 def test_a_program_in_a_package() -> None:
-    """The Python files in a package are also searched; the flag contains a line of the file."""
+    """The Python files in a package are searched, and the flag contains a line of the file."""
     script = work_file("scripts/spawn_turtle.py", b"#!/usr/bin/env python3\nimport ctypes\n", executable=True)
     packages = (Package("my_turtles", (script,), "s01/my_turtles"),)
     handed_in = Submission("s01", "09", b"", "s01/my_turtles", problem="No notebook.", packages=packages)
@@ -137,7 +137,7 @@ def test_a_program_in_a_package() -> None:
 
 
 def test_programs_that_are_hard_to_read() -> None:
-    """Deep nesting, long chains and text that is not Python do not end the run."""
+    """The search continues after deep nesting, long chains and text that is not Python."""
     sources = [
         "x = " + "(" * 90 + ")" * 90,
         "x = " + "-" * 5000 + "1",
@@ -151,6 +151,6 @@ def test_programs_that_are_hard_to_read() -> None:
 
 
 def test_a_program_that_is_too_long() -> None:
-    """The instructor is told that the program was not searched."""
+    """For a program that is too long, the instructor gets a message."""
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": "x = 1\n" * 5000}))["s01"]
     assert flag.words == "The code is too long, so it was not examined for flags."

@@ -1,4 +1,4 @@
-"""Flags are in the instructor's files, but not in the students' files."""
+"""Only the instructor's files contain flags."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ def _write(out: Path, *flags: Flag) -> None:
 
 
 def test_only_the_instructor_reads_flags(tmp_path: Path) -> None:
-    """Feedback pages and the files for platforms contain no flags."""
+    """Feedback pages and files for platforms contain no flags."""
     _write(tmp_path, Flag("files", "05.1", WORDS, 3, "open('x')"))
     files = {str(path.relative_to(tmp_path)): path for path in tmp_path.rglob("*") if path.is_file()}
     assert {name for name, path in files.items() if WORDS in path.read_text("utf-8")} == FOR_THE_INSTRUCTOR
 
 
 def test_students_with_similar_answers_are_linked(tmp_path: Path) -> None:
-    """In the list, there is a link from one student to the other, and a link to the feedback."""
+    """The list links each student to the similar student and to the feedback page."""
     first, second, third = class_of(3)
     grades = [
         replace(first, flags=(Flag("copies", "05.2", WORDS, 1, "x = 1", ("s02",)),)),
@@ -60,19 +60,19 @@ def test_the_column_of_the_table(tmp_path: Path) -> None:
 
 
 def test_without_flags_there_is_no_section(tmp_path: Path) -> None:
-    """If no student has a flag, class.html has no section about flags."""
+    """Without flags, class.html has no section about flags."""
     _write(tmp_path)
     assert "<h2>Flags" not in (tmp_path / "class.html").read_text("utf-8")
 
 
 def test_a_flag_with_a_harmful_line(tmp_path: Path) -> None:
-    """The line from the student's code is cleaned."""
+    """Harmful characters are removed from the line in a flag."""
     _write(tmp_path, Flag(NASTY, NASTY, NASTY, 1, NASTY, (NASTY,)))
     assert "<script>alert" not in (tmp_path / "class.html").read_text("utf-8")
 
 
 def test_the_record_keeps_flags(tmp_path: Path) -> None:
-    """A record keeps its flags, and a record without flags is valid, too."""
+    """A stored record contains its flags, and a record without flags is valid."""
     flag = Flag("copies", "05.2", WORDS, 1, "x = 1", ("s02", "s03"))
     _write(tmp_path, flag)
     assert read_grades(tmp_path)[0].flags == (flag,)
@@ -89,7 +89,7 @@ def test_points_do_not_change() -> None:
 
 
 def test_the_option() -> None:
-    """The option selects kinds or none; an unknown name is an error."""
+    """The option selects kinds of flags, and an unknown kind is an error."""
     assert wanted_kinds(()) == kind_names() == ["copies", "files", "internals", "patches", "solution"]
     assert wanted_kinds(("files", "copies")) == ["copies", "files"]
     assert wanted_kinds(("none",)) == []
@@ -98,7 +98,7 @@ def test_the_option() -> None:
 
 
 def test_the_grade_of_an_earlier_run_keeps_its_flags() -> None:
-    """If a grade has no submission in this run, its flags stay."""
+    """A grade from an earlier run without a new submission still has its flags."""
     flag = Flag("files", "05.1", WORDS)
     grade = replace(class_of(1)[0], flags=(flag,))
     assert with_flags([grade], [], ["files"]) == [grade]
@@ -107,7 +107,7 @@ def test_the_grade_of_an_earlier_run_keeps_its_flags() -> None:
 
 
 def test_an_attempt_that_does_not_count() -> None:
-    """The attempts of one student are not flagged as copies of each other."""
+    """The attempts of one student get no flags as copies of each other."""
     grade = class_of(1)[0]
     attempts = [submission(grade.student, solutions("05"), origin=place) for place in (grade.origin, "other")]
     assert with_flags([grade], attempts, ["copies"])[0].flags == ()

@@ -1,4 +1,4 @@
-"""The course's own solution is recognised; a short answer that is equal to it by chance is not flagged."""
+"""Answers that are equal to the course's solution get a flag."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from tests.grading.flags.classes import flags_of, solutions, submission
 
 
 def test_the_whole_solution() -> None:
-    """Each answer gets a flag, even if comments were added."""
+    """Each answer of the solution gets a flag, even with additional comments."""
     commented = {part: f"{source}\n# mine" for part, source in solutions("05").items()}
     flags = flags_of(["solution"], submission("s01", commented), submission("s02", {}))
     assert [flag.where for flag in flags["s01"]] == ["05.1", "05.2", "05.3", "05.4", "05.5"]
@@ -14,12 +14,12 @@ def test_the_whole_solution() -> None:
 
 
 def test_one_short_answer() -> None:
-    """A short right answer may be equal to the solution by chance."""
+    """A short answer that is equal to the solution gets no flag."""
     assert flags_of(["solution"], submission("s01", {"05.2": solutions("05")["05.2"]})) == {}
 
 
 def test_the_solution_with_other_names() -> None:
-    """A long answer is recognised even if the names were changed."""
+    """A long answer of the solution gets a flag even if the names were changed."""
     changed = solutions("05")["05.5"].replace("moves", "number").replace("changed", "different")
     (flag,) = flags_of(["solution"], submission("s01", {"05.5": changed}))["s01"]
     assert flag.words.startswith("The answer is the same as the course's solution; only names")

@@ -1,4 +1,4 @@
-"""Empty folders of students, and folders with reports among the submissions."""
+"""Empty student folders, and report folders among the submissions."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ def _with_folders(root: Path, files: dict[str, bytes], *names: str) -> Path:
 
 
 def test_an_empty_folder_is_listed(tmp_path: Path) -> None:
-    """If a folder has no files, or only those of an operating system, the student has handed in nothing."""
+    """A student whose folder contains no work is listed."""
     files = {f"s01/{FILE}": NOTEBOOK, "s02/.DS_Store": b"x"}
     found = _found(_with_folders(tmp_path, files, "s03", "s04/chapter 05/more"))
     assert found == {"s01": "", **dict.fromkeys(("s02", "s03", "s04"), "The student handed in nothing:")}
 
 
 def test_a_folder_of_a_platform_is_no_student(tmp_path: Path) -> None:
-    """If a folder contains all students' folders, it does not count as an empty folder."""
+    """A folder that contains all student folders is not a student folder."""
     found = _found(_with_folders(tmp_path, {f"submitted/s01/ps1/{FILE}": NOTEBOOK}, "submitted/s02/ps1"))
     assert list(found) == ["s01", "s02"]
 
 
 def test_the_folders_of_moodle(tmp_path: Path) -> None:
-    """If a student has two folders, the work counts as missing only if both folders are empty."""
+    """If one of a student's two folders contains work, the work is not missing."""
     files = {f"A One_17_assignsubmission_file_/{FILE}": NOTEBOOK}
     names = ["A One_17_assignsubmission_onlinetext_", "A Two_18_assignsubmission_file_"]
     assert [*_found(_with_folders(tmp_path, files, *names))] == ["A One_17", "A Two_18"]
@@ -47,13 +47,13 @@ def test_the_folders_of_moodle(tmp_path: Path) -> None:
 
 
 def test_a_zip(tmp_path: Path) -> None:
-    """In a zip, empty folders are members whose names end with a slash."""
+    """A zip member whose name ends with a slash is an empty folder."""
     path = zipped(tmp_path / "class.zip", {f"class/s01/{FILE}": NOTEBOOK, "class/s02/": b"", "../s03/": b""})
     assert list(_found(path)) == ["s01", "s02"]
 
 
 def test_a_link_to_a_folder_is_not_followed(tmp_path: Path) -> None:
-    """A link to a folder counts as a file, so the folder is not empty."""
+    """A folder that contains a link is not empty."""
     source = _with_folders(tmp_path / "in", {f"s01/{FILE}": NOTEBOOK})
     (tmp_path / "empty").mkdir()
     (source / "s02").symlink_to(tmp_path / "empty")
@@ -61,7 +61,7 @@ def test_a_link_to_a_folder_is_not_followed(tmp_path: Path) -> None:
 
 
 def test_the_reports_are_not_submissions(tmp_path: Path) -> None:
-    """The folder of --out is ignored, even if it is empty or is nested deep in the submissions folder."""
+    """The folder of --out is ignored."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "grades/feedback/s01.html": b"x"}, "s02/out")
     assert list(_found(source, source / "grades")) == ["s01", "s02"]
     assert list(_found(source)) == ["grades", "s01", "s02"]
@@ -69,7 +69,7 @@ def test_the_reports_are_not_submissions(tmp_path: Path) -> None:
 
 
 def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A folder with reports of an earlier run is not a student's folder; a message contains its name."""
+    """A folder with reports of an earlier run is ignored, and a message contains its name."""
     reports = dict.fromkeys(("old/.grading/secret", "old/class.html", "old/grades.csv"), b"x")
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, **reports})
     assert list(_found(source, tmp_path / "new")) == ["s01"]
@@ -79,7 +79,7 @@ def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixtur
 
 
 def test_reports_do_not_go_into_a_students_folder(tmp_path: Path) -> None:
-    """A folder for reports is refused if it contains files of submissions."""
+    """A folder that contains submissions is refused as --out."""
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, "old/.grading/secret": b"x"}, "new")
     for wrong in (source, source / "s01"):
         with pytest.raises(GradingError, match=r"--out .* already contains files of the submissions"):

@@ -1,4 +1,4 @@
-"""Packages in submissions: which of them are examined, and the messages about all other files."""
+"""Packages in submissions."""
 
 from __future__ import annotations
 
@@ -35,10 +35,7 @@ def _package(submission: Submission) -> Package:
 
 
 def test_package_next_to_a_notebook(tmp_path: Path, seven: bytes) -> None:
-    """A notebook and a package are one submission, which contains the package's files.
-
-    Its programs are executable.
-    """
+    """A notebook and a package in the same folder are one submission."""
     folder(tmp_path, {f"s01/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     found = _only(tmp_path)
@@ -50,10 +47,7 @@ def test_package_next_to_a_notebook(tmp_path: Path, seven: bytes) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path) -> None:
-    """The package becomes a submission for each chapter that needs one of its files.
-
-    Other chapters get no submission.
-    """
+    """A package without a notebook becomes a submission for each chapter that needs the package."""
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     found = _only(tmp_path)
     assert (found.student, found.chapter, found.content) == ("s01", "07", b"")
@@ -65,20 +59,20 @@ def test_a_package_and_no_notebook(tmp_path: Path) -> None:
 
 
 def test_notebook_without_a_package(tmp_path: Path, seven: bytes) -> None:
-    """If there is no package, the cells of the notebook are the answers."""
+    """Without a package, the answers come from the cells of the notebook."""
     assert _only(folder(tmp_path, {f"s01/{SEVEN}": seven})).packages == ()
 
 
 @pytest.mark.parametrize("place", ["workspace/src/my_geometry", "my_geometry-main", "07/my_geometry (2)"])
 def test_a_package_is_known_by_its_name(tmp_path: Path, place: str) -> None:
-    """The package may be in a workspace, or in a folder with a name from a platform or from git."""
+    """The package may be in a workspace, or in a folder with another name."""
     write_package(tmp_path, f"s01/{place}", my_geometry())
     found = _only(tmp_path)
     assert (_package(found).name, found.notes) == ("my_geometry", ())
 
 
 def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
-    """Folders that catkin_make has written are not packages, and they cause no problem."""
+    """The folders that catkin_make writes are not packages."""
     write_package(tmp_path, "s01/workspace/src/my_geometry", my_geometry())
     for place in ("build/my_geometry/x.make", "devel/setup.bash", "install/share/my_geometry/package.xml"):
         folder(tmp_path, {f"s01/workspace/{place}": b"<name>my_geometry</name>"})
@@ -86,7 +80,7 @@ def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
 
 
 def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
-    """If no part needs the package's name in package.xml, the name of its folder is used, with a note."""
+    """If no part needs the name in package.xml, the folder's name is used."""
     manifest = my_geometry()["package.xml"].decode().replace("<name>my_geometry<", "<name>my_geometri<")
     write_package(tmp_path, "s01/my_geometry", my_geometry({"package.xml": manifest}))
     found = _only(tmp_path)
@@ -95,7 +89,7 @@ def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
 
 
 def test_package_that_no_part_needs(tmp_path: Path) -> None:
-    """The submission gets a problem; its text contains the names of the packages that are needed."""
+    """The error message for a package that no part needs lists the needed packages."""
     write_package(tmp_path, "s01/robot", {"package.xml": b"<package><name>robot</name></package>"})
     found = _only(tmp_path)
     assert (found.chapter, found.packages) == ("", ())
@@ -104,7 +98,7 @@ def test_package_that_no_part_needs(tmp_path: Path) -> None:
 
 
 def test_newest_of_two_packages_with_one_name_is_used(tmp_path: Path) -> None:
-    """The newest package is used, as for notebooks; a note contains the other package."""
+    """Of two packages with the same name, the newest package is used, and the submission gets a note."""
     write_package(tmp_path, "s01/a", my_geometry())
     for path in write_package(tmp_path, "s01/b", my_geometry()).rglob("*"):
         os.utime(path, (1, 1))
@@ -114,7 +108,7 @@ def test_newest_of_two_packages_with_one_name_is_used(tmp_path: Path) -> None:
 
 
 def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
-    """Links and devices are not read, but the other files of the package are examined."""
+    """Links and devices in a package are ignored."""
     secret = folder(tmp_path / "secret", {"file": b"secret", "folder/file": b"secret"})
     root = tmp_path / "in"
     package = write_package(root, "s01/my_geometry", my_geometry())
@@ -129,7 +123,7 @@ def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
 
 
 def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
-    """The package is not examined, and the text of the problem contains the reason."""
+    """A package whose package.xml is a link is not examined, and the error message contains the reason."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     (package / "package.xml").unlink()
     (package / "package.xml").symlink_to("/etc/passwd")
@@ -147,7 +141,7 @@ def test_a_package_xml_that_is_a_link(tmp_path: Path) -> None:
     ids=["bytes", "files"],
 )
 def test_a_huge_package(tmp_path: Path, seven: bytes, files: dict[str, bytes], words: str) -> None:
-    """The package is not examined, for the stated reason, but the notebook in the same folder is examined."""
+    """A package that is too large is not examined, but the notebook in the same folder is examined."""
     folder(tmp_path, {f"s01/{SEVEN}": seven, f"s02/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry() | files)
     huge, other = submissions(tmp_path)
@@ -157,10 +151,7 @@ def test_a_huge_package(tmp_path: Path, seven: bytes, files: dict[str, bytes], w
 
 
 def test_permissions_that_were_lost(tmp_path: Path) -> None:
-    """If no file is executable, the permissions were lost.
-
-    Then a file with a shebang counts as executable.
-    """
+    """If no file in the package is executable, each file with a shebang counts as executable."""
     files = {f"s01/my_geometry/{path}": content for path, content in my_geometry().items()}
     executable = {SERVER, "scripts/client.py"}
     for source in (folder(tmp_path / "a", files), zipped(tmp_path / "a.zip", files)):
@@ -171,7 +162,7 @@ def test_permissions_that_were_lost(tmp_path: Path) -> None:
 
 
 def test_packages_in_a_zip(tmp_path: Path, seven: bytes) -> None:
-    """A zip can contain packages of one or two students; paths that lead out of the zip are ignored."""
+    """A zip can contain packages of several students, and paths that lead out of the zip are ignored."""
     one = {f"s01/my_geometry/{path}": content for path, content in my_geometry().items()}
     second = {"s01/service_example/package.xml": b"<name>service_example</name>"}
     source = zipped(tmp_path / "a.zip", {f"s01/{SEVEN}": seven, **one, **second})
@@ -186,13 +177,13 @@ def test_packages_in_a_zip(tmp_path: Path, seven: bytes) -> None:
 
 
 def test_grade_one_uses_the_package_next_to_the_notebook(tmp_path: Path, seven: bytes) -> None:
-    """`course grade-one` also uses the packages in the notebook's folder."""
+    """`course grade-one` uses the packages in the notebook's folder."""
     folder(tmp_path, {f"s01/{SEVEN}": seven})
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     assert _package(submission_of(tmp_path / "s01" / SEVEN)).has([SERVER])
 
 
 def test_a_package_without_a_folder_of_its_own(tmp_path: Path) -> None:
-    """If package.xml is directly in the student's folder, the problem says where the file has to be."""
+    """If package.xml is in the student's folder, the error message says where package.xml has to be."""
     folder(tmp_path, {"s01/package.xml": b"<name>my_geometry</name>"})
     assert "STUDENT/PACKAGE/package.xml" in _only(tmp_path).problem

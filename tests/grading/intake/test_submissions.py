@@ -1,4 +1,4 @@
-"""All layouts of submissions, and all kinds of files that cannot be used."""
+"""The layouts of submissions, and unusable files."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def six() -> bytes:
 
 
 def _kept(found: list[Submission]) -> list[tuple[str, str]]:
-    """Return the student and the chapter of each submission; assert that each can be graded."""
+    """Return the student and the chapter of each submission. Assert that each submission can be graded."""
     assert [each.problem for each in found] == [""] * len(found)
     return [(each.student, each.chapter) for each in found]
 
@@ -60,10 +60,7 @@ submission_12:
 
 
 def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
-    """Each layout can be read from a folder and from a zip.
-
-    The layouts are those made by hand, and those of Moodle, Canvas, Gradescope and nbgrader.
-    """
+    """The submissions in each platform's layout are found, in a folder and in a zip."""
     layouts = {
         "hand": (
             {f"s02/{FIVE}": five, f"s01/{FIVE}": five, f"s01/{SIX}": six},
@@ -109,20 +106,20 @@ def test_layouts(tmp_path: Path, five: bytes, six: bytes) -> None:
 
 @pytest.mark.parametrize("name", ["class.zip", "other.zip"])
 def test_a_zip_of_the_folder(tmp_path: Path, five: bytes, name: str) -> None:
-    """A zip may contain a folder that contains the students' folders; its name does not matter."""
+    """In a zip, the students' folders may be inside another folder."""
     files = {f"class/{student}/{FIVE}": five for student in ("s01", "s02")}
     assert _kept(submissions(zipped(tmp_path / name, files))) == [("s01", "05"), ("s02", "05")]
 
 
 def test_canvas_marks_lateness(tmp_path: Path, five: bytes) -> None:
-    """Canvas marks a submission as late without a number of days; the submission gets a note."""
+    """A submission that Canvas marks as late gets a note."""
     [found] = submissions(folder(tmp_path, {"one_LATE_1_22_" + FIVE: five}))
     assert found.notes == (LATE,)
     assert found.late == 0.0
 
 
 def test_only_the_given_chapters_are_graded(tmp_path: Path, five: bytes, six: bytes) -> None:
-    """Only `chapters` are graded; a chapter that does not exist is refused."""
+    """Only `chapters` are graded, and an unknown chapter is refused."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, f"s01/{SIX}": six})
     assert _kept(submissions(source, ["06"])) == [("s01", "06")]
     with pytest.raises(AuthoringError, match="chapter 77"):
@@ -133,14 +130,14 @@ def test_only_the_given_chapters_are_graded(tmp_path: Path, five: bytes, six: by
     "name", ["mine.ipynb", "Untitled.ipynb", "06_write_a_client.ipynb", "05 (1).ipynb", "5.ipynb.txt"]
 )
 def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> None:
-    """A renamed notebook belongs to the chapter of its exercises."""
+    """The exercises in a renamed notebook identify its chapter."""
     [found] = submissions(folder(tmp_path, {f"s01/{name}": five}))
     assert (found.chapter, found.problem) == ("05", "")
     assert any("chapter 06" in note for note in found.notes) == name.startswith("06")
 
 
 def test_notebook_without_exercises(tmp_path: Path) -> None:
-    """If there are no exercises, the chapter is found by the ids of the other cells."""
+    """The ids of other cells identify the chapter of a notebook without exercises."""
     notebook = handed_out("05")
     notebook["cells"] = [cell for cell in notebook["cells"] if "course" not in cell["metadata"]]
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(notebook)}))
@@ -148,7 +145,7 @@ def test_notebook_without_exercises(tmp_path: Path) -> None:
 
 
 def _of_first_edition(chapter: RenumberedChapter) -> Notebook:
-    """Return a chapter with the number and the title that it has in the first edition."""
+    """Return the number and the title of a chapter in the first edition."""
     text = json.dumps(handed_out(chapter.now))
     notebook: Notebook = json.loads(re.sub(rf"(?<![0-9]){chapter.now}(?=[.-][0-9a-z])", chapter.number, text))
     notebook["cells"][0]["source"] = f"# {chapter.title}\n\nA first paragraph."
@@ -157,7 +154,7 @@ def _of_first_edition(chapter: RenumberedChapter) -> Notebook:
 
 @pytest.mark.parametrize("chapter", RENUMBERED, ids=[each.name for each in RENUMBERED])
 def test_a_notebook_of_the_first_edition(tmp_path: Path, chapter: RenumberedChapter) -> None:
-    """One sentence contains the file, the edition and the chapter's new number; nothing is graded."""
+    """The error message for a notebook of the first edition contains the new chapter number."""
     notebook = _of_first_edition(chapter)
     without_title = {**notebook, "cells": notebook["cells"][1:]}
     without_ids = {
@@ -181,10 +178,7 @@ def test_a_notebook_of_the_first_edition(tmp_path: Path, chapter: RenumberedChap
 
 
 def test_a_chapter_whose_exercises_were_renumbered(tmp_path: Path) -> None:
-    """Chapter 03 has the same number in both editions.
-
-    Its old title, or an exercise 03.5, shows that the notebook belongs to the first edition.
-    """
+    """In chapter 03, the old title or an exercise 03.5 identifies the first edition."""
     notebook = handed_out("03")
     titled = {
         **notebook,
@@ -201,10 +195,7 @@ def test_a_chapter_whose_exercises_were_renumbered(tmp_path: Path) -> None:
 
 
 def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
-    """The message about chapter 10 of the first edition contains two exercises.
-
-    They are in another chapter now.
-    """
+    """The error message names the exercises that have moved to another chapter."""
     chapter = next(each for each in RENUMBERED if each.number == "10")
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(_of_first_edition(chapter))}))
     assert "It is chapter 12 now. Exercise 10.1 is now exercise 10.4 of chapter 10" in found.problem
@@ -214,19 +205,14 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
 def test_a_notebook_of_this_edition_under_a_name_of_the_first(
     tmp_path: Path, chapter: RenumberedChapter
 ) -> None:
-    """Its exercises belong to this edition, so the notebook is graded."""
+    """A notebook with exercises of this edition is graded under its old file name."""
     content = raw(handed_out(chapter.now))
     source = folder(tmp_path, {f"s01/{chapter.name}.ipynb": content, "s02/mine.ipynb": content})
     assert _kept(submissions(source)) == [("s01", chapter.now), ("s02", chapter.now)]
 
 
 def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
-    """If the platform numbers the files, the file with the highest number is used.
-
-    Otherwise, the newest file is used.
-
-    A note contains the other file.
-    """
+    """The newest notebook of a chapter is used, and a note contains the other notebook."""
     source = folder(
         tmp_path,
         {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},
@@ -242,7 +228,7 @@ def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
 
 
 def test_readable_notebook_is_used_instead_of_a_broken_one(tmp_path: Path, five: bytes) -> None:
-    """If only one of two files for a chapter can be read, it is used, even if it is the older one."""
+    """If only one notebook of a chapter can be read, this notebook is used."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, "s01/05_write_a_server (2).ipynb": b"{"})
     [found] = submissions(source)
     assert (found.origin, found.problem) == (f"s01/{FIVE}", "")
@@ -286,10 +272,7 @@ BAD = {
 
 @pytest.mark.parametrize(("content", "words"), BAD.values(), ids=BAD)
 def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None:
-    """An unreadable file becomes a submission with a problem.
-
-    The text contains the file and what to do next.
-    """
+    """For an unreadable file, the error message contains the file name and what to do next."""
     for source in (
         folder(tmp_path / "a", {f"s01/{FIVE}": content}),
         zipped(tmp_path / "a.zip", {f"s01/{FIVE}": content}),
@@ -311,17 +294,14 @@ def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None
     ],
 )
 def test_files_without_a_chapter_or_student(tmp_path: Path, name: str, words: str) -> None:
-    """Unknown chapters, other kinds of files, and files without a student are listed."""
+    """Files without a chapter or a student are listed."""
     [found] = submissions(folder(tmp_path, {name: b'{"cells": []}'}))
     assert words in found.problem
     assert found.chapter == ""
 
 
 def test_many_other_files_are_one_problem(tmp_path: Path, five: bytes) -> None:
-    """All unusable files of a student are reported as one additional submission.
-
-    Its error message lists their names.
-    """
+    """All unusable files of a student are reported in one error message."""
     others = {f"s01/photo_{number}.png": b"x" for number in range(9)}
     found = submissions(folder(tmp_path, {f"s01/{FIVE}": five, **others}))
     assert [each.chapter for each in found] == ["", "05"]
@@ -329,7 +309,7 @@ def test_many_other_files_are_one_problem(tmp_path: Path, five: bytes) -> None:
 
 
 def test_links_are_not_followed(tmp_path: Path, five: bytes) -> None:
-    """Links to files and folders are not followed, so their targets are not read."""
+    """Links to files and folders are not followed."""
     secret = folder(tmp_path / "secret", {f"s09/{FIVE}": five})
     source = folder(tmp_path / "in", {f"s03/{FIVE}": five})
     (source / "s01").mkdir()
@@ -346,7 +326,7 @@ def test_links_are_not_followed(tmp_path: Path, five: bytes) -> None:
 
 
 def test_pipe_is_not_opened(tmp_path: Path) -> None:
-    """A pipe is not opened; it is reported at once."""
+    """A pipe is reported, and the program does not open the pipe."""
     (tmp_path / "s01").mkdir()
     os.mkfifo(tmp_path / "s01" / FIVE)
     [found] = submissions(tmp_path)
@@ -354,7 +334,7 @@ def test_pipe_is_not_opened(tmp_path: Path) -> None:
 
 
 def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message asks the instructor to change the permissions of the file."""
+    """The error message asks the instructor to change the permissions of the file."""
 
     def refuse(*_: object) -> int:
         raise PermissionError(13, "Permission denied")
@@ -369,14 +349,14 @@ def test_a_file_that_may_not_be_read(tmp_path: Path, five: bytes, monkeypatch: p
     "name", ["../s01/" + FIVE, "/s01/" + FIVE, "C:\\s01\\" + FIVE, "s01/../../" + FIVE, "..\\s01\\" + FIVE]
 )
 def test_paths_that_lead_out(tmp_path: Path, five: bytes, name: str) -> None:
-    """If the path of a member leads out of the zip, the member is not graded, and no file is written."""
+    """A zip member whose path leads out of the zip is not graded."""
     [found] = submissions(zipped(tmp_path / "a.zip", {name: five}))
     assert "leads out" in found.problem
     assert [path.name for path in tmp_path.iterdir()] == ["a.zip"]
 
 
 def test_a_link_in_a_zip(tmp_path: Path) -> None:
-    """A link in a zip is not followed; it is only the text of a path."""
+    """A link in a zip is not followed."""
     source = zipped(
         tmp_path / "a.zip", {f"s01/{FIVE}": b"/etc/passwd"}, external_attr=(stat.S_IFLNK | 0o777) << 16
     )
@@ -385,7 +365,7 @@ def test_a_link_in_a_zip(tmp_path: Path) -> None:
 
 
 def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
-    """A huge member is not unpacked, even if the zip contains a false size; other members are graded."""
+    """A huge zip member is not unpacked, even if the zip contains a wrong size."""
     bomb = b" " * (archive.LARGEST - 5)
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": bomb, f"s02/{FIVE}": five})
     bad, good = submissions(source)
@@ -399,14 +379,14 @@ def test_a_zip_bomb(tmp_path: Path, five: bytes) -> None:
 
 
 def test_total_size_of_a_zip_is_limited(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """When the limit for all files together is reached, the other files are listed, but not read."""
+    """After the size limit is reached, the remaining files are listed, but not read."""
     monkeypatch.setattr(archive, "ALTOGETHER", len(five) * 5 // 2)
     found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
     assert [bool(each.problem) for each in found] == [False, False, True, True]
 
 
 def test_number_of_members_is_limited(tmp_path: Path, five: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The first files of a zip are graded; all others are one submission with a problem."""
+    """Only the first files of a large zip are graded."""
     monkeypatch.setattr(archive, "MEMBERS", 2)
     found = submissions(zipped(tmp_path / "a.zip", {f"s0{n}/{FIVE}": five for n in range(4)}))
     assert [(each.student, bool(each.problem)) for each in found] == [
@@ -417,7 +397,7 @@ def test_number_of_members_is_limited(tmp_path: Path, five: bytes, monkeypatch: 
 
 
 def test_a_damaged_or_locked_member(tmp_path: Path, five: bytes) -> None:
-    """A wrong checksum is reported, and so is a password."""
+    """A zip member with a wrong checksum or a password is reported."""
     source = zipped(tmp_path / "a.zip", {f"s01/{FIVE}": five})
     with zipfile.ZipFile(source) as archive:
         middle = archive.infolist()[0].compress_size // 2
@@ -430,7 +410,7 @@ def test_a_damaged_or_locked_member(tmp_path: Path, five: bytes) -> None:
     with zipfile.ZipFile(locked) as archive:
         listed = archive.start_dir
     content = bytearray(locked.read_bytes())
-    content[6] |= 1  # the flag for encryption; it is in the member's header and in the list of members
+    content[6] |= 1  # This bit marks a zip member as encrypted.
     content[listed + 8] |= 1
     locked.write_bytes(bytes(content))
     [found] = submissions(locked)
@@ -439,7 +419,7 @@ def test_a_damaged_or_locked_member(tmp_path: Path, five: bytes) -> None:
 
 @pytest.mark.parametrize("content", [b"", b"PK\x03\x04", b"x" * 1000, None])
 def test_source_that_is_not_a_folder_or_zip(tmp_path: Path, content: bytes | None) -> None:
-    """If the source is not a folder or a zip, the error message contains the expected layouts."""
+    """The error message for a wrong source contains the expected layouts."""
     source = tmp_path / "a.zip"
     if content is not None:
         source.write_bytes(content)
@@ -452,14 +432,14 @@ def test_source_that_is_not_a_folder_or_zip(tmp_path: Path, content: bytes | Non
     [b"{", b"- 1", b"a: [", b"\xff\xfe\x00", b"a: &x [*x]", b"submission_1: {':submitters': 3}", b""],
 )
 def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content: bytes) -> None:
-    """If the metadata are damaged, the students are identified by the names of the folders."""
+    """If Gradescope's metadata are damaged, the folder names identify the students."""
     files = {"submission_metadata.yml": content, f"submission_1/{FIVE}": five}
     found = submissions(folder(tmp_path, files))
     assert [each.student for each in found if not each.problem] == ["submission_1"]
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """Inside a student's folder, the name of a file cannot turn it into another student's submission."""
+    """In a student's folder, a file name cannot select another student."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,
@@ -483,12 +463,12 @@ def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> N
 
 
 def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
-    """An empty folder contains no submissions; this is not an error."""
+    """An empty folder contains no submissions and causes no error."""
     assert submissions(tmp_path) == []
 
 
 def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
-    """Outputs are not kept in memory, and the rebuilt notebook is the same as with them."""
+    """The submissions are stored without outputs, and the rebuilt notebook is equal."""
     notebook = json.loads(five)
     for cell in notebook["cells"]:
         if cell["cell_type"] == "code":
@@ -501,7 +481,7 @@ def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
 
 
 def test_one_notebook(tmp_path: Path, five: bytes) -> None:
-    """A single notebook belongs to the student whose name its folder has, or to the given name."""
+    """A single notebook belongs to the given student, or to the student in the name of its folder."""
     source = folder(tmp_path, {f"s01/{FIVE}": five}) / "s01" / FIVE
     assert submissions(source) == [submission_of(source)]
     assert _kept([submission_of(source), submission_of(source, "s07")]) == [("s01", "05"), ("s07", "05")]
@@ -510,7 +490,7 @@ def test_one_notebook(tmp_path: Path, five: bytes) -> None:
 
 
 def test_names_of_any_letters(tmp_path: Path, five: bytes) -> None:
-    """Names in all scripts are possible, and each student gets a separate record."""
+    """Student names in all scripts are possible."""
     names = ["Größe", "a\u202eb", "x" * 200, "名前", "\udcff"]
     found = submissions(folder(tmp_path, {f"{name}/{FIVE}": five for name in names}))
     assert len({each.student for each in found}) == len(names)

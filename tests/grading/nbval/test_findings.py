@@ -1,4 +1,4 @@
-"""The sentences that students read about nbval's messages."""
+"""The sentences that students get for nbval's messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run of a notebook with nbval in a sandbox; it gives feedback on each cell, but no points."""
+"""Tests that run a student's notebook with nbval in a sandbox."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from course_pkg.setup import Places
 def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
     """Return a notebook of pairs (source, expected output).
 
-    With `check`, the last cell is the check of this part.
+    If `check` is given, the last cell is the check of this part.
     """
     made = nbformat.v4.new_notebook()
     for number, (source, shown) in enumerate(cells):
@@ -39,10 +39,7 @@ def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
 
 @pytest.mark.usefixtures("sandbox")
 def test_each_cell_is_compared_with_its_stored_output() -> None:
-    """A cell passes if its outputs are equal, and fails otherwise.
-
-    A cell that ends the kernel ends the run.
-    """
+    """A cell passes if its output is equal to the stored output."""
     seen = outcomes_of(notebook(("1 + 1", "2"), ("1 + 1", "3"), ("'over'", "'over'")))
     assert [(each.cell, each.outcome) for each in seen] == [
         ("cell-0", "passed"),
@@ -54,7 +51,7 @@ def test_each_cell_is_compared_with_its_stored_output() -> None:
 
 @pytest.mark.usefixtures("sandbox")
 def test_the_kernel_sees_neither_what_is_expected_nor_a_check() -> None:
-    """The kernel has no access to the notebook's file, the checks, other processes or another network."""
+    """The kernel cannot read the notebook's file or the checks, and cannot use another network."""
     probe = """
 import glob, os, pathlib, socket
 import course_pkg.chapters as chapters
@@ -72,14 +69,14 @@ lines = [pathlib.Path(path).read_text() for path in glob.glob("/proc/[0-9]*/cmdl
 
 @pytest.mark.usefixtures("sandbox")
 def test_a_kernel_that_ends_is_noticed_in_time() -> None:
-    """The run ends before nbval's limit of 2,000 s."""
+    """If a cell ends the kernel, the run ends before nbval's limit of 2,000 s."""
     seen = outcomes_of(notebook(("import os; os._exit(0)", ""), ("1", "1")), cell=4)
     assert [each.outcome for each in seen] != ["passed", "passed"]
 
 
 @pytest.mark.usefixtures("sandbox")
 def test_a_kernel_with_damaged_connections_is_ended() -> None:
-    """A cell that writes to all open files ends the run soon; the earlier cells keep their results."""
+    """A cell that writes to all open files ends the run. The results of earlier cells are not lost."""
     damage = (
         "import os\nfor number in range(3, 200):\n    try:\n        os.set_blocking(number, False)\n"
         "        os.write(number, b'{\"record\": 1}\\n')\n    except OSError:\n        pass\n"
@@ -96,12 +93,12 @@ def plain_nbval(path: Path, *words: str) -> subprocess.CompletedProcess[str]:
 
 
 def chapter_three(folder: Path, *headlines: str, first: str = "1") -> Path:
-    """Write a notebook whose checks of 03.1, 03.2 and so on have these headlines; return its path."""
+    """Write a notebook whose checks of 03.1, 03.2 and so on have these headlines, and return its path."""
     shows = "from IPython.display import display\ndisplay({{'text/plain': {!r}}}, raw=True)"
     made = notebook((first, "1"), *((shows.format(each), "") for each in headlines))
     for number, cell in enumerate(made["cells"][1:], 1):
         cell["metadata"]["course"] = {"check": f"03.{number}"}
-        # each output is equal to the stored one, so nbval alone would pass this notebook
+        # Each output is equal to the stored output, so nbval without the plug-in would pass this notebook.
         data = {"text/plain": headlines[number - 1]}
         cell["outputs"] = [nbformat.v4.new_output("display_data", data)]
     path = folder / "chapter.ipynb"
@@ -113,7 +110,7 @@ PASSED = [f"{part.check} passed: {part.points} of {part.points} points" for part
 
 
 def test_plain_nbval_passes_if_all_checks_passed(tmp_path: Path) -> None:
-    """At the end of the run, the plug-in prints one line for each part."""
+    """The plug-in prints one line for each passed part."""
     done = plain_nbval(chapter_three(tmp_path, *PASSED))
     lines = done.stdout.splitlines()
     assert done.returncode == 0, done.stdout
@@ -132,16 +129,16 @@ def test_plain_nbval_passes_if_all_checks_passed(tmp_path: Path) -> None:
     ],
 )
 def test_plain_nbval_fails_if_points_are_missing(tmp_path: Path, headlines: list[str], line: str) -> None:
-    """If a check did not pass, did not run or was removed, the run fails, whatever the stored output is."""
+    """If a check failed, did not run or was removed, the pytest run fails."""
     done = plain_nbval(chapter_three(tmp_path, *headlines))
     assert done.returncode == 1, done.stdout
     assert line in _after(done.stdout.splitlines(), "parts of the course")
 
 
 def test_course_run_adds_the_plug_in(tmp_path: Path) -> None:
-    """`course run pytest --nbval` uses the plug-in without an option.
+    """`course run pytest --nbval` always uses the plug-in.
 
-    A comment that skips a check earns nothing.
+    A comment that skips a check earns no points.
     """
     path = chapter_three(tmp_path, *PASSED)
     made = json.loads(path.read_text())

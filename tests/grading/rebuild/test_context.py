@@ -1,4 +1,4 @@
-"""The cells that an answer needs are found by the names that they define; there are limits."""
+"""Tests of the search for the cells that an answer needs."""
 
 from __future__ import annotations
 
@@ -12,33 +12,30 @@ ABOVE = ("import math", "def area(box):\n    return math.prod(box)", "side = 2",
 
 
 def test_cells_that_define_a_needed_name_are_found() -> None:
-    """The result contains the nearest cell that defines the name.
-
-    It also contains the cells that this cell needs, in order.
-    """
+    """The result contains the nearest cell that defines the name, and the cells that this cell needs."""
     assert needed("def double(box):\n    return 2 * area(box)", "", ABOVE) == ABOVE[:2]
 
 
 def test_known_names_need_no_other_cell() -> None:
-    """Builtins, the answer's own names, and names of the course's cells cause no search."""
+    """Builtins and names of the course's cells need no other cell."""
     assert needed("import math\nprint(math.pi, len([1]))", "", ABOVE) == ()
     assert needed("def f():\n    return side", "side = 3", ABOVE) == ()
 
 
 def test_names_inside_of_an_answer_need_no_other_cell() -> None:
-    """A caught exception, a function inside of a function, and a local import are the answer's own names."""
+    """Names that an answer defines inside of a block or a function need no other cell."""
     above = ("error = 1", "def work():\n    pass", "import queue")
     assert needed("try:\n    f = 1\nexcept OSError as error:\n    print(error)", "", above) == ()
     assert needed("def f():\n    import queue\n    def work():\n        queue\n    work()", "", above) == ()
 
 
 def test_the_variable_of_a_comprehension_is_not_given() -> None:
-    """A cell does not define a name for later cells in a comprehension."""
+    """The variable of a comprehension is not available in later cells."""
     assert needed("print(error)", "", ("[error for error in (1, 2)]",)) == ()
 
 
 def test_magics_are_read_as_ipython_reads_them() -> None:
-    """A line that only IPython understands does not hide the names in the cell."""
+    """The names in a cell with an IPython magic are found."""
     assert needed("%time x = side", "", ABOVE) == ()
     assert needed("!ls\nx = side", "", ABOVE) == ("side = 2",)
 
@@ -54,7 +51,7 @@ def test_magics_are_read_as_ipython_reads_them() -> None:
     ids=["many names and long cells", "many magics", "a long ladder", "deep"],
 )
 def test_unusual_sources_take_little_time(answer: str, above: list[str]) -> None:
-    """Each source takes little time; this matters, because it is parsed outside the sandbox."""
+    """The search is fast for unusual sources."""
     began = time.process_time()
     assert needed(answer, "", above) == ()
-    assert time.process_time() - began < 10.0  # without the limit, this would take minutes
+    assert time.process_time() - began < 10.0  # Without the limit in the code, the search would take minutes.

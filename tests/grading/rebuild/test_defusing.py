@@ -1,4 +1,4 @@
-"""An answer has no influence on how it is run."""
+"""Tests that remove markers and magics from an answer."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ DEF = "def f():\n    return 1"
 
 
 def test_the_markers_are_those_of_nbval() -> None:
-    """If a new nbval knows another marker, this test fails."""
+    """The course knows all markers of nbval."""
     assert set(MARKERS) == set(comment_markers)
     assert set(metadata_tags) < set(TAGS)
 
@@ -36,10 +36,7 @@ def test_the_markers_are_those_of_nbval() -> None:
     ],
 )
 def test_markers_have_no_effect(marker: str, shape: str) -> None:
-    """The rebuilt answer contains no marker of nbval, however it is written.
-
-    There is a note about the marker.
-    """
+    """The rebuilt answer contains no nbval marker, and a note describes the removed marker."""
     made = defuse(shape.replace("{}", marker))
     assert list(find_comment_markers(made.source)) == []
     assert any(marker in note for note in made.notes)
@@ -55,10 +52,7 @@ BEFORE = ["", "\n\n", "  \n\t\n", ">>> ", "In [1]: ", "\x0c\n", "\r\n"]
 @pytest.mark.parametrize("magic", MAGICS)
 @pytest.mark.parametrize("before", BEFORE)
 def test_magic_of_a_cell_is_removed(magic: str, before: str) -> None:
-    """The magic is removed, and the other lines run as Python.
-
-    This is so even if IPython ignores some text before the magic.
-    """
+    """The magic is removed, and the other lines run as Python."""
     made = defuse(f"{before}{magic}\n{DEF}")
     code = TransformerManager().transform_cell(made.source)
     assert "run_cell_magic" not in code
@@ -69,13 +63,13 @@ def test_magic_of_a_cell_is_removed(magic: str, before: str) -> None:
 
 
 def test_a_magic_below_a_magic() -> None:
-    """If the first magic was removed, the next line does not become the magic of the cell."""
+    """After the first magic is removed, a magic in the next line is removed too."""
     made = defuse("%%time\n%%script true\n" + DEF)
     assert magic_of(made.source) == ""
 
 
 def test_an_indented_cell_with_a_magic() -> None:
-    """IPython removes the indentation; therefore, an indented first line with %% is a magic, too."""
+    """An indented first line with %% is a magic."""
     assert "was removed" in defuse("  %%script true\n  x = 1").notes[0]
 
 
@@ -95,7 +89,7 @@ WRITES = "%%writefile src/a.srv"
     ],
 )
 def test_a_cell_that_writes_a_file_writes_that_file(source: str, notes: int) -> None:
-    """The first line comes from the reference, and the student's lines follow."""
+    """The first line comes from the reference solution, and the following lines come from the student."""
     made = defuse(source, WRITES)
     assert made.source == f"{WRITES}\nint8 a"
     assert len(made.notes) == notes
@@ -122,5 +116,5 @@ def test_invalid_characters_are_removed() -> None:
     ],
 )
 def test_an_ordinary_answer_is_left_alone(source: str) -> None:
-    """A harmless answer does not change, and there is no note about it."""
+    """A harmless answer does not change and gets no note."""
     assert defuse(source) == type(defuse(""))(source)

@@ -1,4 +1,4 @@
-"""An answer is found however the student changed the notebook, and nothing except answers is used."""
+"""Tests that rebuild a notebook from the reference solution and a student's answers."""
 
 from __future__ import annotations
 
@@ -40,7 +40,10 @@ REFERENCE = book(
 
 
 def _student(change: Callable[[Cells], object] = lambda _: None, **answers: str) -> bytes:
-    """Return a student's notebook with these answers, by the letters of cells, after `change`."""
+    """Return a student's notebook with these answers, and apply `change`.
+
+    The keys are the letters of cells.
+    """
     notebook = derived(copy.deepcopy(REFERENCE))
     for cell in notebook["cells"]:
         letter = {D: "d", C: "c", W: "w"}.get(cell["id"], "")
@@ -54,7 +57,7 @@ def _place(cells: Cells, name: str) -> int:
 
 
 def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
-    """Copy a cell in the same way as JupyterLab: with another id and the same metadata."""
+    """Copy a cell as JupyterLab does: with a new id and the same metadata."""
     place = _place(cells, name)
     cells.insert(
         place + shift, {**copy.deepcopy(cells[place]), "id": f"copy-{shift}-{len(cells)}", "source": source}
@@ -62,13 +65,13 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells below a cell (or `shift` cells away from it)."""
+    """Insert a student's own cells `shift` cells below the cell `name`."""
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
 
 def _rebuilt(content: bytes) -> Rebuilt:
-    """Rebuild a submission, and assert everything that must be true for each submission."""
+    """Rebuild a submission, and assert the rules that apply to every submission."""
     before = copy.deepcopy(REFERENCE)
     made = rebuild(REFERENCE, content)
     assert before == REFERENCE
@@ -96,7 +99,7 @@ def _rebuilt(content: bytes) -> Rebuilt:
 
 
 def test_an_answer_is_placed() -> None:
-    """The answer is placed into the reference, no other cell changes, and blank exercises are recognised."""
+    """Only the exercise cells of the reference notebook get the student's answers."""
     made = _rebuilt(_student(d=ANSWER))
     assert made.answers["05.1"] == ANSWER
     assert made.untouched == {"05.2", "05.3"}
@@ -105,10 +108,7 @@ def test_an_answer_is_placed() -> None:
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_every_chapter(path: Path) -> None:
-    """In a solution, each exercise has an answer, without a note.
-
-    In the student's notebook, each is blank.
-    """
+    """In a solution, each exercise has an answer. In the student's notebook, each exercise is blank."""
     reference = read(path)
     full = rebuild(reference, path.read_bytes())
     blank = rebuild(reference, raw(derived(reference)))
@@ -162,7 +162,7 @@ TAKEN = {
 
 @pytest.mark.parametrize("change", TAKEN.values(), ids=TAKEN)
 def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
-    """A cell is graded even if it was copied, moved or split, or has lost its id or metadata."""
+    """An answer is found after its cell was copied, moved or split, or lost its id or metadata."""
     made = _rebuilt(_student(change))
     assert [line for line in made.answers["05.1"].split("\n") if line] == [
         line for line in ANSWER.split("\n") if line
@@ -172,7 +172,7 @@ def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
 
 @pytest.mark.parametrize("kind", ["markdown", "raw"])
 def test_a_cell_of_another_kind(kind: str) -> None:
-    """If the cell of an exercise is Markdown, it is used as code, with a note; a code cell is preferred."""
+    """A Markdown cell of an exercise is used as code, and gets a note."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(cell_type=kind, source=ANSWER)
@@ -185,24 +185,21 @@ def test_a_cell_of_another_kind(kind: str) -> None:
 
 
 def test_last_of_several_answers_is_used() -> None:
-    """The last of several answers is used, and a note tells the student."""
+    """The last of several answers is used, and the answer gets a note."""
     made = _rebuilt(_student(lambda cells: _copied(cells, D, OTHER), d=ANSWER))
     assert made.answers["05.1"] == OTHER
     assert made.notes == ("05.1: 2 cells answer this exercise; the last one was used.",)
 
 
 def test_identical_copy_leads_to_no_note() -> None:
-    """For an identical copy, there is no note; an empty or a blank copy is not used."""
+    """An identical, empty or blank copy of an answer leads to no note."""
     for source in (ANSWER, "", BLANK):
         made = _rebuilt(_student(lambda cells, source=source: _copied(cells, D, source), d=ANSWER))
         assert (made.answers["05.1"], made.notes) == (ANSWER, ())
 
 
 def test_a_helper_split_off_belongs_to_the_answer() -> None:
-    """If the answer uses a function in a cell directly below it, this cell is placed, too.
-
-    The cells between them are also placed.
-    """
+    """If the answer uses a function from the cell below it, the rebuilt notebook contains this cell."""
     answer = ANSWER.replace("x + x", "helper(x)")
     helper = "def helper(x):\n    return x + x"
     made = _rebuilt(_student(lambda cells: _own(cells, D, "print('try')", helper, "double(3)"), d=answer))
@@ -211,7 +208,7 @@ def test_a_helper_split_off_belongs_to_the_answer() -> None:
 
 
 def test_a_file_that_was_split() -> None:
-    """The two halves of a split cell are joined into one file."""
+    """The two halves of a split file cell are joined into one file."""
 
     def change(cells: Cells) -> None:
         _copied(cells, W, "int16 b")
@@ -225,14 +222,14 @@ def test_a_file_that_was_split() -> None:
     ["double(21)", "x = double(1)\nprint(x)", "while True:\n    pass", "%%bash\n  ls", "!ls", "# thoughts"],
 )
 def test_cells_that_the_answer_does_not_need_are_left_out(source: str) -> None:
-    """A cell that the answer does not need is left out, without a note."""
+    """A cell that the answer does not need is left out."""
     made = _rebuilt(_student(lambda cells: _own(cells, D, source), d=ANSWER))
     assert (made.answers["05.1"], made.notes) == (ANSWER, ())
 
 
 @pytest.mark.parametrize("shift", [-1, 0, 3])
 def test_a_helper_elsewhere_is_named(shift: int) -> None:
-    """If a helper function is elsewhere, it is left out; a note contains its name and the right cell."""
+    """If a needed helper function is in another cell, a note contains the function's name."""
     answer = ANSWER.replace("x + x", "helper(x)")
     made = _rebuilt(
         _student(lambda cells: _own(cells, D, "def helper(x):\n    return x + x", shift=shift), d=answer)
@@ -243,7 +240,7 @@ def test_a_helper_elsewhere_is_named(shift: int) -> None:
 
 
 def test_an_import_in_a_given_cell_is_named() -> None:
-    """A student's change of a cell of the course is not graded; the names that the course defines exist."""
+    """A student's change in a cell of the course has no effect, and a note says this."""
     answer = ANSWER.replace("x + x", "numpy.add(x, math.floor(x))")
 
     def change(cells: Cells) -> None:
@@ -255,7 +252,7 @@ def test_an_import_in_a_given_cell_is_named() -> None:
 
 
 def test_missing_answer_has_a_reason() -> None:
-    """If a cell was deleted or emptied, it earns nothing, and the blank exercise replaces it."""
+    """If an answer is missing, the rebuilt notebook contains the blank exercise, and the reason is stored."""
 
     def change(cells: Cells) -> None:
         del cells[_place(cells, D)]
@@ -278,10 +275,7 @@ def test_an_answer_of_absurd_length() -> None:
 
 
 def test_id_decides_between_different_metadata() -> None:
-    """If the id and the metadata of a cell contradict each other, the id decides.
-
-    An unknown part is ignored.
-    """
+    """If the id and the metadata of a cell differ, the id selects the exercise."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(metadata={"course": {"exercise": "05.2"}}, source=ANSWER)
@@ -294,7 +288,7 @@ def test_id_decides_between_different_metadata() -> None:
 
 
 def test_tags_and_metadata_of_the_student_stay_out() -> None:
-    """A tag that the student has added has no effect; a note tells the student about it."""
+    """A student's tags have no effect and lead to a note."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)]["metadata"]["tags"] = ["nbval-skip", "raises-exception", "mine"]
@@ -306,7 +300,7 @@ def test_tags_and_metadata_of_the_student_stay_out() -> None:
 
 
 def test_markers_and_magics_are_removed() -> None:
-    """Markers and magics are removed; there is one note for each."""
+    """Markers and magics are removed, and each removal leads to a note."""
     made = _rebuilt(_student(d="%%script true\n# NBVAL_SKIP\n" + ANSWER))
     assert made.answers["05.1"] == "# %%script has no effect here\n# (NBVAL_SKIP)\n" + ANSWER
     assert len(made.notes) == 2
@@ -327,7 +321,7 @@ def test_checks_and_given_cells_do_not_change() -> None:
     "content", [b"", b"{", b"[]", b"\xff", b'{"cells": 1}', b'{"cells": ' + b"[" * 100_000]
 )
 def test_what_is_no_notebook(content: bytes) -> None:
-    """Each part gets no points and a reason, and the rebuilt notebook contains no solution."""
+    """For a file that is not a notebook, each part gets a reason, and the result contains no solution."""
     made = _rebuilt(content)
     assert made.problem
     assert set(made.missing.values()) == {made.problem}
@@ -348,14 +342,14 @@ def test_what_is_no_notebook(content: bytes) -> None:
     ],
 )
 def test_cells_that_are_none(cell: object) -> None:
-    """Unusable cells are ignored, and the other cells are graded."""
+    """Invalid cells are ignored, and the other cells are graded."""
     made = _rebuilt(_student(lambda cells: cells.insert(0, cell), d=ANSWER))  # type: ignore[arg-type]
     assert made.answers["05.1"] == ANSWER
 
 
 @pytest.mark.parametrize("version", [2, 3])
 def test_an_old_format(version: int) -> None:
-    """Notebooks of old formats, with their cells in worksheets, can be read."""
+    """Notebooks of old formats can be read."""
     notebook = nbformat.from_dict(json.loads(_student(d=ANSWER, c=COUNTER, w=WRITES)))
     old = nbformat.convert(notebook, version)
     made = _rebuilt(json.dumps(old).encode())
@@ -380,7 +374,7 @@ MANY = {
 
 @pytest.mark.parametrize("made_of", MANY.values(), ids=MANY)
 def test_ten_thousand_cells(made_of: Callable[[int], Cell]) -> None:
-    """A notebook with many cells is rebuilt quickly, because each cell is read only a few times."""
+    """A notebook with ten thousand cells is rebuilt quickly."""
 
     def change(cells: Cells) -> None:
         place = _place(cells, D) + 1
@@ -404,12 +398,12 @@ def test_ten_thousand_cells(made_of: Callable[[int], Cell]) -> None:
     ],
 )
 def test_sources_built_to_take_long(source: str) -> None:
-    """Sources with long lines are read quickly, because they are not parsed."""
+    """Sources with very long lines are read quickly."""
     _rebuilt(_student(lambda cells: _own(cells, D, source), d=source, c=source, w=source))
 
 
 def test_nbval_runs_it(tmp_path: Path) -> None:
-    """The output of an exercise cell is not compared, but all other outputs are."""
+    """A run of nbval compares all outputs except those of exercise cells."""
     done = {"output_type": "execute_result", "execution_count": 2, "metadata": {}}
     reference = book(
         exercise("05.1", source="def double(x):\n    return 2 * x"),

@@ -25,7 +25,7 @@ RIGHT = 'mistakes = {"A": "polls too rarely"}\n'
 
 
 def graded(student: str, code: str = RIGHT, **more: object) -> Grade:
-    """Return a grade with two failed parts: 05.1, and 05.2 whose check did not finish."""
+    """Return a grade with the failed part 05.1 and with the part 05.2, whose check did not finish."""
     reports = (
         report("05.1", Verdict.FAILED),
         report("05.2", Verdict.FAILED, assertions=(), inconclusive=True),
@@ -35,21 +35,21 @@ def graded(student: str, code: str = RIGHT, **more: object) -> Grade:
 
 
 def class_of_four() -> list[Grade]:
-    """Return four grades: two identical answers, a flagged one, and one full of harmful text."""
+    """Return four grades: two with identical answers, one with a flag, and one with harmful texts."""
     flag = Flag("copies", "05.1", "The code is almost the same.", 1, RIGHT.strip(), ("s01",))
     hostile = nasty("=evil", code={"05.1": f"</code><img src=x onerror=alert(1)>{NASTY}"})
     return [graded("s01"), graded("s02"), graded("s03", "other = 1", flags=(flag,)), hostile]
 
 
 def write_class(out: Path, grades: list[Grade] | None = None) -> Path:
-    """Write the reports of a class into a folder, and return it."""
+    """Write the reports of a class into a folder, and return the folder."""
     write_reports(class_of_four() if grades is None else grades, out)
     return out
 
 
 @contextmanager
 def serving(out: Path, wanted: Wanted | None = None) -> Iterator[str]:
-    """Serve the review page of a folder in a thread; yield its address without the token."""
+    """Run the review server for a folder in a thread, and yield the server's address without the token."""
     session = Session(out, read_grades(out), wanted or Wanted())
     (listening,) = bind_sockets(0, "127.0.0.1")
     port = listening.getsockname()[1]

@@ -1,4 +1,4 @@
-"""Reviewed points and comments reach all reports, survive a new run, and can be taken back."""
+"""Tests that apply reviewed points and comments to the reports."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _reports(out: Path, grades: list[Grade]) -> None:
 
 
 def test_every_report_has_the_points_and_the_comment(tmp_path: Path) -> None:
-    """The gradebook, the platforms' files, the feedback page and the class page show the review."""
+    """All reports show the reviewed points and the comment."""
     row = Override("s01", "05.1", 1.5, COMMENT)
     _reports(tmp_path, reviewed(class_of_four(), _overrides(row)))
     with (tmp_path / "grades.csv").open(encoding="utf-8-sig", newline="") as file:
@@ -48,7 +48,7 @@ def test_every_report_has_the_points_and_the_comment(tmp_path: Path) -> None:
 
 
 def test_a_review_can_be_applied_again_and_taken_back(tmp_path: Path) -> None:
-    """The records keep the points of the check, so a review can be applied to them again."""
+    """A review can be applied twice, and the original points can be restored."""
     before = class_of_four()
     once = reviewed(before, _overrides(Override("s01", "05.1", 1.5, COMMENT)))
     _reports(tmp_path, once)
@@ -60,7 +60,7 @@ def test_a_review_can_be_applied_again_and_taken_back(tmp_path: Path) -> None:
 
 
 def test_a_changed_answer_is_reported() -> None:
-    """The reviewed points stay, and the run and the reports say that the answer has changed."""
+    """If an answer has changed after the review, the reports say this."""
     row = Override("s01", "05.1", 2, "", answer_of(graded("s01"), "05.1"))
     same, other = graded("s01"), graded("s01", "a = 2")
     assert "changed" not in " ".join(about_reviews(reviewed([same], _overrides(row))))
@@ -71,14 +71,14 @@ def test_a_changed_answer_is_reported() -> None:
 
 
 def test_a_reviewed_part_needs_no_look() -> None:
-    """The check of 05.2 could not finish; after its review, even with 0 points, nothing is left to do."""
+    """After its review, a part with an unfinished check needs no more work."""
     grade = graded("s01")
     assert needs_look(grade)
     assert not needs_look(reviewed([grade], _overrides(Override("s01", "05.2", 0)))[0])
 
 
 def test_long_code_is_the_same_in_the_record(tmp_path: Path) -> None:
-    """The record of an answer with many lines identifies the same answer."""
+    """The record of a long answer identifies the same answer."""
     grade = replace(graded("s01"), code={"05.1": "line = 1\r\n" * 1500})
     _reports(tmp_path, [grade])
     assert answer_of(read_grades(tmp_path)[0], "05.1") == answer_of(grade, "05.1")

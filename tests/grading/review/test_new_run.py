@@ -1,4 +1,4 @@
-"""`course grade` applies overrides.csv in each run, and grades nothing twice for it."""
+"""`course grade` applies overrides.csv in each run."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def _points(folder: Path) -> str:
 
 
 def test_points_survive_each_run(tmp_path: Path) -> None:
-    """Points and comments stay after a run of everything and of one part, until their row is removed."""
+    """The reviewed points and comments are used in each run until their row is removed."""
     hand_in(tmp_path, "s01", "00", {"00.1": ""})
     assert _grade(tmp_path).returncode in (0, 3)
     before = _points(tmp_path)

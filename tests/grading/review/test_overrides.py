@@ -1,4 +1,4 @@
-"""overrides.csv keeps everything that a spreadsheet writes, and refuses wrong rows with their line."""
+"""Tests of reading and writing overrides.csv."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def _read(folder: Path, content: str | bytes) -> None:
 
 @pytest.mark.parametrize(("row", "message"), WRONG)
 def test_a_wrong_row_is_reported_with_its_line(tmp_path: Path, row: str, message: str) -> None:
-    """The message contains the number of the line, and the file does not change."""
+    """The error message contains the line number, and the file does not change."""
     with pytest.raises(GradingError) as caught:
         _read(tmp_path, HEAD + row)
     assert message in str(caught.value)
@@ -40,7 +40,7 @@ def test_a_wrong_row_is_reported_with_its_line(tmp_path: Path, row: str, message
 
 
 def test_other_encodings_and_columns(tmp_path: Path) -> None:
-    """A file that is not UTF-8, a missing column and a spreadsheet each give one message."""
+    """A wrong encoding, a missing column or a spreadsheet file leads to one error message."""
     with pytest.raises(GradingError, match="line 3: the text is not UTF-8"):
         _read(tmp_path, HEAD.encode() + b"s01,05,05.1,1,,\ns02,05,05.1,1,f\xfcr,\n")
     with pytest.raises(GradingError, match="line 1: the column points is missing"):
@@ -50,7 +50,7 @@ def test_other_encodings_and_columns(tmp_path: Path) -> None:
 
 
 def test_a_part_that_a_spreadsheet_may_have_changed(tmp_path: Path) -> None:
-    """A spreadsheet changes 15.10 to 15.1, so 15.1 is refused if there are both parts."""
+    """If both 15.1 and 15.10 exist, 15.1 is refused. A spreadsheet changes 15.10 to 15.1."""
     (tmp_path / FILE).write_text(f"{HEAD}s01,05,5.1,1,,\n")
     grade = class_of_four()[0]
     read_overrides(tmp_path).require_parts([grade])
@@ -61,7 +61,7 @@ def test_a_part_that_a_spreadsheet_may_have_changed(tmp_path: Path) -> None:
 
 
 def test_a_german_spreadsheet_keeps_its_form(tmp_path: Path) -> None:
-    """A byte order mark, semicolons, decimal commas, other columns and empty lines stay."""
+    """The format of a German spreadsheet, such as semicolons and decimal commas, does not change."""
     before = "\ufeffstudent;chapter;part;note;points;comment;answer\r\ns01;5;5.1;mine;1,5;gut;\r\n\r\n"
     _read(tmp_path, before)
     current = read_overrides(tmp_path)

@@ -1,4 +1,4 @@
-"""The review page in a browser: only the keyboard is used, and what is typed is saved at once."""
+"""The review page in a browser."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from tests.support import eventually
 def opened(
     browser: Browser, url: str, width: int = 1280, colours: Literal["light", "dark"] = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page; yield it with the messages of the console and the errors of its scripts."""
+    """Open the page, and yield it with the console messages and the script errors."""
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
     page, words = context.new_page(), list[str]()
     page.on("console", lambda message: words.append(message.text))
@@ -49,7 +49,7 @@ def _saved(page: Page) -> None:
 
 
 def test_a_review_with_the_keyboard_only(browser: Browser, tmp_path: Path) -> None:
-    """Points, a comment, identical answers, undo and the next part need only keys."""
+    """An instructor reviews several answers with the keyboard only."""
     out = write_class(tmp_path)
     with serving(out) as url, opened(browser, url) as (page, words):
         keys, answer = page.keyboard, page.get_by_role("article")
@@ -75,7 +75,7 @@ def test_a_review_with_the_keyboard_only(browser: Browser, tmp_path: Path) -> No
         expect(page.locator("#part")).to_have_value("05.2")
         keys.press("g")
         keys.press("2")
-        keys.press("n")  # a letter in the field for points is a command
+        keys.press("n")  # In the field for points, a letter is a keyboard command.
         expect(answer.get_by_role("heading", name="s02")).to_be_visible()
         expect(page.locator("#points")).to_be_focused()
         eventually(lambda: _rows(out).get(("s01", "Part 05.2")) == ("2", ""))
@@ -87,7 +87,7 @@ def test_a_review_with_the_keyboard_only(browser: Browser, tmp_path: Path) -> No
 
 
 def test_a_folder_that_cannot_be_written(browser: Browser, tmp_path: Path) -> None:
-    """The page keeps what was typed, also while it shows other answers, and saves it when asked."""
+    """If the page cannot save a review, it stores the typed text and saves it later."""
     out = write_class(tmp_path)
     blocked = out / FILE
     with serving(out) as url, opened(browser, url) as (page, _words):
@@ -95,7 +95,8 @@ def test_a_folder_that_cannot_be_written(browser: Browser, tmp_path: Path) -> No
         page.keyboard.press("c")
         page.keyboard.type("Keep me.")
         for draft in _drafts(out):
-            draft.mkdir()  # so that the file cannot be written, not even by root
+            # A folder with the name of the temporary file makes writing impossible, even for root.
+            draft.mkdir()
         page.keyboard.press("Escape")
         expect(page.get_by_role("alert")).to_contain_text("Not saved: overrides.csv cannot be written")
         page.keyboard.press("n")
@@ -111,7 +112,7 @@ def test_a_folder_that_cannot_be_written(browser: Browser, tmp_path: Path) -> No
 
 
 def test_a_spreadsheet_saves_while_the_page_is_open(browser: Browser, tmp_path: Path) -> None:
-    """The page reads the new rows, and adds its own change to them."""
+    """If a spreadsheet changes the file, the page reads the new rows and adds its own change."""
     out = write_class(tmp_path)
     with serving(out) as url, opened(browser, url) as (page, _words):
         page.keyboard.press("n")
@@ -129,7 +130,7 @@ def test_a_spreadsheet_saves_while_the_page_is_open(browser: Browser, tmp_path: 
 def test_the_page_is_accessible_and_fits(
     browser: Browser, tmp_path: Path, colours: Literal["light", "dark"]
 ) -> None:
-    """axe-core finds no problem in wide and narrow windows; no harmful text runs, and nothing overflows."""
+    """axe-core finds no problem, no script in a student's text runs, and the page fits into the window."""
     out = write_class(tmp_path)
     with serving(out) as url:
         for width in (1280, 900, 390):
@@ -139,14 +140,15 @@ def test_the_page_is_accessible_and_fits(
                     assert page.evaluate("document.documentElement.scrollWidth") <= width
                     picture(page, f"review-{width}-{colours}-{shown}")
                     page.keyboard.press("n")
-                # a script of the page's own origin would be allowed, so axe-core runs in the debugger
+                # The page's policy would allow a script from its own origin, so the test injects axe-core
+                # with the debugger.
                 page.evaluate(AXE)
                 assert violations(page) == []
                 assert words == []
 
 
 def test_only_a_selection_is_shown(browser: Browser, tmp_path: Path) -> None:
-    """With --flagged, the page shows only answers with flags, and the flag with its evidence."""
+    """With --flagged, the page shows only answers with flags."""
     out = write_class(tmp_path)
     with serving(out, Wanted(flagged=True)) as url, opened(browser, url) as (page, _words):
         expect(page.locator("#progress")).to_have_text("s03: 1 of 1; 0 reviewed")
@@ -154,5 +156,5 @@ def test_only_a_selection_is_shown(browser: Browser, tmp_path: Path) -> None:
 
 
 def _drafts(out: Path) -> list[Path]:
-    """Return the paths of the temporary files with which this process writes overrides.csv."""
+    """Return the paths of the temporary files of overrides.csv."""
     return [out / f".{FILE}.{os.getpid()}"]

@@ -1,4 +1,4 @@
-"""The server refuses foreign requests; the command refuses wrong folders; SIGKILL loses no saved points."""
+"""Tests of the review server and of its command."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def _ask(url: str, headers: dict[str, str], data: object = None) -> tuple[int, d
 
 
 def test_foreign_requests_are_refused(tmp_path: Path) -> None:
-    """Every address needs the token, the right host and the right origin, and sends the policy."""
+    """The server refuses a request without the token, or with a wrong host or origin."""
     out = write_class(tmp_path)
     change = {"number": 1, "points": "1", "comment": ""}
     with serving(out) as url:
@@ -62,7 +62,7 @@ def test_foreign_requests_are_refused(tmp_path: Path) -> None:
 
 @contextmanager
 def _review(out: Path, *options: str) -> Iterator[tuple[subprocess.Popen[str], str, str]]:
-    """Run `course review`; yield the process, its address and its token."""
+    """Run `course review`, and yield the process, its address and its token."""
     command = [COURSE, "review", out, "--no-browser", *options]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         try:
@@ -82,7 +82,7 @@ def _refused(out: Path, *options: str) -> str:
 
 
 def test_the_command(tmp_path: Path) -> None:
-    """A second review is refused; SIGKILL loses nothing that was saved; Ctrl-C ends with one line."""
+    """A second `course review` of the folder is refused, and SIGKILL loses no saved points."""
     out = write_class(tmp_path / "grades")
     with _review(out, "--part", "5.1") as (process, url, token):
         own = {"Authorization": f"token {token}"}
@@ -99,7 +99,7 @@ def test_the_command(tmp_path: Path) -> None:
 
 
 def test_the_command_explains_what_is_wrong(tmp_path: Path) -> None:
-    """No folder, no results, a busy port and an unknown part each give one message."""
+    """A wrong folder, a busy port or an unknown part leads to one error message."""
     assert "There is no folder" in _refused(tmp_path / "none")
     assert "contains no results" in _refused(tmp_path)
     out = write_class(tmp_path / "grades")
@@ -112,7 +112,7 @@ def test_the_command_explains_what_is_wrong(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("content", ["student,part\n", "\xff"])
 def test_a_wrong_file_stops_the_review(tmp_path: Path, content: str) -> None:
-    """The message names the line, and the file stays as it is."""
+    """The error message contains the line number, and the file does not change."""
     out = write_class(tmp_path / "grades")
     (out / "overrides.csv").write_bytes(content.encode("latin-1"))
     assert "line 1" in _refused(out)

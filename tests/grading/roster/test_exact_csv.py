@@ -1,4 +1,4 @@
-"""If a cell is changed, all other bytes of the file stay the same."""
+"""Tests that change one cell of a CSV file without changing any other byte."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ FILES = [
 
 @pytest.mark.parametrize("text", FILES)
 def test_unchanged_is_unchanged(text: str) -> None:
-    """If a file is read and written again, its bytes are the same."""
+    """A file that is read and written again has the same bytes."""
     assert text_of(list(records(text, ",")), ",") == text
 
 
 def test_it_reads_as_the_csv_module_does() -> None:
-    """If a file follows RFC 4180, the values are the same as from Python's csv module."""
+    """For a file in the format of RFC 4180, the values are equal to those from Python's csv module."""
     draw = random.Random(4)  # noqa: S311 -- the files are the same each time
     for _ in range(300):
         rows = [
@@ -44,13 +44,13 @@ def test_it_reads_as_the_csv_module_does() -> None:
 
 
 def test_quotes_of_php() -> None:
-    """PHP does not double a quote that follows a backslash; such a quote does not end the CSV cell early."""
+    """A quote after a backslash does not end a CSV cell."""
     [_, row] = records(FILES[-1], ",")
     assert [row.value(0), row.value(1)] == ['a \\"PHP\\" quote, 1', "2"]
 
 
 def test_lines_are_counted_in_the_file() -> None:
-    """A record contains the number of the line where it begins."""
+    """A record contains the line number of its beginning."""
     assert [each.line for each in records('a\n"1\n2"\nb\n', ",")] == [1, 2, 4]
 
 
@@ -65,7 +65,7 @@ def test_lines_are_counted_in_the_file() -> None:
     ],
 )
 def test_how_a_cell_is_written(before: str, value: str, after: str) -> None:
-    """A changed cell is quoted if the old cell was quoted, or if the new value needs quotes."""
+    """A changed cell is quoted if the old cell was quoted or if the new value needs quotes."""
     record = Record([before, "x"], "\n", 1)
     record.put(0, value, ",")
     assert record.cells == [after, "x"]

@@ -1,4 +1,4 @@
-"""Students are found by number, username, email and name; an ambiguous case is reported and never guessed."""
+"""Tests that find a submission's student in the roster."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _matched(origins: Origins, roster: tuple[Person, ...] = ROSTER) -> ClassList
     ],
 )
 def test_who_is_found(student: str, origin: str) -> None:
-    """The name of a folder may be any field of the roster, or a platform's name and number."""
+    """A folder's name may be any field of the roster, or a platform's name and number."""
     found = _matched({student: [origin]})
     assert found.people[student].line == JANE.line
     assert (found.found, found.strangers, found.unclear) == (1, (), {})
@@ -45,12 +45,12 @@ def test_who_is_found(student: str, origin: str) -> None:
 
 @pytest.mark.parametrize("name", ["Max Ernst Müller", "muller, max ernst", "Mu\u0308ller Max Ernst"])
 def test_names_in_any_order_and_with_any_accents(name: str) -> None:
-    """The parts of a name may be in another order; accents may be missing, or may be separate characters."""
+    """The order of a student's names and the accents do not matter."""
     assert _matched({name: [f"{name}/05.ipynb"]}).people[name].username == "mmueller"
 
 
 def test_two_students_with_one_name() -> None:
-    """If a name fits two rows, the student is unclear; neither row counts as missing."""
+    """If a name fits two rows, the student is reported as unclear."""
     found = _matched({"Ann Lee": ["Ann Lee/05.ipynb"]})
     assert "Ann Lee" not in found.people
     assert found.unclear == {"Ann Lee": "it fits several rows of the roster (lines 4 and 5)"}
@@ -58,33 +58,33 @@ def test_two_students_with_one_name() -> None:
 
 
 def test_a_number_decides_between_two_students_with_one_name() -> None:
-    """A student is found by the Canvas user id in the name of the file."""
+    """The Canvas user id in the file name selects one of two students with the same name."""
     found = _matched({"leeann_20": ["leeann_20_99_05.ipynb"]})
     assert found.people["leeann_20"].username == "alee2"
     assert found.unclear == {}
 
 
 def test_parts_that_contradict_each_other() -> None:
-    """If the number belongs to one student and the name to another, the student is reported as unclear."""
+    """If the number and the name belong to different students, the student is reported as unclear."""
     found = _matched({"doejane_18": ["doejane_18_99_05.ipynb"]})
     assert "different rows of the roster (lines 2 and 3)" in found.unclear["doejane_18"]
     assert found.people["doejane_18"] == Person("doejane", "18")
 
 
 def test_a_number_of_moodle_is_no_id() -> None:
-    """Moodle's participant number is not used as an id, because it may be the id of another student."""
+    """Moodle's participant number does not match an id in the roster."""
     found = _matched({"Jo New_18": ["Jo New_18_assignsubmission_file_/05.ipynb"]})
     assert (found.strangers, found.unclear) == (("Jo New_18",), {})
 
 
 def test_a_roster_with_the_numbers_of_moodle() -> None:
-    """If the id is Moodle's number and the name agrees, the id decides between two equal names."""
+    """If the number and the name both match, the number selects one of two students with the same name."""
     found = _matched({"Ann Lee_20": ["Ann Lee_20_assignsubmission_file_/05.ipynb"]})
     assert found.people["Ann Lee_20"].username == "alee2"
 
 
 def test_two_folders_of_one_student() -> None:
-    """If two folders fit the same row, both are unclear, because only one can be right."""
+    """If two folders fit the same row, both folders are reported as unclear."""
     found = _matched({"jdoe": ["jdoe/05.ipynb"], "Jane Doe": ["Jane Doe/05.ipynb"]})
     assert found.unclear == {
         "jdoe": "it fits the same row of the roster (line 2) as Jane Doe",
@@ -94,13 +94,13 @@ def test_two_folders_of_one_student() -> None:
 
 
 def test_strangers_and_a_file_of_nobody() -> None:
-    """A student without a row is listed as not on the roster; a file without a student does not count."""
+    """A student without a row is reported, and a file without a student is ignored."""
     found = _matched({"s99": ["s99/05.ipynb"], "": ["05.ipynb"]})
     assert (found.strangers, found.missing) == (("s99",), ROSTER)
 
 
 def test_the_summary() -> None:
-    """The sentences list missing students, students who are not on the roster, and unclear students."""
+    """The summary lists missing, unknown and unclear students."""
     origins = {name: [f"{name}/05.ipynb"] for name in ("jdoe", "mmueller", "Ann Lee", "s99")}
     assert list(_matched(origins).summary()) == [
         "Roster: 2 of 4 students handed in their work.",
@@ -116,10 +116,7 @@ def test_the_summary() -> None:
 
 
 def test_without_lists() -> None:
-    """Without a roster, students have the names and numbers of the platforms.
-
-    There is no report about them.
-    """
+    """Without a roster, students have the names and numbers of the platforms."""
     found = Lists().matched({"doejane_17": ["doejane_17_99_05.ipynb"], "s01": ["s01/05.ipynb"]})
     assert found.people == {"doejane_17": Person("doejane", "17")}
     assert list(found.summary()) == []

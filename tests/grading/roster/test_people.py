@@ -1,7 +1,4 @@
-"""Rosters from spreadsheets and platforms can be read.
-
-For an invalid roster, the message contains no names.
-"""
+"""Tests of the reader for rosters from spreadsheets and platforms."""
 
 from __future__ import annotations
 
@@ -35,10 +32,7 @@ def _file(folder: Path, content: str | bytes) -> Path:
     ids=["as documented", "another order", "Excel", "tabs", "blanks", "UTF-16", "two columns for the name"],
 )
 def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | bytes) -> None:
-    """A roster can be read with any order, separator, capitals and spaces.
-
-    It may have a byte order mark, and the column names of platforms.
-    """
+    """A roster may have any column order, separator and capitals, and a byte order mark."""
     [person] = read_roster(_file(tmp_path, content))
     assert (person.name, person.id, person.email, person.username, person.section) == (
         *("Jane Doe", "17", "jane@uni.example"),
@@ -56,12 +50,12 @@ def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | by
     ],
 )
 def test_columns_that_are_missing(tmp_path: Path, content: str, person: Person) -> None:
-    """One column that identifies students is enough; other columns are stored; short rows are filled up."""
+    """One column that identifies students is enough."""
     assert read_roster(_file(tmp_path, content)) == (person,)
 
 
 def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
-    """From Canvas's export, the row with the possible points and the test student are left out."""
+    """In Canvas's export, the row of possible points and the test student are ignored."""
     content = (
         "Student,ID,SIS User ID,SIS Login ID,Section,Lab 1 (99)\n    Points Possible,,,,,9.0\n"
         '"Doe, Jane",17,S4,jdoe,ROS 2026,\n"Student, Test",18,,f00,ROS 2026,\n'
@@ -91,7 +85,7 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
     ],
 )
 def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """The error message contains the mistake, its place and what to do, but no cell of the file."""
+    """The error message contains the mistake and its line, but no cell of the file."""
     with pytest.raises(GradingError, match=message) as caught:
         read_roster(_file(tmp_path, content))
     assert "roster.csv" in str(caught.value)
@@ -99,12 +93,12 @@ def test_a_bad_roster(tmp_path: Path, content: str | bytes, message: str) -> Non
 
 
 def test_no_roster(tmp_path: Path) -> None:
-    """The message contains the name of the missing file."""
+    """The error message contains the name of the missing file."""
     with pytest.raises(GradingError, match=r"none\.csv cannot be read: No such file.*Correct the path"):
         read_roster(tmp_path / "none.csv")
 
 
 def test_labels() -> None:
-    """The label is the most readable field; for students with the same name, the line is added."""
+    """A student's label is the name; for students with the same name, the label contains the line number."""
     people = [JANE, Person(email="a@b.example", line=3), Person("Jane Doe", line=4)]
     assert list(labels(people)) == ["Jane Doe (line 2)", "a@b.example", "Jane Doe (line 4)"]

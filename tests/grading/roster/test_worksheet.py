@@ -1,4 +1,4 @@
-"""In a copy of Moodle's worksheet, only grades and feedback differ; an invalid worksheet is refused."""
+"""Tests that write grades into a copy of Moodle's worksheet."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def _read(folder: Path, content: str | bytes) -> Worksheet:
 
 @pytest.mark.parametrize("content", [ENGLISH, GERMAN, FRENCH, SPANISH, ANONYMOUS], ids=IDS)
 def test_an_unchanged_copy(tmp_path: Path, content: str) -> None:
-    """Without grades, the copy has the same bytes as the file."""
+    """Without grades, the copy has the same bytes as the original worksheet."""
     assert _read(tmp_path, content).copy({}) == content.encode()
 
 
@@ -33,7 +33,7 @@ def test_an_unchanged_copy(tmp_path: Path, content: str) -> None:
     ids=IDS,
 )
 def test_only_two_cells_change(tmp_path: Path, content: str, grade: int, written: str) -> None:
-    """The grade has the decimal separator of the file; names, order, quotes and line ends do not change."""
+    """The grade has the file's decimal separator, and all other cells do not change."""
     worksheet = _read(tmp_path, content)
     first = worksheet.participants[0]
     separator = ";" if content is FRENCH else ","
@@ -66,7 +66,7 @@ def test_only_two_cells_change(tmp_path: Path, content: str, grade: int, written
 def test_the_participants(
     tmp_path: Path, content: str, maxima: list[float | None], locked: list[bool]
 ) -> None:
-    """Number, name, address, maximum grade and lock are read in each language."""
+    """The participants are read from a worksheet in any language."""
     found = _read(tmp_path, content).participants
     assert [each.maximum for each in found] == maxima
     assert [each.locked for each in found] == locked
@@ -95,7 +95,7 @@ def test_the_participants(
     ],
 )
 def test_a_file_that_moodle_would_refuse(tmp_path: Path, content: str | bytes, message: str) -> None:
-    """The error message contains the mistake, its place and what to do, but no cell of the file."""
+    """The error message contains the mistake and its line, but no cell of the file."""
     with pytest.raises(GradingError, match=message) as caught:
         _read(tmp_path, content)
     assert "sheet.csv" in str(caught.value)

@@ -1,13 +1,10 @@
-"""Grading worksheets in the form in which Moodle writes them.
-
-They are in several languages and have several settings.
-"""
+"""Grading worksheets in Moodle's format, in several languages and with several settings."""
 
 from __future__ import annotations
 
 DATE = '"Monday, 5 October 2026, 10:00 AM"'
-# A file from an English Moodle site with group submission, marking workflow and online text, in the format of
-# newer versions.
+# This file has the format of a new English Moodle site, with group submission, marking workflow and online
+# text.
 ENGLISH = (
     '\ufeffIdentifier,"Full name","ID number","Email address",Status,Group,Marker,Grade,"Maximum grade",'
     '"Marking workflow state","Grade can be changed","Last modified (submission)","Online text",'
@@ -22,7 +19,7 @@ ENGLISH = (
     '"Participant 104","Bo Li",4714,bo@uni.example,"Submitted for grading",'
     f",,10.00,100.00,Released,No,{DATE},,-,kept\n"
 )
-# A site in German: every cell in quotes, decimal commas, no space in the identifier, Windows line ends.
+# This file has the format of a German site: all cells are quoted, and numbers have decimal commas.
 GERMAN = (
     '"ID","Vollständiger Name","E-Mail-Adresse","Status","Bewertung","Bestwertung",'
     '"Bewertung kann geändert werden","Zuletzt geändert (Abgabe)","Zuletzt geändert (Bewertung)",'
@@ -32,7 +29,7 @@ GERMAN = (
     '"Teilnehmer/in102","Max Müller","max@uni.example",'
     '"Zur Bewertung abgegeben","","10,00","Ja","-","-",""\r\n'
 )
-# A site in French; the file was saved by a spreadsheet program with semicolons.
+# This file has the format of a French site, and a spreadsheet program saved it with semicolons.
 FRENCH = (
     "Identifiant;Nom complet;Adresse de courriel;Statut;"  # codespell:ignore complet,adresse
     "Note;Note maximale;La note peut être modifiée;"
@@ -45,7 +42,7 @@ SPANISH = (
     '"Última modificación (calificación)","Comentarios de retroalimentación"\n'
     '"Participante 101","Jane Doe","jane@uni.example","Enviado","","9,00","Sí","-","-",""\n'
 )
-# Anonymous submissions, without feedback comments and without a maximum grade.
+# This file contains anonymous submissions, without feedback comments and without a maximum grade.
 ANONYMOUS = (
     "Identifier,Status,Grade,Grade can be changed,Last modified (grade)\n"
     "Participant 101,Submitted for grading,,Yes,-\n"

@@ -1,4 +1,4 @@
-"""A dask scheduler that has no workers, and one that ends during the run."""
+"""Tests with a dask scheduler that has no workers or ends during the run."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ distributed = pytest.importorskip("distributed")
 
 @pytest.fixture(scope="module")
 def scheduler(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[subprocess.Popen[bytes], str]]:
-    """Start a scheduler without workers; yield its process and its address."""
+    """Start a scheduler without workers, and yield its process and its address."""
     file = tmp_path_factory.mktemp("scheduler") / "scheduler.json"
     words = ["--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(file)]
     command = [sys.executable, "-m", "distributed.cli.dask_scheduler", *words]
@@ -39,7 +39,7 @@ def _address(file: Path) -> str:
 
 
 def test_a_scheduler_without_workers(scheduler: tuple[subprocess.Popen[bytes], str]) -> None:
-    """The message contains the command that starts workers."""
+    """The error message contains the command that starts workers."""
     _, address = scheduler
     expected = rf"no worker .*\./course run dask worker {address}"
     with pytest.raises(GradingError, match=expected), cluster_of(address, patience=0.5):
@@ -56,7 +56,7 @@ def test_workers_that_end_during_the_run(scheduler: tuple[subprocess.Popen[bytes
 
 
 def test_a_scheduler_that_ends_during_the_run(scheduler: tuple[subprocess.Popen[bytes], str]) -> None:
-    """The run ends with one message, which says that the finished grades are kept."""
+    """If the scheduler ends, the run ends with one error message."""
     process, address = scheduler
 
     class Killing(Cluster):

@@ -1,4 +1,4 @@
-"""The end of a run: the changed points, the results that stay, the last line, and the exit status."""
+"""Tests of the output at the end of a grading run."""
 
 from __future__ import annotations
 
@@ -25,31 +25,31 @@ LESS = _grade("s01", Verdict.PASSED, Verdict.FAILED)
 
 
 def test_points_before_and_after() -> None:
-    """For each changed part, there is a line with the student, the part and both values."""
+    """Each changed part has a line with the student, the part, the old points and the new points."""
     assert list(map(str, changes([LESS], [FULL]))) == ["s01, 05.2: 0 before, 2 now"]
     assert changes([FULL], [FULL]) == []
 
 
 def test_parts_that_only_one_run_has() -> None:
-    """If a part was added or removed, this is a change, too."""
+    """An added or removed part is reported as a change."""
     shorter = replace(FULL, reports=FULL.reports[:1])
     assert list(map(str, changes([shorter], [FULL]))) == ["s01, 05.2: none before, 2 now"]
     assert list(map(str, changes([FULL], [shorter]))) == ["s01, 05.2: 2 before, none now"]
 
 
 def test_lateness_alone() -> None:
-    """If only the lateness has changed the points, the line is about the chapter."""
+    """If only the lateness has changed, one line reports the points of the chapter."""
     late = replace(FULL, late=1.0, factor=0.5)
     assert list(map(str, changes([FULL], [late]))) == ["s01, chapter 05: 4 before, 2 now"]
 
 
 def test_a_new_student_is_no_change() -> None:
-    """If a submission has no earlier result, it is not a change."""
+    """A submission without an earlier result is not reported as a change."""
     assert changes([FULL], [replace(LESS, student="s02")]) == []
 
 
 def test_many_changes_are_in_the_file(tmp_path: Path) -> None:
-    """The terminal shows 40 changes; changes.csv contains all changes, and no cell is a formula."""
+    """The terminal shows the first 40 changes, and changes.csv contains all changes."""
     before = [replace(LESS, student=f"=s{number:03}") for number in range(60)]
     after = [replace(FULL, student=f"=s{number:03}") for number in range(60)]
     found = changes(before, after)
@@ -86,12 +86,12 @@ def test_a_name_cannot_control_the_terminal(tmp_path: Path) -> None:
     ],
 )
 def test_the_last_line_and_the_status(grades: list[Grade], line: str, status: int) -> None:
-    """A submission needs a look if it has a problem, an unexamined part, no known time, or no points."""
+    """The last line contains the number of submissions that an instructor must check."""
     assert (last_line(grades), status_of(grades)) == (line, status)
 
 
 def test_empty_folders_are_named() -> None:
-    """The line lists the students whose folder is empty, but at most ten."""
+    """The line lists at most ten students with an empty folder."""
     empty = [refused(f"s{number:02}", "", f"{NOTHING}: the folder is empty.") for number in range(12)]
     (line,) = about_empty([FULL, *empty])
     assert "s00, s01, " in line
@@ -100,7 +100,7 @@ def test_empty_folders_are_named() -> None:
 
 
 def test_results_that_stay(tmp_path: Path) -> None:
-    """The lines contain the students without a new submission, and the number of all other results."""
+    """The lines list the students without a new submission."""
     marked, kept = about_rest([replace(FULL, absent=True), replace(FULL, student="s02")], tmp_path)
     assert "s01 (chapter 05)" in marked
     assert kept == f"1 other result in {tmp_path} stayed as it was."

@@ -1,4 +1,4 @@
-"""A private folder with files that are misnamed, empty or not used."""
+"""Tests of a private folder with wrong, empty or unused files."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ CHAPTERS = ["05", "06"]
     ],
 )
 def test_a_wrong_folder_is_refused(tmp_path: Path, files: dict[str, bytes], said: str) -> None:
-    """The message contains the wrong file name and the valid names."""
+    """The error message contains the wrong file name and the valid names."""
     with pytest.raises(GradingError, match=said):
         require_names(folder(tmp_path, files), CHAPTERS)
 
 
 def test_another_file_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """If the name of a file is completely different, there is no error, but the file is not used."""
+    """A file with a completely different name is not used, and a message says this."""
     require_names(folder(tmp_path, {"private_05.py": b"x", "notes.md": b"", ".git/config": b""}), CHAPTERS)
     assert "notes.md" in capsys.readouterr().err
     require_names(folder(tmp_path / "a", {"points.json": b"{}"}), CHAPTERS)

@@ -1,4 +1,4 @@
-"""`course grade` again: one student, one part, a changed notebook, a withdrawn student, a deadline."""
+"""Tests that run `course grade` again with other options or submissions."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def _points(folder: Path) -> dict[str, str]:
 
 
 def test_a_class_over_several_runs(tmp_path: Path) -> None:
-    """Each run prints the changes, keeps the results that were not selected, and prints its last line."""
+    """Each run prints the changes, and does not change the results that were not selected."""
     for student in ("s01", "s02", "s03"):
         hand_in(tmp_path, student, "00", {"00.1": ""})
     hand_in(tmp_path, "s01", "00")
@@ -78,7 +78,7 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
     ],
 )
 def test_an_option_that_makes_no_sense(tmp_path: Path, words: list[str], said: str) -> None:
-    """The message contains the option, and nothing is graded."""
+    """The error message contains the option, and nothing is graded."""
     hand_in(tmp_path, "s01", "00")
     options = vars(parse(["grade", str(tmp_path), "--out", str(tmp_path / "grades"), *words]))
     with pytest.raises(CourseError, match=re.escape(said)):
@@ -86,7 +86,7 @@ def test_an_option_that_makes_no_sense(tmp_path: Path, words: list[str], said: s
 
 
 def test_a_private_part_without_an_exercise(tmp_path: Path) -> None:
-    """If a private module has no parts, it is refused before any submission is graded."""
+    """A private module without parts is refused before grading."""
     hand_in(tmp_path / "in", "s01", "00")
     private = tmp_path / "private"
     private.mkdir()

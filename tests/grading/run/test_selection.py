@@ -1,4 +1,4 @@
-"""The options --student, --part and --chapters select the results that are graded again."""
+"""Tests of the options --student, --part and --chapters."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def _chosen(selected: Selection) -> list[tuple[str, str]]:
 
 
 def test_nothing_selects_everything() -> None:
-    """Without an option, all submissions are graded, and stored grades are used."""
+    """Without an option, all submissions are graded."""
     selected = selection((), (), ())
     assert _chosen(selected) == [(each.student, each.chapter) for each in SUBMISSIONS]
     assert selected.everything
@@ -39,32 +39,32 @@ def test_nothing_selects_everything() -> None:
 
 
 def test_a_chapter_and_files_without_a_chapter() -> None:
-    """If the chapter of a file is unknown, the file may belong to the selected chapter."""
+    """A file with an unknown chapter may belong to the selected chapter."""
     assert ("A Two_19", "") in _chosen(selection((), ("05",), ()))
     assert ("s01", "06") not in _chosen(selection((), ("05",), ()))
 
 
 @pytest.mark.parametrize("name", ["s01", "S01"])
 def test_a_student_in_any_case(name: str) -> None:
-    """Upper and lower case do not matter, as long as only one student fits."""
+    """A student's name may be given in upper or lower case."""
     assert _chosen(selection([name], (), ())) == [("s01", "05"), ("s01", "06")]
 
 
 def test_a_student_without_the_number_of_the_platform() -> None:
-    """The number that a platform adds can be left out, as long as the name is unique."""
+    """A student's name may be given without the platform's number."""
     assert _chosen(selection(["a two"], (), ())) == [("A Two_19", "")]
 
 
 @pytest.mark.parametrize(("name", "said"), [("A One", "fits 2 students"), ("s99", "of no student")])
 def test_a_name_that_does_not_fit_one_student(name: str, said: str) -> None:
-    """The message says which file lists the names, and contains no other student's name."""
+    """The error message names the file with the list of names, and contains no other student's name."""
     with pytest.raises(GradingError, match=rf"--student {name} .*{said}.*grades\.csv") as caught:
         selection([name], (), ()).for_students(SUBMISSIONS)
     assert "s01" not in str(caught.value)
 
 
 def test_a_part_selects_its_chapter() -> None:
-    """The chapter's number in a part's id may have one digit."""
+    """In a part's id, the chapter number may have one digit."""
     selected = selection((), (), ["5.2"])
     assert (selected.chapters, selected.parts_of("05"), selected.parts_of("06")) == (("05",), ("05.2",), ())
     assert selected.again
@@ -74,7 +74,7 @@ def test_a_part_selects_its_chapter() -> None:
     ("chapters", "part", "said"), [((), "05.99", "05.99"), (("06",), "05.1", "--part 05.1 is not in")]
 )
 def test_a_part_that_cannot_be_selected(chapters: tuple[str, ...], part: str, said: str) -> None:
-    """An unknown part is an error, and so is a part whose chapter is not in --chapters."""
+    """An unknown part, or a part of an unselected chapter, is an error."""
     with pytest.raises(CourseError, match=said):
         selection((), chapters, [part])
 
@@ -85,7 +85,7 @@ def _grade(*verdicts: Verdict, **more: object) -> Grade:
 
 
 def test_the_other_parts_keep_their_results() -> None:
-    """Only the parts that were graded again are replaced; a new part is inserted in the right order."""
+    """Only the selected parts are replaced, and a new part is inserted in the right order."""
     base = _grade(Verdict.PASSED, Verdict.FAILED, notes=(f"{IN_PACKAGES}: 05.1.", "old"), absent=True)
     again = replace(base, reports=(report("05.3"), report("05.2")), notes=("new",), late=1.0)
     both = merged(base, again)
@@ -103,13 +103,13 @@ def test_the_other_parts_keep_their_results() -> None:
 
 
 def test_parts_of_two_versions_have_no_key() -> None:
-    """If different checks examined the parts of a grade, the grade is never used as a complete one."""
+    """A grade whose parts come from different checks is not used as a complete grade."""
     base = _grade(Verdict.PASSED, Verdict.FAILED)
     assert merged(base, replace(base, key="other")).key == ""
 
 
 def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
-    """If a notebook is new or has changed, all its parts are graded."""
+    """If the notebook has changed, all its parts are graded."""
     submission = SUBMISSIONS[0]
     known = _grade(Verdict.PASSED, handed_in=submission.digest)
     selected = selection((), (), ["05.2"])
@@ -120,7 +120,7 @@ def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
 
 
 def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
-    """A result that was not selected stays; a selected result whose submission is missing gets a mark."""
+    """A result that was not selected does not change. A selected result without a submission gets a mark."""
     write_reports([*class_of(3, ("05", "06")), refused("s09", "")], tmp_path)
     earlier = read_earlier(tmp_path)
     now = [grade for grade in earlier.grades if grade.student == "s01" and grade.chapter == "05"]
@@ -138,7 +138,7 @@ def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
 
 
 def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
-    """If no student handed in a chapter this time, its earlier results stay and get no mark."""
+    """If nobody handed in a chapter, its earlier results get no mark."""
     write_reports(class_of(2, ("05", "06")), tmp_path)
     earlier = read_earlier(tmp_path)
     now = [grade for grade in earlier.grades if grade.chapter == "06" and grade.student == "s01"]
@@ -149,7 +149,7 @@ def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
 
 
 def test_kept_grades_belong_to_no_student(tmp_path: Path) -> None:
-    """A part that was graded again replaces the stored one.
+    """A newly graded part replaces the stored part.
 
     Other stored grades of this notebook are removed.
     """
@@ -170,10 +170,7 @@ def test_kept_grades_belong_to_no_student(tmp_path: Path) -> None:
 
 
 def test_marked_results_are_in_no_file_for_a_platform(tmp_path: Path) -> None:
-    """The reports mark results of missing submissions.
-
-    The files for Canvas and Moodle do not contain them.
-    """
+    """The files for Canvas and Moodle contain no results of missing submissions."""
     present, absent = class_of(2)
     write_reports([present, replace(absent, absent=True)], tmp_path)
     for name in ("class.html", "grades.csv", "feedback/s02.html"):
@@ -187,7 +184,7 @@ def test_marked_results_are_in_no_file_for_a_platform(tmp_path: Path) -> None:
 
 
 def test_a_file_that_is_no_result_is_counted(tmp_path: Path) -> None:
-    """A damaged record, or a record of another version, does not stop the run."""
+    """The run continues after a damaged record, or a record of another version."""
     write_reports(class_of(1), tmp_path)
     (tmp_path / "results" / "s01" / "06.json").write_text("{}")
     assert (len(read_earlier(tmp_path).grades), read_earlier(tmp_path).unreadable) == (1, 1)

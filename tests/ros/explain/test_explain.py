@@ -1,4 +1,4 @@
-"""The course explains each known error as an exception, as a message, and in a longer text."""
+"""Tests that the course explains each known error."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ CMake Error at my_services/CMakeLists.txt:6 (add_service_files):
 
 -- Configuring incomplete, errors occurred!
 """
-# Error messages of rospy 1.15 on a real graph, each with a part of the correct explanation.
+# Each error message of rospy 1.15 has a text that the explanation must contain.
 RESPONDED = "ServiceException: service [/x] responded with an error: "
 SERVER_REFUSED = f"{RESPONDED}b'service cannot process request: "
 HANDLER_FAILED = f"{RESPONDED}b'error processing request: "
@@ -78,7 +78,7 @@ PASTED = {
 
 @pytest.mark.parametrize(("text", "stretch"), PASTED.items(), ids=range(len(PASTED)))
 def test_pasted_text_is_explained(text: str, stretch: str) -> None:
-    """In a message, a traceback, a log and a build's output, the last error is explained."""
+    """In a pasted text, such as a log, explain() explains the last error."""
     found = explain(text)
     assert found.known
     assert stretch in found.cause
@@ -86,7 +86,7 @@ def test_pasted_text_is_explained(text: str, stretch: str) -> None:
 
 
 def test_an_exception_is_explained_by_its_own_message_first() -> None:
-    """If the table contains an exception's own message, the cause of the exception is not used."""
+    """explain() uses an exception's own message before the message of its cause."""
     cause = ConnectionRefusedError(111, "Connection refused")
     told = RuntimeError("the robot did not move")
     told.__cause__ = cause
@@ -97,10 +97,7 @@ def test_an_exception_is_explained_by_its_own_message_first() -> None:
 
 
 def test_errors_of_the_course_are_explained() -> None:
-    """The table explains errors of the master.
-
-    An error that is not in the table is explained by its own message.
-    """
+    """explain() explains errors of the course."""
     with pytest.raises(Exception, match="No ROS master") as raised:
         MasterClient("http://localhost:1").pid()
     assert "No master answers" in explain(raised.value).cause
@@ -121,7 +118,7 @@ class Unshowable(Exception):
 
 
 def ring() -> Exception:
-    """Return an exception whose chain of causes contains the exception itself."""
+    """Return an exception that is in its own chain of causes."""
     one, other = KeyError("one"), KeyError("other")
     one.__cause__, other.__cause__ = other, one
     return one
@@ -133,7 +130,7 @@ def ring() -> Exception:
     ids=lambda thing: type(thing).__name__,
 )
 def test_an_unknown_error_gets_a_next_step(thing: object) -> None:
-    """For every unknown object, explain() returns a sentence and advice, and raises no error."""
+    """For every unknown object, explain() returns a sentence and advice."""
     found = explain(thing)
     assert isinstance(found, Explanation)
     assert not found.known
@@ -146,13 +143,13 @@ def test_an_unknown_error_gets_a_next_step(thing: object) -> None:
     ["service [/x", "service cannot process request: ", "error processing request: ", "The manifest "],
 )
 def test_a_long_text_with_many_partial_matches(start: str) -> None:
-    """explain() is also fast for a long log and for a very long line."""
+    """explain() is fast for a long log and for a very long line."""
     assert "still lists" in explain(f"{start}\n" * 15_000 + REFUSED).cause or "process" in start
     assert isinstance(explain(start * 15_000), Explanation)
 
 
 def test_an_explanation_in_a_notebook() -> None:
-    """The result has three lines, which are the same in every run.
+    """In a notebook, an explanation has three lines.
 
     In HTML, text between backticks is code.
     """
@@ -170,7 +167,7 @@ def test_an_explanation_in_a_notebook() -> None:
 
 
 def test_each_row_names_an_existing_chapter() -> None:
-    """Each row of the table refers to an existing chapter, and its sentences are complete."""
+    """Each row of the table names an existing chapter."""
     for pattern, cause, remedy, chapter in TABLE:
         assert chapter in CHAPTERS, pattern
         assert cause.endswith("."), pattern
@@ -179,7 +176,7 @@ def test_each_row_names_an_existing_chapter() -> None:
 
 @pytest.mark.parametrize(("message", "part"), MESSAGES.items(), ids=range(len(MESSAGES)))
 def test_each_error_has_its_own_explanation(message: str, part: str) -> None:
-    """For each error of a call, there is a separate row with advice."""
+    """Each error of a call has a separate explanation."""
     explanation = known(message)
     assert explanation is not None
     assert part in explanation.cause
@@ -187,6 +184,6 @@ def test_each_error_has_its_own_explanation(message: str, part: str) -> None:
 
 
 def test_an_unknown_error_gets_no_explanation() -> None:
-    """known() returns None for an unknown error, and explain() marks its result as not known."""
+    """known() returns None for an unknown error."""
     assert known("KeyError: 'sprocket'") is None
     assert not explain(KeyError("sprocket")).known

@@ -1,4 +1,4 @@
-"""A cell that creates an action server can run again, and stop() removes the action."""
+"""Tests of running a cell with an action server again, and of stop()."""
 
 from __future__ import annotations
 
@@ -32,25 +32,25 @@ def asked(within=10):
 
 @pytest.fixture
 def joined(kernel: Kernel) -> Kernel:
-    """Return a kernel that is a node and has imported the type of an action."""
+    """Return a kernel that runs a node and has imported an action type."""
     kernel.run(START)
     return kernel
 
 
 def test_a_goal_is_executed(joined: Kernel) -> None:
-    """The function receives the goal and the server, and the client receives the function's result."""
+    """The client receives the result of the function."""
     assert joined.run('server = ActionServer("/fetch", FetchAction, returning(3))\nresult = asked()') == 3
 
 
 def test_serving_again_replaces(joined: Kernel, master: PrivateMaster) -> None:
-    """If a cell runs again, only the new function executes goals."""
+    """After the cell runs again, only the new function executes goals."""
     joined.run('server = ActionServer("/fetch", FetchAction, returning(1))')
     joined.run('server = ActionServer("/fetch", FetchAction, returning(2))')
     assert joined.run("result = [asked(), asked()]") == [2, 2]
 
 
 def test_a_failing_function_aborts_only_its_goal(joined: Kernel) -> None:
-    """If a function raises an error or sets no result, its goal is aborted; the next goal is executed."""
+    """If the function raises an error or sets no result, the goal is aborted."""
     assert joined.run("""
         def failing(goal, server):
             if goal.things:
@@ -66,7 +66,7 @@ def test_a_failing_function_aborts_only_its_goal(joined: Kernel) -> None:
 
 
 def test_a_kernel_with_an_action_ends_by_itself(master: PrivateMaster) -> None:
-    """A kernel with an action server can end, and it unregisters the action's topics."""
+    """A kernel with an action server can exit, and the action's topics are unregistered."""
     with Kernel() as kernel:
         kernel.run(START)
         kernel.run('server = ActionServer("/fetch", FetchAction, until_called_off)')
@@ -74,7 +74,7 @@ def test_a_kernel_with_an_action_ends_by_itself(master: PrivateMaster) -> None:
 
 
 def test_stop_removes_the_action_from_the_graph(joined: Kernel, master: PrivateMaster) -> None:
-    """stop() unregisters the topics and cancels the running goal; a second stop changes nothing."""
+    """stop() unregisters the topics and cancels the running goal."""
     joined.run("""
         server = ActionServer("/fetch", FetchAction, until_called_off)
         client = actionlib.SimpleActionClient("/fetch", FetchAction)

@@ -1,4 +1,4 @@
-"""A kernel becomes a node, stays the same node if cells run again, and can change to a new master."""
+"""Tests of join(), which makes a kernel a node."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ JOIN = "from course_pkg.ros import join\nnode = join('student')"
 
 
 def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
-    """The set-up cell always returns the same node, and the kernel is registered only once."""
+    """Another join() returns the same node."""
     kernel.run(JOIN)
     assert kernel.run("result = join('student') is node, node.name, repr(node)") == [
         True,
@@ -30,7 +30,7 @@ def test_joining_again_is_the_same_node(kernel: Kernel) -> None:
 
 
 def test_private_master_without_ros_master_uri() -> None:
-    """Without ROS_MASTER_URI, a kernel starts its own master, and its child processes use this master."""
+    """Without ROS_MASTER_URI, a kernel starts its own master."""
     with Kernel({"ROS_MASTER_URI": None}) as kernel:
         kernel.run(JOIN)
         names = "import subprocess; result = subprocess.check_output(['rosnode', 'list'], text=True).split()"
@@ -38,7 +38,7 @@ def test_private_master_without_ros_master_uri() -> None:
 
 
 def test_workspace_is_found_without_sourcing() -> None:
-    """A kernel can import the course's types without ROS's environment variables, as in an editor."""
+    """A kernel can import the course's types without ROS's environment variables."""
     bare = dict.fromkeys(("ROS_PACKAGE_PATH", "CMAKE_PREFIX_PATH", "ROS_MASTER_URI", "ROS_HOSTNAME"))
     with Kernel({**bare, "PYTHONPATH": str(Path(__file__).parents[2])}) as kernel:
         kernel.run(JOIN)
@@ -50,10 +50,7 @@ def test_workspace_is_found_without_sourcing() -> None:
 
 @pytest.mark.parametrize("uri", ["localhost:11311", "http://localhost", "http://localhost:port", "nonsense"])
 def test_malformed_uri(uri: str) -> None:
-    """For a malformed ROS_MASTER_URI, join() raises an error with an example at once.
-
-    After a correction, it works.
-    """
+    """For a malformed ROS_MASTER_URI, join() raises an error with an example."""
     with Kernel({"ROS_MASTER_URI": uri}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MalformedMasterUri"
@@ -64,7 +61,7 @@ def test_malformed_uri(uri: str) -> None:
 
 
 def test_no_program_at_the_uri() -> None:
-    """If there is no master at the address, join() raises an error at once; after a correction, it works."""
+    """If no master is at the address, join() raises an error, and works after a correction."""
     with Kernel({"ROS_MASTER_URI": "http://localhost:1"}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MasterUnreachable"
@@ -74,7 +71,7 @@ def test_no_program_at_the_uri() -> None:
 
 
 def test_silent_program_at_the_uri() -> None:
-    """If a program accepts the connection but sends nothing, join() raises an error within 4 s."""
+    """If the program at the address sends nothing, join() raises an error within 4 s."""
     with socket.create_server(("127.0.0.1", 0)) as mute, Kernel() as kernel:
         uri = f"http://localhost:{mute.getsockname()[1]}"
         kernel.run(f"import os; os.environ['ROS_MASTER_URI'] = {uri!r}; from course_pkg.ros import join")
@@ -84,7 +81,7 @@ def test_silent_program_at_the_uri() -> None:
 
 
 def test_another_program_at_the_uri(tmp_path: Path) -> None:
-    """If a web server is at the address, join() says that it is not a master."""
+    """If a web server is at the address, join() says that this program is not a master."""
     command = [sys.executable, "-u", "-m", "http.server", "-b", "127.0.0.1", "0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=tmp_path) as web:
         assert web.stdout is not None
@@ -95,7 +92,7 @@ def test_another_program_at_the_uri(tmp_path: Path) -> None:
 
 
 def test_two_kernels_with_one_name(kernel: Kernel) -> None:
-    """The second kernel gets an error, because the name is in use; the first kernel stays a node."""
+    """If two kernels use the same name, the second kernel gets an error."""
     kernel.run(JOIN)
     with Kernel() as second:
         reply = second.ask(JOIN)
@@ -106,7 +103,7 @@ def test_two_kernels_with_one_name(kernel: Kernel) -> None:
 
 
 def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
-    """After SIGKILL of a kernel, a new kernel can have the same name. The old registrations are removed."""
+    """After SIGKILL of a kernel, a new kernel can use the same name."""
     former = Kernel()
     former.run(JOIN + "\nfrom std_srvs.srv import Empty; node.serve('/former', Empty, print)")
     former.kill()
@@ -117,10 +114,7 @@ def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
 
 
 def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
-    """A process can be only one node.
-
-    join() with a second name raises an error, and the node does not change.
-    """
+    """join() with a second name raises an error, because a process can be only one node."""
     kernel.run(JOIN)
     reply = kernel.ask("join('other')")
     assert reply.error == "NotJoined"
@@ -130,12 +124,12 @@ def test_another_name_in_the_same_kernel(kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("name", ["", "1st", "two words", "a/b"])
 def test_illegal_name(kernel: Kernel, name: str) -> None:
-    """For an invalid name, join() raises an error before it starts anything."""
+    """For an invalid name, join() raises an error."""
     assert kernel.ask(f"from course_pkg.ros import join\njoin({name!r})").error == "NotJoined"
 
 
 def test_join_on_another_thread_is_refused(kernel: Kernel) -> None:
-    """On another thread, join() raises an error before it calls rospy; a later join() still works."""
+    """On another thread, join() raises an error, and a later join() on the main thread works."""
     kernel.run("""
         import threading
         from course_pkg.errors import NotJoined
@@ -155,7 +149,7 @@ def test_join_on_another_thread_is_refused(kernel: Kernel) -> None:
 
 
 def test_private_master_killed() -> None:
-    """If the kernel's private master was killed, the set-up cell starts a new master and registers again."""
+    """If the kernel's private master was killed, another join() starts a new master."""
     with Kernel({"ROS_MASTER_URI": None}) as kernel:
         kernel.run(JOIN)
         uri = kernel.run("""
@@ -194,7 +188,7 @@ def test_private_master_killed() -> None:
 
 
 def test_shared_master_restarted() -> None:
-    """If a shared master was restarted, the set-up cell registers the node's services and topics again."""
+    """If a shared master was restarted, another join() registers the services and topics again."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -208,7 +202,7 @@ def test_shared_master_restarted() -> None:
 
 
 def test_moving_to_another_master() -> None:
-    """If a shared master has ended, the set-up cell registers the node at a private master."""
+    """If a shared master has ended, another join() starts a private master."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
@@ -225,7 +219,7 @@ def test_moving_to_another_master() -> None:
 
 
 def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
-    """While a master is stopped, requests fail within their timeout; when it continues, requests work."""
+    """While the master is stopped, requests time out. After SIGCONT, requests work again."""
     kernel.run(JOIN + "; from std_srvs.srv import Trigger; from std_msgs.msg import UInt32")
     with stopped(master.pid):
         for cell in ("join('student')", "node.serve('/x', Trigger, print)", "node.subscribe('/x', UInt32)"):
@@ -236,7 +230,7 @@ def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_exit_while_the_master_is_stopped() -> None:
-    """A kernel ends within 12 s, even if its master does not answer."""
+    """A kernel exits within 12 s, even if its master does not respond."""
     with PrivateMaster() as own:
         kernel = Kernel({"ROS_MASTER_URI": own.uri})
         kernel.run(JOIN)
@@ -253,10 +247,7 @@ def test_exit_while_the_master_is_stopped() -> None:
 
 
 def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
-    """leave() unregisters everything and ends all processes.
-
-    After another join(), the kernel can serve again.
-    """
+    """leave() unregisters everything, and after another join(), the kernel can offer services again."""
     kernel.run(
         JOIN
         + """
@@ -276,10 +267,7 @@ result = server.running
 
 
 def test_leaving_is_prompt(kernel: Kernel) -> None:
-    """leave() does not wait for rospy's threads, and neither does the end of the process.
-
-    So both are fast.
-    """
+    """leave() and the exit of the kernel are fast, because they do not wait for rospy's threads."""
     kernel.run(JOIN)
     assert kernel.ask("node.leave()").took < 0.3
     started = time.monotonic()
@@ -288,7 +276,7 @@ def test_leaving_is_prompt(kernel: Kernel) -> None:
 
 
 def test_root_logger_is_not_changed(kernel: Kernel) -> None:
-    """join() changes neither the handlers nor the level of the root logger."""
+    """join() does not change the root logger."""
     assert kernel.run("""
         import logging
         logging.basicConfig(level=logging.ERROR)
@@ -301,7 +289,7 @@ def test_root_logger_is_not_changed(kernel: Kernel) -> None:
 
 
 def test_log_of_a_handler_is_not_printed_in_the_cell(master: PrivateMaster) -> None:
-    """What a handler's thread logs goes to the node's log file; what the cell logs is printed."""
+    """The log messages of a handler go to the node's log file, and are not printed in the cell."""
     kernel = Kernel()
     kernel.run(
         JOIN
@@ -334,7 +322,7 @@ rospy.spin()
 
 @pytest.mark.parametrize("how", ["rospy.signal_shutdown('test')", SPIN], ids=["signal_shutdown", "spin"])
 def test_node_that_was_shut_down_starts_again(kernel: Kernel, master: PrivateMaster, how: str) -> None:
-    """After a shutdown, the node's methods raise an error, until the set-up cell restores the node."""
+    """After a shutdown, the node's methods raise an error until another join()."""
     kernel.run(
         JOIN
         + """
@@ -365,7 +353,7 @@ heard = node.subscribe("/numbers", UInt32)
 
 
 def test_forked_child_is_not_the_node(kernel: Kernel) -> None:
-    """A forked child is not the node; when it ends, its parent's services stay registered."""
+    """When a forked child exits, the parent's services stay registered."""
     assert kernel.run(
         JOIN
         + """

@@ -1,7 +1,4 @@
-"""With plain rospy, these calls never end.
-
-With the course, they end at their timeout with an error message.
-"""
+"""Tests of calls that never end with plain rospy, but time out with the course."""
 
 from __future__ import annotations
 
@@ -26,7 +23,7 @@ CALL = """
 from std_srvs.srv import Trigger
 node.call({name!r}, Trigger, timeout=0.5)
 """
-LONGEST = 2.0  # s; the timeout is 0.5 s, but the machine may be busy
+LONGEST = 2.0  # A call with a timeout of 0.5 s may take this many seconds on a busy machine.
 
 RAW_SERVER = """
 import rospy, sys, threading
@@ -47,7 +44,7 @@ rospy.spin()
 
 @pytest.fixture
 def raw() -> Iterator[NodeProcess]:
-    """Run a node that uses only rospy, without the course."""
+    """Run a node that uses only rospy."""
     with NodeProcess([sys.executable, "-c", RAW_SERVER]) as process:
         process.wait_for_service("/raw/well")
         yield process
@@ -55,19 +52,19 @@ def raw() -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def joined(kernel: Kernel) -> Kernel:
-    """Return a kernel that is a node."""
+    """Return a kernel that runs a node."""
     kernel.run("from course_pkg.ros import join; node = join('caller')")
     return kernel
 
 
 @contextmanager
 def listening(accept: bool = True) -> Iterator[int]:
-    """Return a port on which nothing is ever sent; without `accept`, it does not accept connections."""
+    """Return a port that never sends data. Without `accept`, the port accepts no connections."""
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         listener.listen(0)
         held = []
-        # the queue of connections is full, so a new connection gets no answer to its SYN packet
+        # The connection queue is full, so a new connection gets no response to its SYN packet.
         if not accept:
             for _ in range(4):
                 held.append(socket.socket())
@@ -80,7 +77,7 @@ def listening(accept: bool = True) -> Iterator[int]:
 
 @contextmanager
 def registered(name: str, uri: str) -> Iterator[None]:
-    """Register a service at the master, although no node serves it."""
+    """Register a service that no node offers."""
     master = MasterClient(os.environ["ROS_MASTER_URI"])
     master.register_service("/pretender", name, uri, "http://localhost:1/")
     yield
@@ -88,7 +85,7 @@ def registered(name: str, uri: str) -> Iterator[None]:
 
 
 def times_out(kernel: Kernel, name: str) -> str:
-    """Assert that a call in the kernel raises CallTimeout in time; return the error message."""
+    """Assert that a call in the kernel raises CallTimeout in time, and return the error message."""
     reply = kernel.ask(CALL.format(name=name), timeout=20)
     assert reply.error == "CallTimeout", reply
     assert 0.5 <= reply.took < LONGEST
@@ -97,20 +94,20 @@ def times_out(kernel: Kernel, name: str) -> str:
 
 @pytest.mark.parametrize("name", ["/raw/sleeps", "/raw/exits"])
 def test_handler_that_never_answers(joined: Kernel, raw: NodeProcess, name: str) -> None:
-    """If the handler never returns, or calls sys.exit(), the call ends at its timeout; other calls work."""
+    """If the handler never returns, the call times out, and other calls work."""
     assert "its handler is still working" in times_out(joined, name)
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
 
 def test_stopped_server(joined: Kernel, raw: NodeProcess) -> None:
-    """A call to a stopped server ends at its timeout; when the server continues, calls work again."""
+    """A call to a stopped server times out. After SIGCONT, calls work again."""
     with stopped(raw.pid):
         assert "but sends nothing" in times_out(joined, "/raw/well")
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
 
 def test_idle_connection_blocks_a_plain_server(joined: Kernel, raw: NodeProcess) -> None:
-    """If an idle connection blocks a server of plain rospy, the call still ends at its timeout."""
+    """If an idle connection blocks a plain rospy server, the call times out."""
     uri = MasterClient(os.environ["ROS_MASTER_URI"]).lookup_service("/raw/well")
     assert uri is not None
     with socket.create_connection(("localhost", int(uri.rpartition(":")[2]))):
@@ -119,7 +116,7 @@ def test_idle_connection_blocks_a_plain_server(joined: Kernel, raw: NodeProcess)
 
 
 def test_stopped_master(joined: Kernel, raw: NodeProcess, master: PrivateMaster) -> None:
-    """If the master is stopped, the error message says "master" and not "server"."""
+    """If the master is stopped, the error message contains "master" and not "server"."""
     with stopped(master.pid):
         assert "the master" in times_out(joined, "/raw/well")
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
@@ -127,13 +124,13 @@ def test_stopped_master(joined: Kernel, raw: NodeProcess, master: PrivateMaster)
 
 @pytest.mark.parametrize("accept", [True, False], ids=["accepts", "does not even accept"])
 def test_silent_address(joined: Kernel, accept: bool) -> None:
-    """If an address does not answer, or does not accept the connection, the call ends at its timeout."""
+    """If the server's address does not respond, the call times out."""
     with listening(accept) as port, registered("/mute", f"rosrpc://localhost:{port}"):
         times_out(joined, "/mute")
 
 
 def test_server_ends_during_the_call(joined: Kernel, raw: NodeProcess) -> None:
-    """If the server ends during the call, the call raises rospy's error at once."""
+    """If the server exits during the call, the call raises rospy's error immediately."""
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/dies', Trigger, timeout=20)")
     assert reply.error == "ServiceException"
     assert reply.words.startswith(
@@ -143,7 +140,7 @@ def test_server_ends_during_the_call(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_killed_server(joined: Kernel, raw: NodeProcess) -> None:
-    """A killed server stays registered, so the call raises rospy's error about the connection."""
+    """A call to a killed server raises rospy's connection error."""
     raw.kill()
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/raw/well', Trigger)")
     assert (reply.error, reply.words) == (
@@ -153,13 +150,13 @@ def test_killed_server(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_no_such_service(joined: Kernel) -> None:
-    """If there is no service with this name, the call raises rospy's error."""
+    """A call to an unknown service raises rospy's error."""
     reply = joined.ask("from std_srvs.srv import Trigger\nnode.call('/nope', Trigger)")
     assert (reply.error, reply.words) == ("ServiceException", "service [/nope] unavailable")
 
 
 def test_cancel_from_another_thread(joined: Kernel, raw: NodeProcess) -> None:
-    """Another thread can cancel a running call, and the proxy can call again afterwards."""
+    """Another thread can cancel a running call."""
     reply = joined.ask("""
         import threading
         from std_srvs.srv import Trigger
@@ -173,7 +170,7 @@ def test_cancel_from_another_thread(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
-    """An interrupt of the cell ends its call, and the node continues to work."""
+    """An interrupt of the cell ends its call, and the node still works."""
     joined.begin("from std_srvs.srv import Trigger\nnode.call('/raw/sleeps', Trigger, timeout=20)")
     eventually(lambda: "sleeping" in raw.output())
     joined.interrupt()
@@ -183,7 +180,7 @@ def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
 
 
 def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
-    """If its server was replaced, a persistent proxy connects again without an error."""
+    """A persistent proxy connects to the new server after its server was replaced."""
     joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
     for _ in range(2):
         with NodeProcess([sys.executable, "-c", RAW_SERVER]) as process:
@@ -192,7 +189,7 @@ def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
 
 
 def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess) -> None:
-    """If a call on a persistent connection times out, the next call uses a new connection."""
+    """After a timeout, a persistent proxy uses a new connection."""
     joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
     joined.run("proxy()")
     with stopped(raw.pid):
@@ -204,7 +201,7 @@ def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess
 
 @contextmanager
 def switching_often() -> Iterator[None]:
-    """Make Python switch threads as often as possible, so that race conditions become more likely."""
+    """Make Python switch threads very often, so that race conditions become more likely."""
     kept = sys.getswitchinterval()
     sys.setswitchinterval(1e-6)
     try:
@@ -219,7 +216,7 @@ def watching() -> list[threading.Thread]:
 
 
 def test_an_action_is_repeated_until_it_is_disarmed() -> None:
-    """An overdue action is called again and again until disarm(), and never afterwards."""
+    """After its deadline, an action is called repeatedly until disarm()."""
     guard, done = Watchdog(), list[float]()
     number = guard.arm(time.monotonic(), lambda: done.append(time.monotonic()))
     eventually(lambda: len(done) >= 3)
@@ -231,7 +228,7 @@ def test_an_action_is_repeated_until_it_is_disarmed() -> None:
 
 
 def _round(guard: Watchdog) -> None:
-    """Wait until the watchdog's thread has finished one loop and begun the next loop."""
+    """Wait until the watchdog's thread has started its next loop."""
     told = threading.Event()
     number = guard.arm(time.monotonic(), told.set)
     assert told.wait(5)
@@ -239,7 +236,7 @@ def _round(guard: Watchdog) -> None:
 
 
 def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Some time after the last call, the watchdog's thread ends; the next call starts a new thread."""
+    """The watchdog's thread ends after the last call, and the next call starts a new thread."""
     monkeypatch.setattr(watchdog, "LINGER", 0.05)
     before = set(watching())
     guard = Watchdog()
@@ -253,7 +250,7 @@ def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch
 
 
 def test_no_deadline_is_missed_when_the_thread_ends_and_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An action is called at its deadline, even if it was armed at the moment when the thread ended."""
+    """An action is called at its deadline, even if the watchdog's thread ends at the same moment."""
     monkeypatch.setattr(watchdog, "LINGER", 0.0005)
     guard, missed = Watchdog(), list[int]()
 

@@ -1,4 +1,4 @@
-"""A cell that creates a publisher can run again, and the publisher counts its messages."""
+"""Tests of running a cell with a publisher again, and of the message counts."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ heard = node.subscribe("/numbers", UInt32)
 
 @pytest.fixture
 def joined(kernel: Kernel) -> Kernel:
-    """Return a kernel that is a node and has imported some types."""
+    """Return a kernel that runs a node and has imported some types."""
     kernel.run(START)
     return kernel
 
 
 def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
-    """wait() returns as soon as a subscriber is connected; the subscriber receives all later messages."""
+    """wait() returns when a subscriber is connected."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = node.advertise("/numbers", UInt32)
@@ -45,10 +45,7 @@ def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
 
 
 def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
-    """A message that is published before a subscriber connects is lost.
-
-    The publisher counts it as unheard.
-    """
+    """A message that is published before a subscriber connects is counted as unheard."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = node.advertise("/numbers", UInt32)
@@ -58,11 +55,11 @@ def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
         heard.wait(1)
         result = [m.data for m in heard.messages], spoken.published, spoken.unheard
     """) == [[2], 2, 1]
-    eventually(lambda: joined.run("result = spoken.sent") == 1)  # rospy already counts the message as sent
+    eventually(lambda: joined.run("result = spoken.sent") == 1)  # rospy already counts the message as sent.
 
 
 def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
-    """With latch, a subscriber that connects later receives the last message. This message counts as sent."""
+    """A latched message is sent to a later subscriber, and then counts as sent."""
     assert joined.run("""
         spoken = node.advertise("/numbers", UInt32, latch=True)
         spoken.publish(1)
@@ -75,7 +72,7 @@ def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
 
 
 def test_a_cell_that_runs_again_replaces_its_publisher(joined: Kernel, master: PrivateMaster) -> None:
-    """The old publisher stops, with its latched message and its type; the new publisher publishes."""
+    """After the cell runs again, only the new publisher publishes."""
     reply = joined.ask("""
         old = node.advertise("/numbers", UInt32, latch=True)
         old.publish(1)
@@ -94,7 +91,7 @@ def test_a_cell_that_runs_again_replaces_its_publisher(joined: Kernel, master: P
 
 
 def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: PrivateMaster) -> None:
-    """A full queue drops its oldest message; each message is counted as sent, waiting or dropped."""
+    """If the queue is full, each message is counted as sent, waiting or dropped."""
     with Kernel() as other:
         other.run(LISTEN + 'heard = node.subscribe("/long", String)')
         kernel.run(START + 'spoken = node.advertise("/long", String, queue_size=2); spoken.wait(1)')
@@ -116,7 +113,7 @@ def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: Private
 
 
 def test_counts_are_kept_after_the_subscriber_has_ended(joined: Kernel) -> None:
-    """When a subscriber has ended, its messages are still counted. The subscriber is not listed any more."""
+    """The messages of a subscriber that has ended are still counted."""
     assert joined.run("""
         from tests.support import eventually
         spoken = node.advertise("/numbers", UInt32)
@@ -132,7 +129,7 @@ def test_counts_are_kept_after_the_subscriber_has_ended(joined: Kernel) -> None:
 
 
 def test_waiting_for_subscribers_has_a_timeout(joined: Kernel) -> None:
-    """wait() raises an error after its timeout; the message contains a command that lists the subscribers."""
+    """wait() raises an error after its timeout, and the message contains a command for the subscribers."""
     reply = joined.ask("""
         spoken = node.advertise("/numbers", UInt32)
         spoken.wait(1, timeout=0.2)
@@ -142,7 +139,7 @@ def test_waiting_for_subscribers_has_a_timeout(joined: Kernel) -> None:
 
 
 def test_leave_ends_a_publisher_and_join_does_not_restore_it(joined: Kernel, master: PrivateMaster) -> None:
-    """leave() unregisters the publisher; join() does not start it again."""
+    """leave() unregisters the publisher, and join() does not register it again."""
     joined.run("""
         spoken = node.advertise("/numbers", UInt32)
         node.leave()
@@ -167,7 +164,7 @@ def test_a_publisher_is_restored_when_rospy_starts_again(joined: Kernel) -> None
 
 
 def test_a_silent_master_is_reported(joined: Kernel, master: PrivateMaster) -> None:
-    """If the master does not answer, advertise() raises MasterSilent; rospy.Publisher would wait for ever."""
+    """If the master does not respond, advertise() raises MasterSilent."""
     with stopped(master.pid):
         reply = joined.ask("node.advertise('/numbers', UInt32)")
         assert (reply.error, reply.took < 4) == ("MasterSilent", True)

@@ -1,4 +1,4 @@
-"""A cell that defines a service can run again, and the service stores its calls."""
+"""Tests of running a cell with a service again, and of the stored calls."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ def words(name="/x", kind=Trigger, *values):
 
 @pytest.fixture
 def joined(kernel: Kernel) -> Kernel:
-    """Return a kernel that is a node and has imported some types."""
+    """Return a kernel that runs a node and has imported some types."""
     kernel.run(START)
     return kernel
 
 
 def test_serving_again_replaces(joined: Kernel) -> None:
-    """On new and on persistent connections, the latest handler is called."""
+    """After the cell runs again, all connections use the new handler."""
     assert joined.run("""
         node.serve("/x", Trigger, lambda request: (True, "old"))
         kept = rospy.ServiceProxy("/x", Trigger, persistent=True)
@@ -42,10 +42,7 @@ def test_serving_again_replaces(joined: Kernel) -> None:
 
 
 def test_serving_replaces_a_raw_service(joined: Kernel) -> None:
-    """serve() also replaces a service that rospy.Service made.
-
-    Rospy itself would raise 'already registered'.
-    """
+    """serve() replaces a service of rospy.Service."""
     assert (
         joined.run("""
         raw = rospy.Service("/x", Trigger, lambda request: (True, "raw"))
@@ -58,7 +55,7 @@ def test_serving_replaces_a_raw_service(joined: Kernel) -> None:
 
 
 def test_another_type_with_the_same_name(joined: Kernel) -> None:
-    """A service can change its type; a client with a persistent connection then gets an error."""
+    """A service can change its type, and a persistent client then gets an error."""
     reply = joined.run("""
         node.serve("/x", Trigger, lambda request: (True, "old"))
         kept = rospy.ServiceProxy("/x", Trigger, persistent=True)
@@ -75,7 +72,7 @@ def test_another_type_with_the_same_name(joined: Kernel) -> None:
 
 
 def test_calls_are_stored(joined: Kernel) -> None:
-    """The service stores the request, the response and the time of each of the last 1000 calls."""
+    """The service stores the request, the response and the time of the last 1000 calls."""
     assert joined.run("""
         import time
         started = time.time()
@@ -123,7 +120,7 @@ def test_errors_are_sent_to_the_client_and_stored(joined: Kernel, handler: str, 
 
 
 def test_traceback_shows_the_handler(joined: Kernel) -> None:
-    """The stored traceback contains the line of the handler that failed."""
+    """The stored traceback contains the failing line of the handler."""
     assert joined.run("""
         def stumbling_handler(request):
             raise ValueError("no bottom")
@@ -134,7 +131,7 @@ def test_traceback_shows_the_handler(joined: Kernel) -> None:
 
 
 def test_printed_text_of_a_handler_is_stored(joined: Kernel) -> None:
-    """`output` contains the handler's printed text; below the cell, only the cell's own text is printed."""
+    """`output` contains the printed text of the handler, and the cell does not print this text."""
     output = joined.run("""
         def chatty(request):
             print("from the handler")
@@ -152,10 +149,7 @@ def test_printed_text_of_a_handler_is_stored(joined: Kernel) -> None:
 
 
 def test_stopping(joined: Kernel, master: PrivateMaster) -> None:
-    """A stopped service is unregistered.
-
-    A second stop changes nothing, and neither does a stop of a replaced service.
-    """
+    """A stopped service is unregistered, and a second stop() has no effect."""
     assert joined.run("""
         first = node.serve("/x", Trigger, lambda request: (True, "first"))
         second = node.serve("/x", Trigger, lambda request: (True, "second"))
@@ -177,7 +171,7 @@ def test_stopping(joined: Kernel, master: PrivateMaster) -> None:
     ],
 )
 def test_another_class_in_place_of_the_type(joined: Kernel, kind: str, told: str) -> None:
-    """If an argument is not a service type, the error contains the expected type."""
+    """If an argument is not a service type, the error message contains the expected type."""
     for cell in (f"node.serve('/x', {kind}, print)", f"node.call('/x', {kind})"):
         reply = joined.ask(cell)
         assert reply.error == "NotAServiceType"
@@ -185,7 +179,7 @@ def test_another_class_in_place_of_the_type(joined: Kernel, kind: str, told: str
 
 
 def test_idle_connections_do_not_block_clients(joined: Kernel, master: PrivateMaster) -> None:
-    """Connections on which nothing, or only a part of a header, is sent do not block other clients."""
+    """Idle connections do not block other clients."""
     joined.run("node.serve('/x', Trigger, lambda request: (True, 'here'))")
     uri = MasterClient(master.uri).lookup_service("/x")
     assert uri is not None
@@ -202,10 +196,7 @@ def test_idle_connections_do_not_block_clients(joined: Kernel, master: PrivateMa
 
 
 def test_burst_of_clients(joined: Kernel) -> None:
-    """Thirty simultaneous calls all succeed within 1 s.
-
-    So no connection had to wait for a TCP retransmission.
-    """
+    """Thirty simultaneous calls all succeed within 1 s."""
     took = joined.run("""
         import time
         from concurrent.futures import ThreadPoolExecutor
@@ -221,7 +212,7 @@ def test_burst_of_clients(joined: Kernel) -> None:
 
 
 def test_calling_itself(joined: Kernel) -> None:
-    """A handler may call another service of its own node."""
+    """A handler can call another service of its own node."""
     assert (
         joined.run("""
         node.serve("/inner", Trigger, lambda request: (True, "inner"))
@@ -235,10 +226,7 @@ def test_calling_itself(joined: Kernel) -> None:
 
 
 def test_three_ways_to_give_a_request(joined: Kernel) -> None:
-    """A call accepts positional fields, named fields, or a request.
-
-    For wrong values, it raises rospy's errors.
-    """
+    """A call accepts positional fields, named fields, or a request."""
     assert joined.run("""
         from std_srvs.srv import SetBoolRequest
         node.serve("/x", SetBool, lambda request: (request.data, ""))
@@ -251,7 +239,7 @@ def test_three_ways_to_give_a_request(joined: Kernel) -> None:
 
 
 def test_types_from_text_and_from_a_name(joined: Kernel) -> None:
-    """serve() and call() also accept a class that was made from text, and the name of a type."""
+    """serve() and call() accept a class that was made from text, and the name of a type."""
     assert joined.run("""
         from course_pkg.types import compile_service
         echo = compile_service("course_pkg/Echo", "string text\\n---\\nstring text\\n")

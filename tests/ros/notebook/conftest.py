@@ -1,4 +1,4 @@
-"""An IPython kernel that is a node, for the tests of a module."""
+"""An IPython kernel that runs a node."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def ask(name):
 
 @pytest.fixture(scope="module")
 def notebook(master: PrivateMaster) -> Iterator[NotebookKernel]:
-    """Return a kernel that has joined the graph in its first cell."""
+    """Return a kernel that has called join() in its first cell."""
     with NotebookKernel() as kernel:
         assert not kernel.run(SETUP, "setup").ename
         yield kernel

@@ -1,4 +1,4 @@
-"""A cell with plain rospy can run again, because the objects of its last run are ended first."""
+"""Tests of running cells with plain rospy again."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ REPLACES = "This cell's service {} replaces the one that another cell created.\n
 
 
 def value(notebook: NotebookKernel, code: str) -> str:
-    """Return the repr of the last value of a cell without an id."""
+    """Run a cell without an id, and return the repr of its value."""
     shown = notebook.run(code)
     assert not shown.ename, shown.evalue
     return shown.results[-1]
@@ -24,7 +24,7 @@ def silent(shown: Shown) -> None:
 
 
 def test_service_cell_runs_again(notebook: NotebookKernel) -> None:
-    """After the second run, the new handler answers, and nothing is printed."""
+    """After a second run of the cell, the new handler responds."""
     for answer in ("first", "second"):
         silent(
             notebook.run(f"service = rospy.Service('/again', Trigger, lambda r: (True, '{answer}'))", "again")
@@ -33,10 +33,7 @@ def test_service_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """Objects that a class creates in `__init__` belong to the cell that calls it.
-
-    They do not belong to the cell with the class.
-    """
+    """A service from `__init__` belongs to the cell that creates the object."""
     notebook.run(
         """
         class Counter:
@@ -57,7 +54,7 @@ def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
 
 
 def test_subscriber_cell_runs_again(notebook: NotebookKernel) -> None:
-    """After three runs of the cell, the callback is still called only once for each message."""
+    """After three runs of the cell, the callback is called once for each message."""
     notebook.run("publisher = rospy.Publisher('/numbers', UInt32, queue_size=9)", "publisher")
     cell = (
         "received = []\nsubscriber = rospy.Subscriber('/numbers', UInt32, lambda m: received.append(m.data))"
@@ -76,7 +73,7 @@ def test_subscriber_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If the changed cell does not create the publisher and the subscriber, both are unregistered."""
+    """If the changed cell creates no publisher and no subscriber, the old ones are unregistered."""
     cell = """
     publisher = rospy.Publisher("/left", UInt32, queue_size=1)
     subscriber = rospy.Subscriber("/left", UInt32, print)
@@ -103,7 +100,7 @@ def test_timer_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_action_server_cell_runs_again(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """The new action server executes the goals; the old one's thread and topics are gone."""
+    """After a second run of the cell, only the new action server executes goals."""
     notebook.run("import actionlib\nfrom actionlib_msgs.msg import GoalStatus\nfrom course_pkg import msg")
     cell = """
     def execute(goal):
@@ -128,10 +125,7 @@ def test_action_server_cell_runs_again(notebook: NotebookKernel, master: Private
 
 
 def test_two_cells_with_one_service(notebook: NotebookKernel) -> None:
-    """A cell that serves the same name as another cell replaces that service.
-
-    It prints one line about this.
-    """
+    """If two cells offer the same service, the later cell prints one line and replaces the service."""
     serve = "service = rospy.Service('/shared', Trigger, lambda r: (True, '{}'))"
     silent(notebook.run(serve.format("one"), "one"))
     for cell in ("two", "one", "two"):
@@ -142,7 +136,7 @@ def test_two_cells_with_one_service(notebook: NotebookKernel) -> None:
 
 
 def test_one_cell_with_one_service_twice(notebook: NotebookKernel) -> None:
-    """If one run of a cell serves a name twice, rospy refuses the second service, as it does in a script."""
+    """If one run of a cell offers a service twice, rospy refuses the second service."""
     cell = "rospy.Service('/twice', Trigger, print)\nrospy.Service('/twice', Trigger, print)"
     shown = notebook.run(cell, "twice")
     assert (shown.ename, shown.evalue) == ("ServiceException", "service [/twice] already registered")
@@ -150,17 +144,14 @@ def test_one_cell_with_one_service_twice(notebook: NotebookKernel) -> None:
 
 
 def test_cells_without_ids(notebook: NotebookKernel) -> None:
-    """A client such as nbclient sends no cell ids; then each execution counts as a separate cell."""
+    """Without cell ids, each execution counts as a separate cell."""
     serve = "service = rospy.Service('/no_id', Trigger, lambda r: (True, ''))"
     silent(notebook.run(serve))
     assert notebook.run(serve) == Shown(out=REPLACES.format("/no_id"))
 
 
 def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If a handler creates a publisher, the publisher stays.
-
-    This is so even if the cell that called the handler runs again.
-    """
+    """A publisher that a handler creates stays when the calling cell runs again."""
     cell = """
     def handle(request):
         global made
@@ -176,7 +167,7 @@ def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, mast
 
 
 def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
-    """If a thread of a cell creates a service while the cell runs, the service belongs to this cell."""
+    """A service that a cell's thread creates belongs to this cell."""
     cell = """
     def work():
         global service
@@ -191,7 +182,7 @@ def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
 
 
 def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> None:
-    """A persistent proxy of the old service raises an error that says: create the proxy again."""
+    """After the service was replaced, an old persistent proxy raises an error with advice."""
     serve = "service = rospy.Service('/kept', Trigger, lambda r: (True, ''))"
     notebook.run(serve, "kept")
     notebook.run("proxy = rospy.ServiceProxy('/kept', Trigger, persistent=True)\nproxy()", "proxy")
@@ -200,14 +191,14 @@ def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> Non
 
 
 def test_cell_within_a_cell(notebook: NotebookKernel) -> None:
-    """%%capture runs an inner cell; its objects belong to the outer cell."""
+    """With %%capture, the objects of the inner cell belong to the outer cell."""
     cell = "%%capture\nservice = rospy.Service('/captured', Trigger, lambda r: (True, ''))"
     silent(notebook.run(cell, "captured"))
     silent(notebook.run(cell, "captured"))
 
 
 def test_join_again_keeps_the_nodes_own_services(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If the cell with join() runs again, /rosout and the logger services stay registered."""
+    """After another join(), /rosout and the logger services stay registered."""
     for _ in range(2):
         silent(notebook.run("node = join('student')", "join"))
     state = MasterClient(master.uri).system_state()
@@ -216,7 +207,7 @@ def test_join_again_keeps_the_nodes_own_services(notebook: NotebookKernel, maste
 
 
 def test_init_node_after_join(notebook: NotebookKernel) -> None:
-    """After join(), a call of init_node() with any valid arguments changes nothing."""
+    """After join(), init_node() with valid arguments has no effect."""
     for arguments in ("'listener'", "'listener', anonymous=True", "'student', disable_signals=True"):
         silent(notebook.run(f"rospy.init_node({arguments})"))
     assert value(notebook, "rospy.get_name()") == "'/student'"
@@ -224,10 +215,7 @@ def test_init_node_after_join(notebook: NotebookKernel) -> None:
 
 
 def test_cell_that_runs_again_without_a_master() -> None:
-    """Without a master, a cell can run again and does not block.
-
-    With a new master, its service works again.
-    """
+    """Without a master, a cell can run again. With a new master, its service works again."""
     with PrivateMaster() as master, NotebookKernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run("import rospy\nfrom std_srvs.srv import Trigger\nfrom course_pkg import join")
         kernel.run("node = join('student')", "join")
@@ -242,7 +230,7 @@ def test_cell_that_runs_again_without_a_master() -> None:
 
 
 def test_kernel_ends_although_it_has_an_action_server(master: PrivateMaster) -> None:
-    """The kernel's process can end, even if a thread of actionlib is running."""
+    """A kernel with an action server can exit."""
     with NotebookKernel() as kernel:
         kernel.run("import actionlib\nfrom course_pkg import join, msg\nnode = join('acting')")
         kernel.run("server = actionlib.SimpleActionServer('/act', msg.FetchAction, print, auto_start=False)")

@@ -1,4 +1,4 @@
-"""A notebook shows an error in at most 12 lines: the student's own code and the error message."""
+"""Tests that a notebook shows an error in at most 12 lines."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ MOST = 12
 
 
 def without_cell_numbers(lines: list[str]) -> list[str]:
-    """Return the lines; the number of each cell is replaced by In[*]."""
+    """Return the lines with In[*] instead of the cell numbers."""
     return [
         line.split("In[")[0] + "In[*]" + line.split("]", 1)[1] if "In[" in line else line for line in lines
     ]
 
 
 def test_error_of_rospy(notebook: NotebookKernel) -> None:
-    """The traceback shows the lines of both cells and the error message, but no lines of rospy."""
+    """The traceback shows the lines of the cells and the error message, but no lines of rospy."""
     notebook.run("def area():\n    return ask('/nope')\n")
     shown = notebook.run("print(1)\narea()")
     assert without_cell_numbers(shown.error_lines) == [
@@ -37,10 +37,7 @@ def test_error_of_rospy(notebook: NotebookKernel) -> None:
 
 
 def test_many_calls(notebook: NotebookKernel) -> None:
-    """If there are too many calls, the traceback shows the first and the last ones.
-
-    It also shows the number of the others.
-    """
+    """If there are too many calls, the traceback shows the first and the last calls."""
     notebook.run("def down(n):\n    return 1 / n + down(n - 1)")
     lines = without_cell_numbers(notebook.run("down(20)").error_lines)
     assert lines[1:4] == ["  This cell, line 1", "    down(20)", "  … 18 more calls …"]
@@ -53,7 +50,7 @@ def test_many_calls(notebook: NotebookKernel) -> None:
 
 
 def test_the_whole_traceback_on_request(notebook: NotebookKernel) -> None:
-    """%tb also shows the lines of rospy, and so do the other modes of %xmode."""
+    """%tb and the other modes of %xmode also show the lines of rospy."""
     notebook.run("ask('/nope')")
     assert "tcpros_service.py" in "\n".join(notebook.run("%tb").traceback)
     notebook.run("%xmode Verbose")
@@ -91,7 +88,7 @@ def test_the_whole_traceback_on_request(notebook: NotebookKernel) -> None:
     ],
 )
 def test_every_error_is_short(notebook: NotebookKernel, cell: str, tmp_path: Path) -> None:
-    """Each error needs at most 12 lines of 100 characters. The traceback contains the name of the error."""
+    """Each error has at most 12 lines of 100 characters and contains the error's name."""
     (tmp_path / "broken_by_student.py").write_text("def f(:\n    pass\n")
     notebook.run(f"import sys; sys.path.insert(0, {str(tmp_path)!r})")
     shown = notebook.run(cell)
@@ -109,7 +106,7 @@ def test_error_while_handling_another(notebook: NotebookKernel) -> None:
 
 
 def test_error_in_a_handler(notebook: NotebookKernel) -> None:
-    """The calling cell shows both errors, one with the line of the handler, and one with its own line."""
+    """The calling cell shows its own line and the failing line of the handler."""
     notebook.run(
         "def handle(request):\n    return 1 / 0\nservice = rospy.Service('/bad', Trigger, handle)", "bad"
     )
@@ -124,7 +121,7 @@ def test_error_in_a_handler(notebook: NotebookKernel) -> None:
 
 
 def test_error_in_a_callback_is_shown_once_below_a_cell(notebook: NotebookKernel) -> None:
-    """If a callback raises the same error many times per second, each cell shows it only once."""
+    """If a callback raises the same error repeatedly, each cell shows the error only once."""
     notebook.run(
         """
         called = []
@@ -156,7 +153,7 @@ def test_error_in_a_callback_is_shown_once_below_a_cell(notebook: NotebookKernel
     ["rospy.Timer(rospy.Duration(0.01), work, oneshot=True)", "threading.Thread(target=work).start()"],
 )
 def test_error_that_ends_a_thread(notebook: NotebookKernel, start: str) -> None:
-    """An error in a timer, or in another thread, is also shown in a few lines."""
+    """An error in a thread or a timer is shown in a few lines."""
     notebook.run("def work(*_):\n    failed.set()\n    1 / 0\nfailed = threading.Event()")
     shown = notebook.run(f"{start}\nfailed.wait()\nrospy.sleep(0.2)")
     assert without_cell_numbers(shown.err.splitlines()) == [

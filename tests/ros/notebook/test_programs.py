@@ -1,4 +1,4 @@
-"""%rosrun and %roslaunch start programs; the programs end when their cell runs again, or with the kernel."""
+"""Tests of %rosrun and %roslaunch."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from tests.support import eventually, process_state
 
 
 def value(notebook: NotebookKernel, code: str) -> str:
-    """Return the repr of the last value of a cell."""
+    """Return the repr of a cell's value."""
     shown = notebook.run(code)
     assert not shown.ename, shown.evalue
     return shown.results[-1]
 
 
 def test_rosrun_returns_a_handle(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """The returned object can wait for a service, contains the output, and can stop the program."""
+    """The returned object contains the program's output and can stop the program."""
     notebook.run("server = %rosrun course_pkg server", "rosrun")
     assert notebook.run("server.wait(service='/getGeometry')") == Shown()
     assert value(notebook, "server") == "<rosrun course_pkg server: running>"
@@ -32,7 +32,7 @@ def test_rosrun_returns_a_handle(notebook: NotebookKernel, master: PrivateMaster
 
 
 def test_program_that_ends_by_itself(notebook: NotebookKernel) -> None:
-    """%rosrun passes arguments to the program, even in quotes; wait() returns the exit status."""
+    """%rosrun passes arguments to the program, and wait() returns the exit status."""
     shown = notebook.run("client = %rosrun course_pkg client 1 2 'not a number'\nclient.wait()")
     assert shown.results == ["2"], shown
     assert value(notebook, "client").endswith("'not a number': ended with exit status 2>")
@@ -40,7 +40,7 @@ def test_program_that_ends_by_itself(notebook: NotebookKernel) -> None:
 
 
 def test_cell_that_runs_again_starts_the_program_again(notebook: NotebookKernel) -> None:
-    """When the cell runs again, the program of its previous run ends first."""
+    """When the cell runs again, the program of the previous run is stopped."""
     cell = "%rosrun course_pkg server __name:=again &"
     assert notebook.run(cell, "again").results == ["<rosrun course_pkg server __name:=again: running>"]
     notebook.run("first = _\nfirst.wait(service='/getGeometry')")
@@ -50,7 +50,7 @@ def test_cell_that_runs_again_starts_the_program_again(notebook: NotebookKernel)
 
 
 def test_roslaunch(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """%roslaunch starts a launch file of a package; stop() ends its nodes."""
+    """%roslaunch starts a launch file, and stop() ends its nodes."""
     notebook.run("launched = %roslaunch course_pkg geometry.launch")
     assert notebook.run("launched.wait(service='/getGeometry')") == Shown()
     assert value(notebook, "launched.stop(); launched.running") == "False"
@@ -58,7 +58,7 @@ def test_roslaunch(notebook: NotebookKernel, master: PrivateMaster) -> None:
 
 
 def test_roslaunch_starts_a_master(notebook: NotebookKernel) -> None:
-    """`--core` starts a master on the given port, as roscore does; stop() ends it."""
+    """`--core` starts a master on the given port, and stop() ends the master."""
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
     notebook.run(f"core = %roslaunch --core -p {port}")
@@ -92,12 +92,12 @@ def test_unknown_name(notebook: NotebookKernel, line: str, error: str, words: st
 
 @pytest.mark.parametrize("line", ["%rosrun course_pkg", "%roslaunch", "%roslaunch course_pkg"])
 def test_usage(notebook: NotebookKernel, line: str) -> None:
-    """If an argument is missing, the usage is shown, as in a terminal."""
+    """If an argument is missing, the cell shows the usage."""
     assert notebook.run(line).err.startswith(f"UsageError: usage: {line.split()[0]} PACKAGE")
 
 
 def test_a_killed_kernel_leaves_no_program(master: PrivateMaster) -> None:
-    """After SIGKILL of the kernel, its program ends and its registrations are removed."""
+    """After SIGKILL of the kernel, its program exits and is unregistered."""
     with NotebookKernel() as kernel:
         kernel.run(SETUP.replace("student", "killed"))
         kernel.run("server = %rosrun course_pkg server\nserver.wait(service='/getGeometry')")

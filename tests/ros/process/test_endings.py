@@ -1,4 +1,4 @@
-"""Every started process ends with its owner, even if the owner is killed."""
+"""Tests that every started process ends with its owner."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def family(pid: int) -> list[int]:
 
 
 def gone(pids: list[int]) -> bool:
-    """Return whether all these processes have ended; a zombie counts as ended."""
+    """Return whether all these processes have exited. A zombie counts as exited."""
     return all(process_state(pid) == "Z" for pid in pids)
 
 
@@ -48,7 +48,7 @@ def port_is_free(uri: str) -> bool:
 
 
 def test_killed_owner_of_a_private_master() -> None:
-    """After SIGKILL of a kernel, all its descendants end, even the nodes of roslaunch. Its ports are free."""
+    """After SIGKILL of a kernel, all its descendants exit, and its ports are free."""
     kernel = Kernel({"ROS_MASTER_URI": None})
     uri = kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -60,7 +60,7 @@ def test_killed_owner_of_a_private_master() -> None:
 
 
 def test_killed_owner_on_a_shared_master(master: PrivateMaster) -> None:
-    """After SIGKILL of a kernel, all its registrations at a shared master are removed."""
+    """After SIGKILL of a kernel, its registrations at a shared master are removed."""
     kernel = Kernel()
     kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -85,7 +85,7 @@ while True:
 
 
 def test_node_that_ignores_signals_on_a_shared_master(master: PrivateMaster) -> None:
-    """A node that ignores SIGTERM is killed after the end of its owner. Its registrations are removed."""
+    """A node that ignores SIGTERM is killed and unregistered after its owner has exited."""
     kernel = Kernel()
     kernel.run(f"""
 import sys
@@ -104,7 +104,7 @@ node.wait_for_service("/deafened")
 
 
 def test_normal_end_leaves_nothing(master: PrivateMaster) -> None:
-    """A kernel that ends normally leaves no registrations and no processes; this takes at most 5 s."""
+    """A kernel that exits normally leaves no registrations and no processes."""
     kernel = Kernel()
     kernel.run(EVERYTHING)
     pids = family(kernel.pid)
@@ -114,7 +114,7 @@ def test_normal_end_leaves_nothing(master: PrivateMaster) -> None:
 
 
 def test_interrupt_does_not_end_the_nodes(kernel: Kernel) -> None:
-    """An interrupt of the kernel does not reach its nodes, because they are in another process group."""
+    """An interrupt of the kernel does not reach its nodes."""
     kernel.run(
         "from course_pkg.ros import join; node = join('owner'); server = node.run('course_pkg', 'server')"
     )
@@ -126,7 +126,7 @@ def test_interrupt_does_not_end_the_nodes(kernel: Kernel) -> None:
 
 
 def test_thread_that_started_a_node_may_end(kernel: Kernel) -> None:
-    """A node continues after the end of the thread that started it."""
+    """A node continues after the thread that started it has ended."""
     kernel.run("""
         import threading
         from course_pkg.ros import NodeProcess, join
@@ -141,7 +141,7 @@ def test_thread_that_started_a_node_may_end(kernel: Kernel) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_stubborn_descendants_are_killed(number: signal.Signals) -> None:
-    """If a grandchild in another session ignores signals, it is killed after the end of its parent."""
+    """A grandchild that ignores signals is killed after its parent has exited."""
     stubborn = "import signal, time; [signal.signal(n, signal.SIG_IGN) for n in (2, 15)]; time.sleep(1000)"
     parent = f"""
 import subprocess, sys, time
@@ -156,7 +156,7 @@ time.sleep(1000)
 
 
 def test_exit_status_is_passed_on() -> None:
-    """`returncode` is the exit status of the command, or the negative number of the signal that ended it."""
+    """`returncode` is the exit status of the command, or the negative signal number."""
     for command, status in (("exit 3", 3), ("kill -9 $$", -9), ("true", 0)):
         process = SupervisedProcess(["sh", "-c", command])
         assert process.wait(5)
@@ -174,7 +174,7 @@ sys.exit(process.returncode)
 
 
 def test_background_processes_of_a_foreground_command_end(tmp_path: Path) -> None:
-    """A foreground command uses its owner's input and output; its background processes end with it."""
+    """The background processes of a foreground command end with the command."""
     line = f"sleep 1000 & echo $! > {tmp_path}/pid; setsid sleep 1000 & cat; exit 4"
     done = subprocess.run(
         [sys.executable, "-c", OWNER, "sh", "-c", line],
@@ -189,7 +189,7 @@ def test_background_processes_of_a_foreground_command_end(tmp_path: Path) -> Non
 
 
 def test_a_terminal_interrupts_a_foreground_command_once() -> None:
-    """Each Ctrl-C reaches the command exactly once, and the command may continue."""
+    """The command receives each Ctrl-C exactly once."""
     command = (
         "import signal\n"
         "came = []\n"
@@ -213,7 +213,7 @@ def test_a_terminal_interrupts_a_foreground_command_once() -> None:
 
 
 def test_stopped_node_is_ended(master: PrivateMaster) -> None:
-    """stop() ends and unregisters a node even if SIGSTOP has stopped it."""
+    """stop() ends and unregisters a node that SIGSTOP has stopped."""
     with NodeProcess.rosrun("course_pkg", "server") as server:
         server.wait_for_service("/getGeometry")
         with stopped(server.pid):
@@ -222,7 +222,7 @@ def test_stopped_node_is_ended(master: PrivateMaster) -> None:
 
 
 def test_everything_listens_on_loopback_only(kernel: Kernel) -> None:
-    """All sockets of a kernel, its master, its nodes and a launch file listen only on 127.0.0.1."""
+    """All sockets of a kernel, its master and its nodes listen only on 127.0.0.1."""
     kernel.run(EVERYTHING)
     ports = listening_ports(kernel.pid)
     assert len(ports) >= 7

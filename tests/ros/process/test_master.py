@@ -1,4 +1,4 @@
-"""A private master uses a free port on 127.0.0.1, and leaves nothing after its end."""
+"""Tests of a private master on a free port of 127.0.0.1."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.support import eventually, stopped
 
 
 def test_it_answers_and_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Inside the `with` block, the master answers; after it, the master has ended.
+    """The master responds inside the `with` block, and has exited after the block.
 
     The master's log file is in ROS_LOG_DIR.
     """
@@ -31,7 +31,7 @@ def test_it_answers_and_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_no_trace_without_a_log_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without ROS_LOG_DIR, the master's log files are removed after its end."""
+    """Without ROS_LOG_DIR, the master's log files are removed after its exit."""
     monkeypatch.delenv("ROS_LOG_DIR")
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
@@ -41,7 +41,7 @@ def test_no_trace_without_a_log_folder(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_busy_port() -> None:
-    """If another program uses the port, start() raises PortBusy with the number of the port."""
+    """If the port is in use, start() raises PortBusy with the port number."""
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         with pytest.raises(PortBusy, match=str(port)):
@@ -49,7 +49,7 @@ def test_busy_port() -> None:
 
 
 def test_port_of_a_killed_master_is_free(master: PrivateMaster) -> None:
-    """A new master can use the port of a killed master at once."""
+    """A new master can use the port of a killed master immediately."""
     with PrivateMaster() as former:
         MasterClient(former.uri).system_state()
         os.kill(former.pid, signal.SIGKILL)
@@ -59,12 +59,12 @@ def test_port_of_a_killed_master_is_free(master: PrivateMaster) -> None:
 
 
 def test_the_master_of_ros_master_uri_is_used(master: PrivateMaster) -> None:
-    """If ROS_MASTER_URI is set, find_or_start_master() returns this master and starts no other."""
+    """If ROS_MASTER_URI is set, find_or_start_master() returns this master."""
     assert find_or_start_master().uri == master.uri
 
 
 def test_stopped_master_is_silent(master: PrivateMaster) -> None:
-    """A request to a stopped master raises MasterSilent at the timeout; after SIGCONT, requests work."""
+    """A request to a stopped master raises MasterSilent. After SIGCONT, requests work again."""
     client = MasterClient(master.uri, timeout=0.3)
     client.pid()
     with stopped(master.pid), pytest.raises(MasterSilent, match=r"within 0.3 s"):
@@ -95,7 +95,7 @@ def test_slow_bytes_do_not_extend_the_timeout() -> None:
     "uri", ["", "localhost:11311", "https://localhost:1", "http://:1", "http://localhost:99999"]
 )
 def test_malformed_uri(uri: str) -> None:
-    """A malformed address raises MalformedMasterUri before any connection."""
+    """A malformed address raises MalformedMasterUri."""
     with pytest.raises(MalformedMasterUri, match="http://HOST:PORT"):
         MasterClient(uri)
 
@@ -107,7 +107,7 @@ def test_unknown_host() -> None:
 
 
 def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
-    """A client can call a new master at the address of the old one, even after a call of the old one."""
+    """A client can call a restarted master at the same address."""
     with PrivateMaster() as former:
         client = MasterClient(former.uri)
         client.pid()
@@ -116,7 +116,7 @@ def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
 
 
 def test_registrations(master: PrivateMaster) -> None:
-    """Lookups find registered services and nodes; unregistering works only with the right address."""
+    """Look-ups find registered services and nodes, and unregistering needs the right address."""
     client = MasterClient(master.uri)
     client.register_service("/node", "/service", "rosrpc://localhost:5", "http://localhost:4/")
     client.register_publisher("/node", "/topic", "std_msgs/UInt32", "http://localhost:4/")

@@ -1,4 +1,4 @@
-"""Nodes as processes: start them, wait for them, end them, and remove their registrations; private graphs."""
+"""Tests of nodes as processes, and of private graphs."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ def test_missing_program(package: str, program: str, message: str) -> None:
 
 
 def test_command_that_cannot_be_started() -> None:
-    """An unknown command raises GraphError at once."""
+    """An unknown command raises GraphError."""
     with pytest.raises(GraphError, match="No such file"):
         NodeProcess(["/no/such/command"])
 
 
 def test_output_is_kept() -> None:
-    """output() contains stdout and stderr, also after the end of the process."""
+    """output() contains stdout and stderr, even after the exit of the process."""
     with NodeProcess(
         [sys.executable, "-c", "import sys; print('out'); print('err', file=sys.stderr)"]
     ) as process:
@@ -50,7 +50,7 @@ def test_output_is_kept() -> None:
 
 
 def test_waiting_ends_when_the_node_ends() -> None:
-    """If the process ends, wait_for_service() raises NodeFailed at once, with the end of the output."""
+    """If the process exits, wait_for_service() raises NodeFailed with the last output."""
     with NodeProcess([sys.executable, "-c", "raise SystemExit('no luck today')"]) as process:
         started = time.monotonic()
         with pytest.raises(NodeFailed, match="no luck today") as error:
@@ -68,10 +68,7 @@ def test_waiting_has_a_limit() -> None:
 
 
 def test_waiting_for_output() -> None:
-    """wait_for_output() returns when the text was printed.
-
-    It fails at the timeout, and when the process ends.
-    """
+    """wait_for_output() returns when the text is printed, and fails at the timeout."""
     script = "import time; print('first'); time.sleep(60)"
     with NodeProcess([sys.executable, "-c", script]) as process:
         process.wait_for_output("first")
@@ -85,7 +82,7 @@ def test_waiting_for_output() -> None:
 
 
 def test_waiting_checks_the_process(kernel: Kernel) -> None:
-    """While another node serves the name, wait_for_service() does not return."""
+    """wait_for_service() does not return while another node offers the service."""
     kernel.run("""
         from course_pkg.srv import geometry
         from course_pkg.ros import join
@@ -98,7 +95,7 @@ def test_waiting_checks_the_process(kernel: Kernel) -> None:
 
 
 def test_stop_unregisters(master: PrivateMaster) -> None:
-    """After stop(), the process has no registrations, even if it had to be killed."""
+    """After stop(), the process has no registrations, even if it was killed."""
     deaf = """
 import rospy, signal, threading
 for number in (signal.SIGINT, signal.SIGTERM):
@@ -116,7 +113,7 @@ threading.Event().wait()
 
 
 def test_stop_unregisters_a_node_that_registers_meanwhile(master: PrivateMaster) -> None:
-    """If the process registers a service while it ends, stop() removes this registration, too."""
+    """If the process registers a service during stop(), this service is unregistered too."""
     late = """
 import os, rosgraph, signal, socket
 listener = socket.create_server(("127.0.0.1", 0))
@@ -137,7 +134,7 @@ signal.pause()
 
 
 def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
-    """After kill(), the registrations stay at the master; the next node with the same name replaces them."""
+    """After kill(), the registrations stay at the master until a node with the same name starts."""
     process = NodeProcess.rosrun("course_pkg", "server")
     process.wait_for_service("/getGeometry")
     process.kill()
@@ -149,7 +146,7 @@ def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
 
 
 def test_running_again_replaces(kernel: Kernel) -> None:
-    """A second run() of a program ends the first process; with another name, both processes run."""
+    """A second run() of a program ends the first process, except if the name differs."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")
@@ -165,7 +162,7 @@ def test_running_again_replaces(kernel: Kernel) -> None:
 
 
 def test_one_program_in_two_namespaces_is_two_nodes(kernel: Kernel) -> None:
-    """A program can run in two namespaces; a second run in one namespace replaces the first run there."""
+    """A program can run in two namespaces at the same time."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")
@@ -179,7 +176,7 @@ def test_one_program_in_two_namespaces_is_two_nodes(kernel: Kernel) -> None:
 
 
 def test_launch_file() -> None:
-    """A launch file starts its nodes, with the given arguments."""
+    """A launch file starts its nodes with the given arguments."""
     with NodeProcess.roslaunch("course_pkg", "geometry.launch", "client:=true") as process:
         process.wait_for_service("/getGeometry")
         eventually(lambda: "area: 6.24\n" in process.output() and "volume: 55.54\n" in process.output())
@@ -195,7 +192,7 @@ def test_a_private_graph_is_separate(master: PrivateMaster) -> None:
 
 
 def test_messages_continue_without_the_master() -> None:
-    """Connected nodes exchange messages even after the end of their master; a new tool finds no master."""
+    """Connected nodes exchange messages even after the end of their master."""
     with PrivateGraph() as graph:
         graph.run("course_pkg", "pulse")
         echo = graph.start("rostopic", "echo", "/pulse")
@@ -209,7 +206,7 @@ def test_messages_continue_without_the_master() -> None:
 
 
 def test_the_second_node_with_a_name_ends_the_first() -> None:
-    """A second run() starts a second node with the same name, and the master shuts the first one down."""
+    """If a second node has the same name, the master shuts down the first node."""
     with PrivateGraph() as graph:
         first, second = (graph.run("course_pkg", "pulse") for _ in range(2))
         assert first.wait(10) == 0
@@ -218,10 +215,7 @@ def test_the_second_node_with_a_name_ends_the_first() -> None:
 
 
 def test_close_ends_everything_of_a_private_graph() -> None:
-    """close() ends all programs and the master.
-
-    This also happens when no variable refers to the graph any more.
-    """
+    """close() ends all programs and the master of a private graph."""
     graph = PrivateGraph()
     running, killed = (graph.run("course_pkg", "pulse", f"__name:=pulse_{number}") for number in range(2))
     master = graph._master.pid
@@ -235,7 +229,7 @@ def test_close_ends_everything_of_a_private_graph() -> None:
 
 
 def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateMaster) -> None:
-    """run() raises an error with similar program names, or with the output of the program that ended."""
+    """run() raises an error with similar program names, or with the output of the program that exited."""
     started = time.monotonic()
     with PrivateGraph() as graph:
         with pytest.raises(UnknownExecutable, match="Did you mean 'pulse'"):

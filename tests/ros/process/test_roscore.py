@@ -1,4 +1,4 @@
-"""A Roscore has the same node and parameters as roscore, and ends with its owner."""
+"""Tests of Roscore, which starts the same nodes and parameters as roscore."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ def processes(pids: list[int]) -> list[psutil.Process]:
 
 @pytest.fixture
 def core(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Roscore:
-    """Return a Roscore that is not started, with its log files in tmp_path."""
+    """Return a Roscore that is not started."""
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     return Roscore()
 
 
 def test_the_graph_is_the_same_as_with_roscore(core: Roscore) -> None:
-    """The node, its services and the parameters are present; the parameters match rosversion's output."""
+    """The node, its services and the parameters are the same as with roscore."""
     with core:
         client = MasterClient(core.uri)
         state = client.system_state()
@@ -49,7 +49,7 @@ def test_the_graph_is_the_same_as_with_roscore(core: Roscore) -> None:
 
 
 def test_what_a_node_logs_is_in_the_log_of_rosout(core: Roscore, tmp_path: Path) -> None:
-    """/rosout receives the log messages of all nodes and writes them to its file."""
+    """/rosout writes the log messages of all nodes to its file."""
     with core, Kernel({"ROS_MASTER_URI": core.uri}) as kernel:
         kernel.run(PUBLISH)
         log = tmp_path / "rosout.log"
@@ -66,7 +66,7 @@ def test_it_listens_on_loopback_only(core: Roscore) -> None:
 
 
 def test_stop_ends_all_processes_and_start_works_again(core: Roscore) -> None:
-    """After stop(), both processes have ended; a second start creates the same graph at another address."""
+    """stop() ends both processes, and a second start() works."""
     core.start()
     first, pids = core.uri, descendants(os.getpid())
     assert processes(pids)
@@ -81,7 +81,7 @@ def test_stop_ends_all_processes_and_start_works_again(core: Roscore) -> None:
 def test_without_the_node_the_master_ends(
     core: Roscore, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If the package rosout is missing, start() ends the master and raises an error that says what to do."""
+    """If the package rosout is missing, start() raises an error with advice."""
     monkeypatch.setattr("course_pkg.ros.process.roscore._prefix", lambda: tmp_path)
     with pytest.raises(SetupError, match="course doctor"):
         core.start()
@@ -99,7 +99,7 @@ def test_a_kernel_without_a_master_starts_a_roscore(monkeypatch: pytest.MonkeyPa
 
 
 def test_rosout_ends_with_a_killed_owner(tmp_path: Path) -> None:
-    """After SIGKILL of the kernel that started /rosout, /rosout also ends."""
+    """After SIGKILL of the kernel that started /rosout, /rosout exits."""
     kernel = Kernel({"ROS_MASTER_URI": None, "ROS_LOG_DIR": str(tmp_path)})
     kernel.run("from course_pkg.ros import join; node = join('owner')")
     pids = descendants(kernel.pid)

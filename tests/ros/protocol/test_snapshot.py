@@ -1,4 +1,4 @@
-"""A snapshot lists the nodes, topics and services, and says within a time limit which of them answer."""
+"""Tests of snapshots, which list the nodes, topics and services of a graph."""
 
 from __future__ import annotations
 
@@ -23,10 +23,7 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 
 def test_contents_of_a_snapshot(server: NodeProcess) -> None:
-    """A snapshot lists nodes, topics and services, with their types and servers.
-
-    It can be written as JSON.
-    """
+    """A snapshot lists nodes, topics and services, and can be written as JSON."""
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")
         seen = look()
@@ -43,7 +40,7 @@ def test_contents_of_a_snapshot(server: NodeProcess) -> None:
 
 
 def test_equal_snapshots_of_the_same_graph(server: NodeProcess) -> None:
-    """Two snapshots of an unchanged graph are equal; after a change they differ."""
+    """Two snapshots of an unchanged graph are equal."""
     before = look()
     assert (look(), hash(look())) == (before, hash(before))
     MasterClient(before.master).register_service(
@@ -54,7 +51,7 @@ def test_equal_snapshots_of_the_same_graph(server: NodeProcess) -> None:
 
 
 def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> None:
-    """A stopped node is listed as silent (it does not answer), and remove_stale() keeps its registrations."""
+    """A stopped node is listed as silent, and remove_stale() does not unregister this node."""
     with stopped(server.pid):
         started = time.monotonic()
         seen = look()
@@ -68,7 +65,7 @@ def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> 
 
 
 def test_killed_node_is_stale_until_removed(server: NodeProcess) -> None:
-    """remove_stale() removes the registrations of a killed node, but keeps those of a running node."""
+    """remove_stale() unregisters a killed node, but not a running node."""
     with NodeProcess.rosrun("course_pkg", "pulse") as pulse:
         pulse.wait_for_service("/pulse/get_loggers")
         server.kill()

@@ -1,4 +1,4 @@
-"""The bulk reader reads many topics of a real graph at the same time."""
+"""Tests of the bulk reader, which reads many topics at the same time."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Notes:
         self.looks += 1
 
     def reader(self) -> BulkReader:
-        """Return a reader that reads the numbers and passes each number to this object."""
+        """Return a reader that passes each number to this object."""
         return BulkReader(["std_msgs/UInt32"], self.hear, self.missed.append, self.look)
 
 
@@ -36,7 +36,7 @@ def pulse(name: str) -> NodeProcess:
 
 
 def test_every_message_in_order(master: PrivateMaster) -> None:
-    """The messages of several topics arrive in order, each exactly once."""
+    """The messages of several topics arrive in order, and each message arrives once."""
     notes = Notes()
     reader = notes.reader()
     with pulse("one"), pulse("two"):
@@ -49,7 +49,7 @@ def test_every_message_in_order(master: PrivateMaster) -> None:
 
 
 def test_the_reader_is_not_a_subscriber(master: PrivateMaster) -> None:
-    """The topic has no additional subscriber because of the reader."""
+    """The reader is not a subscriber of the topic."""
     notes = Notes()
     reader = notes.reader()
     with pulse("alone"):
@@ -74,7 +74,7 @@ def test_a_publisher_that_ends_and_returns(master: PrivateMaster) -> None:
 
 
 def test_stop_ends_the_reader(master: PrivateMaster) -> None:
-    """stop() ends the reader's thread, and start() starts a new one."""
+    """stop() ends the reader's thread, and start() starts a new thread."""
     notes = Notes()
     reader = notes.reader()
     reader.start()

@@ -1,7 +1,4 @@
-"""A separate process for one topic.
-
-It publishes, subscribes, lists the topic's nodes, and ends with its owner.
-"""
+"""Tests of the separate process that publishes and subscribes for a topic panel."""
 
 from __future__ import annotations
 
@@ -33,7 +30,7 @@ NUMBER = {"name": "std_msgs/Float64", "text": ""}
 
 
 class Reports:
-    """The reports of a topic process: the latest value of each part, and all received messages."""
+    """The reports of a topic process: the latest values and all received messages."""
 
     def __init__(self, topic: str = "/speed") -> None:
         self.parts: Report = {}
@@ -55,7 +52,7 @@ class Reports:
 
 @pytest.fixture
 def reports(master: PrivateMaster) -> Iterator[Reports]:
-    """Start a topic process on /speed and wait until it has found the graph."""
+    """Start a topic process on /speed, and wait until the process has found the graph."""
     assert master.uri
     reports = Reports()
     eventually(lambda: reports.parts.get("connections"), timeout=20)
@@ -71,10 +68,7 @@ def publish(reports: Reports, text: str, **how: Plain) -> None:
 
 
 def test_rate_of_recent_messages() -> None:
-    """Rate, jitter and longest gap are computed from recent messages.
-
-    After a long silence, there are no values.
-    """
+    """The rate, the jitter and the longest gap are calculated from recent messages."""
     statistics = RateStatistics()
     assert statistics.figures(0.0) == {}
     for at in (0.0, 0.1, 0.2, 0.4):
@@ -87,7 +81,7 @@ def test_rate_of_recent_messages() -> None:
 
 
 def test_rate_of_rare_and_of_frequent_messages() -> None:
-    """One message per 10 s gives a rate; of 10,000 messages per second, only a limited number is stored."""
+    """One message per 10 s gives a rate, and at 10,000 messages per second the memory is limited."""
     slow, fast = RateStatistics(), RateStatistics()
     for number in range(10):
         slow.beat(10.0 * number)
@@ -98,7 +92,7 @@ def test_rate_of_rare_and_of_frequent_messages() -> None:
 
 
 def test_a_curve_keeps_extreme_values() -> None:
-    """For each step, the first, smallest, largest and last value are kept.
+    """Each step of a curve contains its first, smallest, largest and last value.
 
     Values older than 20 s are removed.
     """
@@ -113,7 +107,7 @@ def test_a_curve_keeps_extreme_values() -> None:
 
 
 def test_a_curve_counts_invalid_numbers() -> None:
-    """NaN and infinity are not stored, but counted."""
+    """NaN and infinity are counted, but not stored."""
     curve = DownsampledSeries()
     for value in (1.0, float("nan"), float("inf")):
         curve.add(0.0, value)
@@ -121,7 +115,7 @@ def test_a_curve_counts_invalid_numbers() -> None:
 
 
 def test_a_timer_ticks_until_it_is_stopped() -> None:
-    """After stop(), there are no more ticks, and the timer's thread has ended."""
+    """After stop(), the timer does not call its function, and its thread has ended."""
     ticks: list[int] = []
     timer = Timer(1000.0, lambda: ticks.append(1), lambda _: None)
     eventually(lambda: len(ticks) > 20)
@@ -132,7 +126,7 @@ def test_a_timer_ticks_until_it_is_stopped() -> None:
 
 
 def test_a_timer_skips_late_ticks() -> None:
-    """After a very slow tick, the timer leaves out the missed ticks, and counts them."""
+    """After a slow call, the timer skips the missed calls and counts them."""
     held = threading.Event()
     ticks: list[int] = []
 
@@ -148,7 +142,7 @@ def test_a_timer_skips_late_ticks() -> None:
 
 
 def test_a_failing_timer_reports_the_error() -> None:
-    """If a tick raises an error, the timer passes this error to its owner."""
+    """If the timer's function raises an error, the timer passes the error to its owner."""
     errors: list[Exception] = []
 
     def tick() -> None:
@@ -159,7 +153,7 @@ def test_a_failing_timer_reports_the_error() -> None:
 
 
 def test_a_channel_transfers_whole_messages() -> None:
-    """Long messages arrive unchanged; a missing message and a closed channel raise different errors."""
+    """A channel transfers long messages without a change."""
     one, other = map(JsonChannel, socket.socketpair())
     long = {"texts": ["x" * 1000] * 300, "nan": None}
     sender = threading.Thread(target=lambda: [one.send(each) for each in (long, {"n": 1})])
@@ -176,10 +170,7 @@ def test_a_channel_transfers_whole_messages() -> None:
 
 
 def test_the_numbers_of_a_message_have_paths() -> None:
-    """Numbers in fields, in nested messages and in first elements of arrays have paths.
-
-    Strings have no path.
-    """
+    """Numbers in fields, in nested messages and in first elements of arrays have paths."""
     assert numbers(message_type("std_msgs/Float64")) == ["data"]
     assert numbers(message_type("std_msgs/String")) == []
     assert numbers(message_type("geometry_msgs/Twist"))[:2] == ["linear.x", "linear.y"]
@@ -208,15 +199,12 @@ def test_the_numbers_of_a_message_have_paths() -> None:
     ],
 )
 def test_the_first_measurement_of_a_message(name: str, path: str) -> None:
-    """measurement() returns the first number that is neither in a header nor a limit of the sensor."""
+    """measurement() returns the first number that is neither in a header nor a sensor limit."""
     assert measurement(message_type(name)) == path
 
 
 def test_a_whole_number_is_a_measurement_if_the_message_has_no_float() -> None:
-    """If there is no float, measurement() returns an integer outside the header.
-
-    If there is none, it returns a bool.
-    """
+    """If a message has no float, measurement() returns the first integer or bool."""
     counted = compile_message("demo/Counted", "std_msgs/Header header\nbool on\nint32 parts\n")
     switched = compile_message("demo/Switched", "std_msgs/Header header\nbool on\n")
     assert (measurement(counted), measurement(switched)) == ("parts", "on")
@@ -225,7 +213,7 @@ def test_a_whole_number_is_a_measurement_if_the_message_has_no_float() -> None:
 
 
 def test_a_number_is_found_in_the_bytes() -> None:
-    """extractor() returns the number, or NaN if it is missing; an unknown path raises ValueError."""
+    """extractor() reads a number from the bytes of a message, and an unknown path raises ValueError."""
     kind = message_type("sensor_msgs/JointState")
     buffer = BytesIO()
     kind.to_message({**kind.default(), "position": [1.5, -2.5]}).serialize(buffer)
@@ -237,7 +225,7 @@ def test_a_number_is_found_in_the_bytes() -> None:
 
 
 def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
-    """The result contains the type of each node, because the master stores only one type."""
+    """The result contains the type of each node of the topic."""
     with Kernel() as one, Kernel() as other:
         one.run("""
             from course_pkg.ros import join
@@ -256,7 +244,7 @@ def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
 
 
 def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> None:
-    """A message before the connection is counted as unheard; the next message is received and reported."""
+    """A message before the connection is counted as unheard, and the next message is received."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1.5")
     eventually(lambda: reports.published("deliveries"))
@@ -273,7 +261,7 @@ def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> N
 
 
 def test_a_latched_message_is_kept_for_its_subscriber(reports: Reports) -> None:
-    """With latch, a subscriber that connects later receives the first message."""
+    """A latched message reaches a later subscriber."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "7", latch=True)
     assert eventually(lambda: reports.messages)[0]["texts"] == {"data": "7.0"}
@@ -281,10 +269,7 @@ def test_a_latched_message_is_kept_for_its_subscriber(reports: Reports) -> None:
 
 
 def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master: PrivateMaster) -> None:
-    """With another queue size, there is a new publisher with new counts.
-
-    The command `withdraw` unregisters it.
-    """
+    """A new queue size creates a new publisher, and the command `withdraw` unregisters the publisher."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)
@@ -297,7 +282,7 @@ def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master
 
 
 def test_repeated_messages_until_stop(reports: Reports) -> None:
-    """After the command `repeat`, messages are published and plotted until the command `stop`."""
+    """After the command `repeat`, messages are published until the command `stop`."""
     reports.process.tell("type", **NUMBER)
     reports.process.tell("plot", path="data")
     reports.process.tell("repeat", texts={"data": "4"}, latch=False, queue=10, rate=50.0)
@@ -312,7 +297,7 @@ def test_repeated_messages_until_stop(reports: Reports) -> None:
 
 
 def test_an_invalid_command_is_reported_and_the_process_continues(reports: Reports) -> None:
-    """A missing type, a wrong value and an unknown path are reported, and the process continues."""
+    """An invalid command is reported, and the process continues."""
     publish(reports, "1")
     assert "the topic has no type yet" in eventually(lambda: reports.published("problem"))
     reports.process.tell("type", **NUMBER)
@@ -326,7 +311,7 @@ def test_an_invalid_command_is_reported_and_the_process_continues(reports: Repor
 
 
 def test_messages_of_another_type_are_reported_without_values(reports: Reports, kernel: Kernel) -> None:
-    """A message of another type is reported with its type, but without values."""
+    """A message of another type is reported without values."""
     reports.process.tell("type", **NUMBER)
     kernel.run("""
         from course_pkg.ros import join
@@ -342,7 +327,7 @@ def test_messages_of_another_type_are_reported_without_values(reports: Reports, 
 
 
 def test_a_type_that_was_made_in_a_notebook(reports: Reports) -> None:
-    """The process can use a type that is not built, because it receives the text of the type."""
+    """The process can use a type that a notebook has made from text."""
     kind = compile_message("demo/Spot", "float64 x\nstring what\n")
     reports.process.tell("type", name=kind.name, text=kind.text)
     texts = {"x": "1", "what": "a"}
@@ -351,7 +336,7 @@ def test_a_type_that_was_made_in_a_notebook(reports: Reports) -> None:
 
 
 def test_end_removes_the_process_and_its_registrations(reports: Reports, master: PrivateMaster) -> None:
-    """After end(), the process has ended and has no registrations."""
+    """After end(), the process has exited and has no registrations."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)
@@ -370,7 +355,7 @@ def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -
 
 
 def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) -> None:
-    """end() kills a stopped process and unregisters its node; commands to this process do not block."""
+    """end() kills a stopped process and unregisters its node."""
     eventually(lambda: reports.parts.get("node"))
     with stopped(reports.process.pid):
         for _ in range(100):
@@ -380,7 +365,7 @@ def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) ->
 
 
 def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel) -> None:
-    """Before the command `type`, the process reads messages with the type of the publisher."""
+    """Before the command `type`, the process uses the type of the publisher."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("talker")
@@ -391,7 +376,7 @@ def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel
 
 
 def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
-    """After SIGKILL of its owner, the process ends and has no registrations."""
+    """After SIGKILL of its owner, the process exits and is unregistered."""
     pid = kernel.run("""
         from course_pkg.ros.topic.topic_process import TopicProcess
         reports = []
@@ -407,10 +392,7 @@ def test_it_ends_with_its_owner(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_it_waits_for_a_master_and_registers_again(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Without a master, the process reports the reason.
-
-    When the master is back, the process registers again.
-    """
+    """Without a master, the process reports the reason, and later registers at a new master."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros")))
         patch.setenv("ROS_HOSTNAME", "localhost")

@@ -1,4 +1,4 @@
-"""Nodes report the number of messages that they have sent, and servers report their callers."""
+"""Tests of the message counts of nodes, and of the callers of services."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ for _ in range(3):
 
 @pytest.fixture
 def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
-    """Run a kernel that publishes and a kernel that subscribes, and wait until they are connected."""
+    """Run a connected publisher kernel and subscriber kernel."""
     with Kernel() as speaker, Kernel() as listener:
         speaker.run(SPEAK)
         listener.run(HEAR)
@@ -71,14 +71,14 @@ def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
 
 
 def counted(wanted: Callable[[Traffic], bool]) -> int | None:
-    """Return the number of messages of the wanted connection, or None if there is no such connection."""
+    """Return the number of messages of a connection, or None for an unknown connection."""
     found = [each.messages for each in ActivityPoller().poll(look()).traffic if wanted(each)]
     assert len(found) <= 1
     return found[0] if found else None
 
 
 def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None:
-    """A poll returns both ends of a connection and its number of messages; it adds no subscriber."""
+    """A poll returns the nodes of each connection and its number of messages."""
     speaker, _ = pair
     before = [topic for topic in look().topics if topic.name == "/words"]
     speaker.run("for number in range(3): speaker.publish(str(number))")
@@ -90,7 +90,7 @@ def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None
 
 
 def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
-    """A publisher without subscribers has no traffic. Its node is not listed as silent (not responding)."""
+    """A publisher without subscribers is not listed as silent."""
     kernel.run(SPEAK + "\nfor number in range(3): speaker.publish('x')")
     seen = ActivityPoller().poll(look())
     assert [each for each in seen.traffic if each.topic == "/words"] == []
@@ -98,7 +98,7 @@ def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
 
 
 def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) -> None:
-    """If a node's byte count is too large for XML-RPC, the poll lists this node as silent."""
+    """A node whose byte count is too large for XML-RPC is listed as silent."""
     speaker, _ = pair
     speaker.run("speaker.impl.connections[0].stat_bytes = 2**31")
     speaker.run("speaker.publish('x')")
@@ -106,7 +106,7 @@ def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) ->
 
 
 def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
-    """The poll lists a stopped node as silent, because it does not answer."""
+    """A stopped node is listed as silent."""
     speaker, listener = pair
     snapshot = look()
     with stopped(speaker.pid):
@@ -117,9 +117,9 @@ def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
 
 
 def test_a_node_written_in_cpp(master: PrivateMaster) -> None:
-    """The counts of a C++ node are read, although they have another format.
+    """The counts of a C++ node are read, although their format differs.
 
-    The node does not report callers.
+    A C++ node does not report callers.
     """
     try:
         process = NodeProcess.rosrun("rosout", "rosout")
@@ -140,7 +140,7 @@ def test_a_node_written_in_cpp(master: PrivateMaster) -> None:
 
 
 def test_the_server_reports_its_callers(kernel: Kernel) -> None:
-    """A node of the course reports the callers of its services, with the number of calls and the time."""
+    """A node of the course reports the callers of its services."""
     with NodeProcess.rosrun("course_pkg", "server") as server:
         server.wait_for_service("/getGeometry", timeout=20)
         assert ActivityPoller().poll(look()).callers["/getGeometry"] == ()
@@ -155,7 +155,7 @@ def test_the_server_reports_its_callers(kernel: Kernel) -> None:
 
 
 def test_an_empty_graph() -> None:
-    """A poll of a graph without nodes returns empty results."""
+    """A poll of an empty graph returns empty results."""
     with PrivateMaster() as alone:
         seen = ActivityPoller().poll(look(alone.uri))
     assert (seen.traffic, seen.silent, dict(seen.callers)) == ((), frozenset(), {})
@@ -172,7 +172,7 @@ def test_an_empty_graph() -> None:
     ],
 )
 def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
-    """If a node of another library answers in another format, the unreadable parts are ignored."""
+    """The unreadable data in a response of another library are ignored."""
     server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
     server.register_function(lambda _: answer, "getBusStats")
     server.register_function(lambda _: [1, "", [[1, "/listener", "o", "TCPROS", "/words"]]], "getBusInfo")
@@ -197,10 +197,7 @@ def ask(master: PrivateMaster, *nodes: str) -> Callers:
 
 
 def test_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
-    """A service reports its callers, each with the number of calls and the time.
-
-    Without calls, the list is empty.
-    """
+    """A service reports each caller with its number of calls and the time."""
     kernel.run(SERVE)
     before = time.time()
     with Kernel() as asker:
@@ -212,7 +209,7 @@ def test_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
 
 
 def test_waiting_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
-    """A caller counts as waiting while the handler runs, but not after the end of the handler."""
+    """A caller counts as waiting while the handler runs."""
     kernel.run(SERVE)
     with Kernel() as asker:
         asker.run(ASK)
@@ -225,10 +222,7 @@ def test_waiting_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> N
 
 
 def test_a_node_that_does_not_count_callers(kernel: Kernel, master: PrivateMaster) -> None:
-    """A node that does not count its callers, or does not answer, is not in the result.
-
-    The request still ends.
-    """
+    """A node that does not count its callers is not in the result."""
     kernel.run(SERVE)
     with stopped(kernel.pid):
         began = time.monotonic()
@@ -240,7 +234,7 @@ def test_a_node_that_does_not_count_callers(kernel: Kernel, master: PrivateMaste
 
 
 def test_statistics_of_topics_are_unchanged(kernel: Kernel) -> None:
-    """The method getBusStats still returns rospy's values for topics, and refuses invalid requests."""
+    """The method getBusStats still returns rospy's values for topics."""
     stats, refused = kernel.run(
         SERVE
         + """
@@ -261,7 +255,7 @@ result = proxy.getBusStats("/test"), proxy.getBusStats("/test", "too much")[0]
     "answer", [b"", b"HTTP/1.0 200 OK\r\n\r\n<methodResponse>", b"nonsense</methodResponse>"]
 )
 def test_an_invalid_answer(answer: bytes) -> None:
-    """An answer that is not XML-RPC is treated as a missing answer."""
+    """An invalid XML-RPC response is treated like a missing response."""
     probe = callers_probe("http://localhost:1/")
     probe.answer, probe.reach = answer, Reach.ANSWERED
     assert answered_callers(probe) == {}

@@ -1,4 +1,4 @@
-"""Spans are matched by connection and number; a span with several possible matches is not matched."""
+"""Tests that match the recorded spans of callers and handlers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def span(
     note: str = "",
     thread: tuple[str, int] = ("MainThread", 1),
 ) -> SpanData:
-    """Return a span in the form in which a process records it."""
+    """Return a span as a process records it."""
     return {
         "kind": kind,
         "name": name,
@@ -60,7 +60,7 @@ def call(number: int, start: float, end: float) -> list[SpanData]:
 
 
 def test_same_connection_and_number_is_the_same_call() -> None:
-    """A handler is matched with the call that has the same connection and the same number."""
+    """A handler is matched with the call on the same connection with the same number."""
     assert keys(events(call(1, 1, 3), [span("handler", 2, 2.5)])) == [
         ("request", "call 1"),
         ("wait", "call 1"),
@@ -70,7 +70,7 @@ def test_same_connection_and_number_is_the_same_call() -> None:
 
 
 def test_another_number_is_another_call() -> None:
-    """A handler with another number on the same connection belongs to another call."""
+    """A handler with another number belongs to another call."""
     found = events(call(1, 1, 3), [span("handler", 2, 2.5, transfers=[(TRANSFER[0], 2, "/n0")])])
     assert ("handler", "call 2") in keys(found)
 
@@ -95,17 +95,14 @@ def test_contradictory_times() -> None:
 
 
 def test_calls_of_two_processes_with_one_number() -> None:
-    """In two processes, calls with the same number are different calls.
-
-    This is so even if the nodes have the same name.
-    """
+    """Calls of two processes with the same number are different calls."""
     first, second = ([span("lookup", start, start + 0.1, call=1, transfers=[])] for start in (1.0, 2.0))
     records = [NodeRecord("/n", 10, first), NodeRecord("/n", 11, second)]
     assert [event.key for event in match_events(records, 0, 100)] == ["call 1", "call 2"]
 
 
 def test_one_message_many_callbacks() -> None:
-    """All callbacks that received a message are matched with this message, on all connections."""
+    """A message is matched with all callbacks that received it."""
     wires = [TRANSFER, ["127.0.0.1:40001>50000", 9, "/n2"]]
     found = events(
         [span("publish", 1, 1.1, transfers=wires)],
@@ -117,7 +114,7 @@ def test_one_message_many_callbacks() -> None:
 
 
 def test_a_callback_of_an_unknown_message() -> None:
-    """If the message of a callback was not recorded, or was published later, the callback is not matched."""
+    """If the message of a callback was not recorded, the callback is not matched."""
     assert keys(events([span("callback", 2, 3, transfers=[])])) == [("callback", "message 1")]
     assert len({event.key for event in events([span("publish", 5, 6)], [span("callback", 2, 3)])}) == 2
 
@@ -125,7 +122,7 @@ def test_a_callback_of_an_unknown_message() -> None:
 def test_events_outside_of_the_recording() -> None:
     """Events before and after the recording are left out.
 
-    If an event has not ended when the recording ends, its end is unknown (None).
+    If an event has not ended when the recording ends, its end is None.
     """
     spans = [span("publish", 1, 2), span("publish", 4, 6), span("publish", 8, 12), span("publish", 11, 12)]
     found = events(spans, start=5, end=10)
@@ -133,13 +130,13 @@ def test_events_outside_of_the_recording() -> None:
 
 
 def test_threads_of_one_name() -> None:
-    """If two threads of a node have the same name, a number is added to the second name."""
+    """If two threads of a node have the same name, the second name gets a number."""
     spans = [span("callback", start, start + 1, transfers=[], thread=["/x", start]) for start in (1, 2)]
     assert [event.thread for event in events(spans)] == ["/x", "/x (2)"]
 
 
 def test_a_message_that_was_dropped() -> None:
-    """If a message was sent only to some connections, its note says this when publish() has ended."""
+    """If a message was sent only to some connections, its note contains this fact."""
     (lost,) = events([span("publish", 1, 2, connections=2)])
     assert "sent to 1 of 2" in lost.note
     (going,) = events([span("publish", 1, None, connections=2)])

@@ -1,4 +1,4 @@
-"""A process records the spans that ended last, all running spans, and the callers of its services."""
+"""Tests of the spans and the callers that a process records."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from course_pkg.ros.trace.recorder import CALLERS, LONGEST, CallCounter, Recorde
 
 
 def test_the_number_of_stored_spans_is_bounded() -> None:
-    """The recorder keeps the spans that ended last, and all running spans; `complete_from` is correct."""
+    """The recorder stores the latest spans and all running spans."""
     recorder = Recorder(size=3)
     lasting = recorder.begin("handler", "/x", "/caller", [])
     spans = [recorder.begin("publish", f"/{number}", "", []) for number in range(5)]
@@ -22,14 +22,14 @@ def test_the_number_of_stored_spans_is_bounded() -> None:
 
 
 def test_a_memory_that_is_not_full_is_complete() -> None:
-    """As long as the recorder has free memory, its record is complete from the beginning."""
+    """While the recorder has free memory, its record is complete."""
     recorder = Recorder(size=3)
     recorder.end(recorder.begin("publish", "/x", "", []))
     assert recorder.since(0.0)["complete_from"] == 0.0
 
 
 def test_an_end_counts_once() -> None:
-    """A second end() does not change the note of a span."""
+    """A second end() does not change a span."""
     recorder = Recorder()
     span = recorder.begin("handler", "/x", "/caller", [])
     recorder.end(span, "the first")
@@ -49,7 +49,7 @@ def test_long_error_messages_are_cut() -> None:
 
 
 def test_reading_while_others_write() -> None:
-    """since() works while other threads write, and returns all stored spans."""
+    """While other threads write, since() returns all stored spans."""
     recorder = Recorder(size=1000)
     stop = threading.Event()
 
@@ -69,7 +69,7 @@ def test_reading_while_others_write() -> None:
 
 
 def test_calls_are_counted_by_caller() -> None:
-    """Calls and running calls are counted for each service and caller; the latest caller comes first."""
+    """The recorder counts the calls for each service and caller, and lists the latest caller first."""
     counter = CallCounter()
     for caller in ("/a", "/b", "/a"):
         counter.begin("/x", caller)
@@ -82,7 +82,7 @@ def test_calls_are_counted_by_caller() -> None:
 
 
 def test_the_caller_with_the_oldest_call_is_forgotten() -> None:
-    """The counter keeps a limited number of callers, and always keeps the callers that are waiting."""
+    """The counter stores a limited number of callers, and all waiting callers."""
     counter = CallCounter()
     counter.begin("/x", "/waiting")
     for number in range(CALLERS + 10):
@@ -101,7 +101,7 @@ class _Owner:
 
 
 def test_a_hook_fits_only_the_expected_method() -> None:
-    """A hook cannot be installed for a missing method, or for a method with other parameters or globals."""
+    """A hook cannot replace a method with other parameters."""
     assert Hook(_Owner, "method", ("self", "one"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "two"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "one"), lambda method: method, uses=["elsewhere"]).fits()
@@ -109,7 +109,7 @@ def test_a_hook_fits_only_the_expected_method() -> None:
 
 
 def test_a_hook_is_installed_once() -> None:
-    """A second install() changes nothing."""
+    """A second install() has no effect."""
 
     class Owner(_Owner):
         pass

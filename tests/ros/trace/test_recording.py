@@ -1,4 +1,4 @@
-"""A recording contains the events at both ends of each connection, and matches these events."""
+"""Tests of recordings with the events of callers and servers."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ rospy.spin()
 
 @pytest.fixture
 def asker(kernel: Kernel) -> Kernel:
-    """Return a kernel that is a node and has imported some types."""
+    """Return a kernel that runs a node and has imported some types."""
     kernel.run(START)
     return kernel
 
 
 def recorded(asker: Kernel, cell: str) -> Recording:
-    """Run a cell that makes the recording `recording`, and return this recording."""
+    """Run a cell that creates the variable `recording`, and return this recording."""
     found = asker.run(f"{textwrap.dedent(cell)}\nresult = dataclasses.asdict(recording)")
     events = tuple(Event(**event) for event in found["events"])
     return Recording(
@@ -59,7 +59,7 @@ def kinds(recording: Recording, key: str) -> list[str]:
 
 @contextmanager
 def plain_node(master: PrivateMaster) -> Iterator[None]:
-    """Run a node without prepare_node()."""
+    """Run a node that has not called prepare_node()."""
     process = subprocess.Popen([sys.executable, "-c", PLAIN])
     try:
         eventually(lambda: "/plain" in MasterClient(master.uri).system_state().services)
@@ -73,7 +73,7 @@ def plain_node(master: PrivateMaster) -> Iterator[None]:
     "how", ["node.call('/getGeometry', geometry", "rospy.ServiceProxy('/getGeometry', geometry)("]
 )
 def test_both_ends_of_a_call(asker: Kernel, how: str) -> None:
-    """A call has five events of the caller; the handler runs between the request and the response."""
+    """A call has five events of the caller and one event of the handler."""
     opening = how if how.endswith("(") else f"{how}, "
     recording = recorded(
         asker,
@@ -105,7 +105,7 @@ def test_both_ends_of_a_call(asker: Kernel, how: str) -> None:
 
 
 def test_a_persistent_connection_is_looked_up_once(asker: Kernel) -> None:
-    """On a persistent connection, only the first call has a look-up; each call has its own handler event."""
+    """On a persistent connection, only the first call has a look-up."""
     recording = recorded(
         asker,
         """
@@ -125,7 +125,7 @@ def test_a_persistent_connection_is_looked_up_once(asker: Kernel) -> None:
 
 
 def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
-    """If the server refuses, the error event and the handler event both contain the error message."""
+    """If the server refuses a call, the caller's event and the handler's event contain the error message."""
     recording = recorded(
         asker,
         """
@@ -143,7 +143,7 @@ def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
 
 
 def test_a_service_that_does_not_exist(asker: Kernel) -> None:
-    """A call to an unknown service has only a look-up, and an error without a second node."""
+    """A call to an unknown service has a look-up and an error."""
     recording = recorded(asker, "with node.record() as recording:\n    called('/nope', Trigger)")
     assert kinds(recording, "call 1") == ["lookup", "error"]
     assert (recording.events[1].peer, "unavailable" in recording.events[1].note) == ("", True)
@@ -170,7 +170,7 @@ def test_a_caller_that_gave_up(asker: Kernel) -> None:
 
 
 def test_unfinished_events_are_open(asker: Kernel) -> None:
-    """A waiting caller and a running handler have no end; an event before the block has a negative start."""
+    """A waiting caller and a running handler have no end."""
     recording = recorded(
         asker,
         """
@@ -195,7 +195,7 @@ def test_unfinished_events_are_open(asker: Kernel) -> None:
 
 
 def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
-    """When a client in another process ends, it sends its record; the master keeps no parameter of it."""
+    """When a client process exits, the recording receives the client's events."""
     recording = recorded(
         asker,
         """
@@ -216,7 +216,7 @@ def test_a_client_that_ends_during_the_recording(asker: Kernel) -> None:
 
 
 def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
-    """When a node of another notebook leaves the graph, it sends its record."""
+    """When another notebook calls leave(), the recording receives the events of its node."""
     with Kernel() as other:
         other.run("from std_srvs.srv import Trigger; from course_pkg.ros import join; node = join('other')")
         asker.run("""
@@ -242,13 +242,13 @@ def test_a_server_that_died(asker: Kernel) -> None:
             called("/dying", Trigger)
     """,
     )
-    # The reason is not checked, because it depends on the order in which the sockets close.
+    # The test does not check the reason, because the reason depends on the order in which the sockets close.
     assert [*recording.unrecorded] == ["/dying_server"]
     assert kinds(recording, "call 1") == ["lookup", "connect", "request", "wait", "error"]
 
 
 def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
-    """A stopped node delays the recording only a little; it is listed as unrecorded."""
+    """A stopped node is listed as unrecorded after a short delay."""
     reply = asker.ask("""
         import os, signal
         server = node.run("course_pkg", "pulse")
@@ -266,7 +266,7 @@ def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
 
 
 def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None:
-    """A node without prepare_node() is listed as unrecorded, but the caller's events are recorded."""
+    """A node without prepare_node() is listed as unrecorded."""
     with plain_node(master):
         recording = recorded(asker, "with node.record() as recording:\n    node.call('/plain', Trigger)")
     assert "keeps no record" in recording.unrecorded["/plain"]
@@ -275,7 +275,7 @@ def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None
 
 
 def test_messages_and_their_callbacks(asker: Kernel) -> None:
-    """Each callback of each subscriber is matched with the message that it received."""
+    """Each callback of each subscriber is matched with its message."""
     recording = recorded(
         asker,
         """
@@ -322,7 +322,7 @@ result = [(sent.get(key), value) for key, value in by_key(recording, "callback",
 
 @pytest.mark.parametrize(("outgoing", "incoming"), [(3, None), (200, 1), (2, 2)])
 def test_dropped_messages_are_not_matched(asker: Kernel, outgoing: int, incoming: int | None) -> None:
-    """Each callback is matched with the right message, even if queues drop other messages."""
+    """Each callback is matched with its message, even if queues drop other messages."""
     pairs: list[tuple[int | None, int]] = asker.run(FLOOD.format(outgoing=outgoing, incoming=incoming))
     assert 0 < len(pairs) < 150
     assert [sent for sent, _ in pairs] == [received for _, received in pairs]
@@ -342,7 +342,7 @@ def test_a_message_without_a_subscriber(asker: Kernel) -> None:
 
 
 def test_a_latched_message_is_sent_again(asker: Kernel) -> None:
-    """A new subscriber receives the latched message, and its callback is matched with this message."""
+    """The callback of a new subscriber is matched with the latched message."""
     recording = recorded(
         asker,
         """
@@ -358,7 +358,7 @@ def test_a_latched_message_is_sent_again(asker: Kernel) -> None:
 
 
 def test_a_call_from_a_callback(asker: Kernel) -> None:
-    """A call in a callback is recorded on the callback's thread, between its start and its end."""
+    """A call in a callback is recorded on the callback's thread."""
     recording = recorded(
         asker,
         """
@@ -382,7 +382,7 @@ def test_a_call_from_a_callback(asker: Kernel) -> None:
 
 
 def test_without_a_master() -> None:
-    """Without a master, only the kernel's own events are recorded, and a note gives the reason."""
+    """Without a master, only the kernel's own events are recorded."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(START)
         kernel.run("""
@@ -408,10 +408,7 @@ def test_an_error_in_the_block(asker: Kernel) -> None:
 
 
 def test_a_rospy_with_other_methods(kernel: Kernel) -> None:
-    """If a method of rospy has unexpected parameters, the course does not replace it.
-
-    The recording says so.
-    """
+    """If a rospy method has unexpected parameters, it is not recorded, and the recording contains a note."""
     assert kernel.run("""
         from rospy.impl.tcpros_service import ServiceImpl
         bare = ServiceImpl._handle_request

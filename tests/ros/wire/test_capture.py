@@ -1,4 +1,4 @@
-"""The relay forwards all bytes; a recorded call contains the bytes of both directions."""
+"""Tests of the relay that records the bytes of a call."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def echo() -> Iterator[int]:
-    """Return a port on which all received bytes are sent back, and a last message at the end."""
+    """Return a port that sends all received bytes back, and then a last message."""
 
     def serve() -> None:
         while True:
@@ -55,7 +55,7 @@ def relay_threads() -> list[str]:
 
 
 def test_every_byte_is_forwarded_and_kept(echo: int) -> None:
-    """The bytes of both directions, and the end of each stream, arrive unchanged; no thread is left."""
+    """The relay forwards and stores the bytes of both directions."""
     sent = bytes(range(256)) * 4000
     with Relay("127.0.0.1", echo) as relay, socket.create_connection(("127.0.0.1", relay.port)) as sock:
         came = b""
@@ -74,7 +74,7 @@ def test_every_byte_is_forwarded_and_kept(echo: int) -> None:
 
 
 def test_bytes_beyond_the_limit_are_forwarded_and_counted(echo: int) -> None:
-    """The relay forwards all bytes; it stores a limited number of them, and counts the others."""
+    """The relay forwards all bytes, but stores only a limited number."""
     sent = bytes(MOST + 100_000)
     with Relay("127.0.0.1", echo) as relay, socket.create_connection(("127.0.0.1", relay.port)) as sock:
         threading.Thread(
@@ -102,7 +102,7 @@ def test_a_relay_to_an_unreachable_server() -> None:
 
 
 def test_a_closed_relay_ends_its_connections(echo: int) -> None:
-    """close() closes all connections of the relay and its port."""
+    """close() closes all connections and the port of the relay."""
     relay = Relay("127.0.0.1", echo)
     with socket.create_connection(("127.0.0.1", relay.port)) as sock:
         sock.sendall(b"x")
@@ -116,7 +116,7 @@ def test_a_closed_relay_ends_its_connections(echo: int) -> None:
 
 
 def test_a_call_is_recorded_as_rospy_makes_it() -> None:
-    """record_call() records the look-up and the connection, and returns the unchanged response."""
+    """record_call() records a call and returns the unchanged response."""
     wire = record_call(NAME, fields=SIDES, headers={"session": "alice"})
     assert wire.error == ""
     assert (wire.response.area, wire.response.volume) == (2.0, 6.0)
@@ -129,7 +129,7 @@ def test_a_call_is_recorded_as_rospy_makes_it() -> None:
 
 
 def test_a_failed_call_is_recorded_and_a_wrong_field_is_an_error() -> None:
-    """The record contains the server's error message; a wrong field name raises FieldError."""
+    """The record of a failed call contains the server's error message."""
     other = compile_service(
         KIND, "int32 length\nint32 width\nint32 height\n---\nfloat32 area\nfloat32 volume"
     )
@@ -143,7 +143,7 @@ def test_a_failed_call_is_recorded_and_a_wrong_field_is_an_error() -> None:
 
 
 def test_a_call_of_a_stopped_server_is_recorded(server: NodeProcess) -> None:
-    """If a call times out, the record contains the sent bytes, but no received bytes."""
+    """If a call times out, the record contains only the sent bytes."""
     with stopped(server.pid):
         wire = record_call(NAME, KIND, fields=SIDES, timeout=0.5)
     assert "no answer within 0.5 s" in wire.error
