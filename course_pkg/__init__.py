@@ -1,7 +1,6 @@
-"""A course on ROS 1 services.
+"""A course on ROS 1 services; the notebooks import these names.
 
-The notebooks import these names. Each name is imported when it is first used. `import course_pkg` is
-therefore fast for nodes and tools, because they do not use these names.
+Each name is imported when it is first used. `import course_pkg` is therefore fast for nodes and tools.
 """
 
 from pkgutil import extend_path

@@ -1,8 +1,8 @@
-"""Runs the commands of `course`. Each package declares its commands in its module `commands.py`.
+"""Run the commands of `course`.
 
-Any Python interpreter of the machine can run this module before anything is installed, because the module
-imports only the standard library and the modules `commands.py`. Each command imports other modules when it
-runs.
+Each package declares its commands in its module `commands.py`. This module imports only the standard library
+and the modules `commands.py`, so any Python interpreter can run this module before the set-up. Each command
+imports other modules when it runs.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from course_pkg.site import commands as site
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-INSIDE = "COURSE_INSIDE"  # a variable that is set while the course's own interpreter runs this module
+INSIDE = "COURSE_INSIDE"  # This variable is set while the course's own interpreter runs this module.
 COMMANDS: dict[str, Command] = {
     **lab.COMMANDS,
     **overview.COMMANDS,
@@ -52,7 +52,7 @@ def main(argv: Sequence[str] | None = None) -> NoReturn:
 
 
 def parse(arguments: Sequence[str]) -> SimpleNamespace:
-    """Return the parsed `arguments`. If they are wrong, print the usage and exit with status 2."""
+    """Return the parsed `arguments`; for wrong arguments, print the usage and exit with status 2."""
     name = arguments[0] if arguments else ""
     if name in COMMANDS and COMMANDS[name].rest and arguments[1:2] not in (["-h"], ["--help"]):
         rest = list(arguments[1:])
@@ -63,7 +63,7 @@ def parse(arguments: Sequence[str]) -> SimpleNamespace:
 
 
 def _parser() -> ArgumentParser:
-    # imported here, because the import takes 10 ms and the command `run` does not need it
+    # The import takes 10 ms, and the command `run` does not need it.
     from argparse import ArgumentParser
 
     parser = ArgumentParser(
@@ -97,8 +97,7 @@ def _dispatch(arguments: Sequence[str]) -> int:
 def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
     """Set up the missing parts of the environment, and set its environment variables.
 
-    If the command imports libraries, the Python interpreter of the environment replaces this process, and
-    runs the command.
+    For a command that imports libraries, the Python interpreter of the environment replaces this process.
     """
     from course_pkg.setup import Places, ensure, environment
 

@@ -78,7 +78,7 @@ class BrokenDefinition(InterfaceError):
     """
 
     def __init__(self, source: str, line: int, column: int, text: str, problem: str, remedy: str) -> None:
-        # Each tab is replaced by one space; the mark ^ is then below the right letter.
+        # Each tab is replaced by one space, so the mark ^ is below the right letter.
         shown = text.replace("\t", " ").rstrip()
         excerpt = f"\n    {shown}\n    {' ' * (column - 1)}^" if shown else ""
         super().__init__(f"{source}, line {line}, column {column}: {problem}; {remedy}{excerpt}")
@@ -177,7 +177,10 @@ class UnknownExecutable(GraphError):
 
 
 class NodeFailed(GraphError):
-    """The process of a node ended. `output` is the end of its output, and `returncode` is its exit status."""
+    """The process of a node ended.
+
+    `output` is the last text of its output, and `returncode` is its exit status.
+    """
 
     def __init__(self, message: str, output: str = "", returncode: int | None = None) -> None:
         super().__init__(message)
@@ -194,11 +197,11 @@ class ChannelBroken(ChannelError):
 
 
 class ChannelClosed(ChannelError):
-    """The other end of the channel is closed."""
+    """The other process has closed the channel."""
 
 
 class ChannelTimeout(ChannelError):
-    """The other end of the channel did not read or answer in time."""
+    """The other process did not read or respond in time."""
 
 
 class CheckError(CourseError):
@@ -258,7 +261,7 @@ class NoServiceSelected(PanelError):
 
 
 class CallInProgress(PanelError):
-    """The panel is already making a call. It makes only one call at a time."""
+    """The panel is already making a call, and makes only one call at a time."""
 
 
 class DrawingFailed(PanelError):

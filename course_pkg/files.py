@@ -1,4 +1,4 @@
-"""Writes files completely or not at all. This module imports only the standard library."""
+"""Write files completely or not at all; this module imports only the standard library."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from pathlib import Path
 def write_atomically(path: Path, content: str | bytes, encoding: str = "utf-8") -> None:
     """Write `content` to `path`, and create its folders.
 
-    While the file is being written, a reader gets either the complete old file or the complete new file.
+    During the write, a reader gets either the complete old file or the complete new file.
 
     Raises OSError if the file cannot be written, or UnicodeEncodeError if `encoding` cannot represent the
-    text. In both cases, the old file does not change.
+    text; then the old file does not change.
     """
     data = content.encode(encoding) if isinstance(content, str) else content
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Import the names of a package only on their first use. This makes the import of the package itself fast."""
+"""Import the names of a package only on their first use, so that the import of the package is fast."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """The folder for a student's results and own packages.
 
-Each checkout of the course has its own folder, which is outside the checkout.
+Each checkout has its own folder outside the checkout.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from typing import IO, Any
 from course_pkg.files import write_atomically
 from course_pkg.waiting import wait_until
 
-# maximum time in s to wait for a lock; this is enough because each program writes only one small file
+# A program waits at most this time in s for a lock; each program writes only one small file.
 LOCK = 5.0
 
 
@@ -33,19 +33,16 @@ def state_folder() -> Path:
 
 
 def write_json(path: Path, data: Mapping[str, Any]) -> None:
-    """Write `data` to `path` as JSON, completely or not at all.
-
-    Raises OSError if the file cannot be written.
-    """
+    """Write `data` to `path` as JSON, completely or not at all; raises OSError if this fails."""
     write_atomically(path, json.dumps(data, indent=1, sort_keys=True, ensure_ascii=False) + "\n")
 
 
 @contextmanager
 def locked(folder: Path, timeout: float = LOCK) -> Iterator[None]:
-    """Hold the lock of `folder` during the block. Two kernels then cannot use the folder at the same time.
+    """Hold the lock of `folder` during the block, so that no other process uses the folder.
 
-    Creates the folder. Raises OSError if the lock cannot be created, or if another process holds it for
-    `timeout` s. On a file system without locks, the block runs without a lock.
+    The folder is created if it is missing. Raises OSError if the lock cannot be created, or if another
+    process holds the lock for `timeout` s. On a file system without locks, the block runs without a lock.
     """
     folder.mkdir(parents=True, exist_ok=True)
     with (folder / ".lock").open("ab") as file:
@@ -60,7 +57,7 @@ def now() -> str:
 
 
 def _lock(file: IO[bytes]) -> bool:
-    """Take the lock of `file`, and return whether it was free. Closing the file releases the lock."""
+    """Acquire the lock of `file`, and return whether it was free; closing the file releases the lock."""
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

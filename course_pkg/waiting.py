@@ -1,4 +1,4 @@
-"""Time limits: a deadline, a wait for a condition, and a limit after which running code is interrupted."""
+"""Time limits: a deadline, a wait for a condition, and a limit that interrupts running code."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 Value = TypeVar("Value")
-INTERVAL = 0.01  # time in s between two evaluations of a condition
-MOST = 4.0  # maximum factor by which a limit grows on a busy machine
+INTERVAL = 0.01  # This is the time in s between two evaluations of a condition.
+MOST = 4.0  # On a busy machine, a time limit grows by at most this factor.
 
 
 class Deadline:
@@ -23,22 +23,22 @@ class Deadline:
     """
 
     def __init__(self, seconds: float | None) -> None:
-        self.seconds = seconds  # the seconds that were given
+        self.seconds = seconds
         self._end = float("inf") if seconds is None else time.monotonic() + seconds
 
     @property
     def left(self) -> float:
-        """The seconds that are left, at least 0, or infinity if the deadline never passes."""
+        """The remaining seconds, at least 0, or infinity if the deadline never passes."""
         return max(self._end - time.monotonic(), 0.0)
 
     @property
     def milliseconds(self) -> int | None:
-        """The milliseconds that are left, rounded up, for select.poll. None if the deadline never passes."""
+        """The remaining milliseconds, rounded up, for select.poll; None if the deadline never passes."""
         return None if self.seconds is None else math.ceil(self.left * 1000)
 
     @property
     def passed(self) -> bool:
-        """Whether no time is left."""
+        """Whether the deadline has passed."""
         return time.monotonic() >= self._end
 
 
@@ -48,11 +48,10 @@ def wait_until(
     interval: float = INTERVAL,
     stopped: threading.Event | None = None,
 ) -> Value:
-    """Return the first true value of `condition`, or its last value when `timeout` s have passed.
+    """Return the first true value of `condition`, or its last value after `timeout` s.
 
-    The condition is evaluated immediately, then every `interval` s, and once more after the deadline. A
-    thread that could not run for a long time therefore also returns the current value. If the event `stopped`
-    is set, the wait ends early.
+    The condition is evaluated immediately, then every `interval` s, and once more after the deadline. If the
+    event `stopped` is set, the wait ends early.
     """
     deadline = Deadline(timeout)
     while True:
@@ -71,7 +70,7 @@ def at_this_load(seconds: float) -> float:
     """Return a time limit in s for work that takes at most `seconds` s on an idle machine.
 
     The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Without a
-    longer limit, a program that waits for the processor would look like a program that never ends.
+    longer limit, a program that waits for a CPU would look like a program that never ends.
     """
     load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
     return seconds * min(max(load, 1.0), MOST)
@@ -79,11 +78,11 @@ def at_this_load(seconds: float) -> float:
 
 @contextmanager
 def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 0.0) -> Iterator[None]:
-    """Raise `error` in the block when the block has run for `seconds` s, and again every `repeat` s.
+    """Raise `error` in the block when the block has run for `seconds` s.
 
-    If `repeat` is 0, `error` is raised only once. Use `repeat` for code that may catch the first error. This
-    function uses an alarm signal (SIGALRM). The block therefore has to run in the main thread, and such
-    blocks may not be nested. Raises ValueError in another thread.
+    If `repeat` is not 0, the error is raised again every `repeat` s, for code that may catch the first error.
+    This function uses an alarm signal (SIGALRM), so the block has to run in the main thread, and such blocks
+    may not be nested. Raises ValueError in another thread.
     """
 
     def alarm(*_: object) -> None:

@@ -28,7 +28,7 @@ def pytest_configure() -> None:
 # pytest-xdist reads the marks in the same hook, so this function must run first.
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put tests into groups that pytest-xdist runs on one worker; slow groups run first.
+    """Put tests into groups. pytest-xdist runs each group on one worker.
 
     The tests of a file form a group, because these tests share a master. The tests of example answers form a
     group. All tests with JupyterLab form a group, because loading JupyterLab's page is slow.

@@ -65,7 +65,7 @@ class Kernel:
             stderr=subprocess.STDOUT,
             pass_fds=[writer],
             env={name: value for name, value in environment.items() if value is not None},
-            start_new_session=True,  # Jupyter also starts a kernel in a new session.
+            start_new_session=True,  # Jupyter also starts each kernel in a new session.
             text=True,
         )
         os.close(writer)

@@ -1,4 +1,4 @@
-"""A real IPython kernel that receives the id of each cell, as from JupyterLab."""
+"""A real IPython kernel that receives the id of each cell, like the kernel of JupyterLab."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Shown:
     ename: str = ""
     evalue: str = ""
     traceback: list[str] = field(default_factory=list)
-    others: str = ""  # This text is the output of other cells at the same time.
+    others: str = ""  # The text that other cells printed at the same time.
 
     @property
     def error_lines(self) -> list[str]:
@@ -53,7 +53,7 @@ class NotebookKernel:
         self.manager.shutdown_kernel(now=True)
 
     def begin(self, code: str, cell: str | None = None) -> str:
-        """Send the code and the id of a cell to the kernel, and return the id of the message."""
+        """Send the code and the id of a cell to the kernel, and return the message id."""
         content = {
             "code": textwrap.dedent(code).strip("\n"),
             "silent": False,
@@ -74,7 +74,7 @@ class NotebookKernel:
     def shown(self, number: str, timeout: float = TIMEOUT) -> Shown:
         """Wait for the end of the cell with the message id `number`, and return its outputs.
 
-        Raises AssertionError if the cell takes more than `timeout` s.
+        Raises AssertionError if the cell takes longer than `timeout` s.
         """
         shown, deadline = Shown(), time.monotonic() + timeout
         while True:

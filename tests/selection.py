@@ -3,11 +3,11 @@
 The option `--changed` selects tests that a change can affect, and `--slow` selects slow tests.
 
 A test depends on its own folder in tests/, and on the packages of course_pkg that its package may import. The
-import-linter contract in pyproject.toml lists these packages. A test of a chapter depends on this chapter and
-on the chapters that it imports.
+import-linter contract in pyproject.toml lists these packages. A test of a chapter depends on the chapter's
+folder and on the chapters that the chapter imports.
 
-A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group that has
-passed and whose files have not changed since then.
+A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group if the group
+has passed and its files have not changed since then.
 """
 
 from __future__ import annotations
@@ -100,7 +100,10 @@ class SelectionPlugin:
         items[:] = [item for item in items if item not in left]
 
     def _is_wanted(self, item: pytest.Item, *, slow: bool) -> bool:
-        """Return whether a test belongs to a usual run, or to a slow run if `slow` is true."""
+        """Return whether a test belongs to a usual run.
+
+        If `slow` is true, return whether the test belongs to a slow run.
+        """
         if item.get_closest_marker("when_changed"):
             return slow or self._selection.has_changed(item)
         return (item.get_closest_marker("slow") is not None) == slow
@@ -119,7 +122,7 @@ class SelectionPlugin:
             self._selection.store()
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        """Print a command for each failed test."""
+        """Print a command that repeats each failed test."""
         failed = [*terminalreporter.getreports("failed"), *terminalreporter.getreports("error")]
         names = dict.fromkeys(report.nodeid.split("@")[0] for report in failed)
         if names:
@@ -156,9 +159,9 @@ def digest_of(group: str) -> str:
 def _packages_below(folder: str) -> list[str]:
     """Return the packages on which a folder of tests depends.
 
-    The packages are the package of the same name and all packages that it may import.
+    The result contains the package with the folder's name and all packages that it may import.
 
-    If no package has this name, return all packages.
+    If no package has the name of the folder, return all packages.
     """
     package = {"chapters": "authoring", "notebooks": "authoring"}.get(folder, folder)
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["importlinter"]

@@ -1,1 +1,1 @@
-"""Tools for authors: they run the solutions, and derive the students' notebooks from them."""
+"""Tools for authors: run the solutions, and derive the students' notebooks from them."""

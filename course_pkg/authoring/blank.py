@@ -1,15 +1,15 @@
 """Removes the answer from an exercise cell.
 
-There are three rules. They change no other byte of the cell.
+There are three rules for the removal of an answer. All other bytes of the cell stay unchanged.
 
 1. The body of a function or method becomes its docstring, if it has one, and `...`.
-2. `name = value` at the top level becomes `name = ...`. A line stays if its value calls a function or a class
-   of the same cell (`counter = Counter()`), because such a line contains no part of the answer.
-3. A cell that begins with `%%writefile` keeps this line. Rules 1 and 2 apply to Python below it. Any other
-   text becomes its comment lines at the top, and `...`.
+2. `name = value` at the top level becomes `name = ...`. A line does not change if its value calls a function
+   or class of the same cell (`counter = Counter()`), because such a line contains no part of the answer.
+3. The line `%%writefile` at the top of a cell does not change. Rules 1 and 2 apply to Python below this line.
+   In any other text, only the comment lines at the top remain, and `...` replaces all other lines.
 
 These rules are not enough if students have to repair a given text. In this case, the check contains the given
-text (`start`, see checking/parts.py). If a student has not changed this text, the check reports it.
+text (`start`, see checking/parts.py). The check reports an unchanged text.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 class Edit(NamedTuple):
-    """An edit: `text` replaces the bytes from `start` to `end` (without the byte at `end`)."""
+    """A replacement: `text` replaces the bytes from `start` to `end` (without the byte at `end`)."""
 
     start: int
     end: int
@@ -79,7 +79,7 @@ def _blank_python(source: str) -> str:
 
 
 class _Cell:
-    """The source of a cell as bytes, and its syntax tree; `ast` counts columns in bytes.
+    """The source of a cell as bytes, and its syntax tree.
 
     `ast` counts columns in bytes.
     """
@@ -122,7 +122,7 @@ class _Cell:
         return isinstance(called, ast.Name) and called.id in self._defined
 
     def _end_of_kept(self, node: Function) -> int:
-        """Return the end of the signature and the docstring, including a comment after them on this line."""
+        """Return the end of the signature and the docstring, including a comment on the same line."""
         documented = ast.get_docstring(node, clean=False) is not None
         end = self._end(node.body[0]) if documented else self._end_of_signature(node)
         rest = self.data[end:].split(b"\n", 1)[0]
@@ -156,7 +156,7 @@ class _Cell:
     def _placeholder(self, node: Function, kept: int) -> bytes:
         first = node.body[0]
         line = self._lines[first.lineno - 1][: first.col_offset]
-        if line.strip():  # the body is on the same line as the signature
+        if line.strip():  # The body is on the same line as the signature.
             return b"; ..." if kept == self._end(first) else b" ..."
         return b"\n" + line + b"..."
 
@@ -176,7 +176,7 @@ class _Cell:
 def _dots(target: ast.expr) -> str:
     """Return one `...` for each name in `target`.
 
-    Return "" if `target` contains anything other than names.
+    Return "" if `target` contains anything except names.
     """
     if isinstance(target, ast.Starred):
         return _dots(target.value)
@@ -188,10 +188,10 @@ def _dots(target: ast.expr) -> str:
 
 
 def _parsed(source: str) -> tuple[str, ast.Module]:
-    """Return the syntax tree of `source`, and the parsed text; this text has the same length as `source`.
+    """Return the syntax tree of `source` and the parsed text, which has the same length as `source`.
 
-    If `source` is not Python, the function first masks the lines that only IPython understands. Raises
-    AuthoringError if the masked text is not valid Python either.
+    If `source` is not valid Python, the function first masks the lines that only IPython understands. Raises
+    AuthoringError if the masked text is not valid Python.
     """
     try:
         return source, ast.parse(source)
@@ -204,7 +204,7 @@ def _parsed(source: str) -> tuple[str, ast.Module]:
 
 
 def _masked(line: str) -> str:
-    """Return `line`, but replace a magic, a shell command or `name?` with a name of the same length."""
+    """Return `line`; a name of the same length replaces a magic, a shell command or `name?`."""
     found = MAGIC.match(line)
     if not found:
         return line

@@ -25,17 +25,17 @@ class CellMetadata(TypedDict, total=False):
 
     course: CourseMetadata
     tags: list[str]
-    recording: bool  # true for a cell that the site adds to a notebook while it records panels
+    recording: bool  # The value is True for a cell that the site adds to a notebook for recording panels.
 
 
 class Output(TypedDict, total=False):
-    """An output of a code cell (nbformat 4). Its keys depend on `output_type`."""
+    """An output of a code cell (nbformat 4). The keys depend on `output_type`."""
 
-    output_type: str  # "stream", "execute_result", "display_data", "error"
+    output_type: str  # The value is "stream", "execute_result", "display_data" or "error".
     name: str
     text: str
-    data: dict[str, Plain]  # by MIME type
-    metadata: dict[str, dict[str, str]]  # by MIME type
+    data: dict[str, Plain]  # The keys are MIME types.
+    metadata: dict[str, dict[str, str]]  # The keys are MIME types.
     execution_count: int | None
     ename: str
     evalue: str
@@ -46,7 +46,7 @@ class Cell(TypedDict, total=False):
     """A cell (nbformat 4); only a code cell has `outputs` and `execution_count`."""
 
     id: str
-    cell_type: str  # "code", "markdown", "raw"
+    cell_type: str  # The value is "code", "markdown" or "raw".
     metadata: CellMetadata
     source: str
     outputs: list[Output]
@@ -56,7 +56,7 @@ class Cell(TypedDict, total=False):
 class WidgetModel(TypedDict, total=False):
     """One saved widget."""
 
-    state: dict[str, Plain]  # its traits
+    state: dict[str, Plain]  # `state` contains the traits of the widget.
     buffers: list[dict[str, Plain]]
 
 
@@ -72,7 +72,7 @@ class NotebookMetadata(TypedDict, total=False):
     title: str
     kernelspec: dict[str, str]
     language_info: dict[str, str]
-    widgets: dict[str, WidgetModels]  # by MIME type
+    widgets: dict[str, WidgetModels]  # The keys are MIME types.
 
 
 class Notebook(TypedDict, total=False):
@@ -85,12 +85,12 @@ class Notebook(TypedDict, total=False):
 
 
 def exercise_of(cell: Cell) -> str:
-    """Return the id of the part to which this exercise cell belongs, or "" if the cell is not an exercise."""
+    """Return the id of the part to which an exercise cell belongs, or "" for any other cell."""
     return str(_course(cell).get("exercise", ""))
 
 
 def check_of(cell: Cell) -> str:
-    """Return the id of the part that this cell checks, or "" if the cell is not a check."""
+    """Return the id of the part that a check cell checks, or "" for any other cell."""
     return str(_course(cell).get("check", ""))
 
 

@@ -24,24 +24,25 @@ from course_pkg.checking.parts import chapters, parts_of
 from course_pkg.errors import AuthoringError
 from course_pkg.setup.progress import Progress
 
-CELL_TIMEOUT = 120  # maximum time for one cell in s; no reader should have to wait longer
-# number of notebooks that run at the same time, per core a notebook mostly waits for nodes and for responses
+CELL_TIMEOUT = 120  # A cell may run for this many s, because a reader should not wait longer.
+# Each core runs this many notebooks at the same time, because a notebook mostly waits for nodes and
+# responses.
 PER_CORE = 3
-A_CELL = 2.0  # assumed time of one cell in s, for the estimate of a notebook's time
+A_CELL = 2.0  # For the estimate of a notebook's time, one cell takes this many s.
 
 Finished = Callable[[str, Notebook], None]
 
 
 def workers_here(notebooks: int) -> int:
-    """Return how many of `notebooks` notebooks this machine should run at the same time."""
+    """Return the number of notebooks that this machine should run at the same time."""
     return max(1, min(notebooks, PER_CORE * (os.cpu_count() or 1)))
 
 
 def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
     """Run the solutions of `chapters`, such as ["05"], or of all chapters, and store them with their outputs.
 
-    Raises AuthoringError if a solution does not run to its end, or if one of its checks does not pass. The
-    message contains all errors and reports. The files of these solutions are then not changed.
+    Raises AuthoringError if a solution stops before its last cell, or if one of its checks does not pass. The
+    message contains all errors and reports. In this case, the files of these solutions do not change.
     """
     paths = {path.stem: path for path in NotebookStore(root).solutions(chapters)}
     stored = {name: read(path) for name, path in paths.items()}
@@ -61,11 +62,11 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
     """Run several of `notebooks` at the same time; the keys are their names.
 
-    Calls `finished` with the name and the outputs of each notebook that ran to its end. Returns the errors of
-    all other notebooks, by name. A KeyboardInterrupt ends all kernels.
+    Calls `finished` with the name and the outputs of each notebook that ran to its last cell. Returns the
+    errors of all other notebooks, by name. A KeyboardInterrupt ends all kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
-    # In the main thread, nbclient would handle SIGINT itself, and it would interrupt only one of the kernels.
+    # In the main thread, nbclient would handle SIGINT itself, but interrupt only one kernel.
     with progress.painting(), closing(asyncio.new_event_loop()) as loop, ThreadPoolExecutor(1) as thread:
         task = loop.create_task(_run_all(notebooks, finished, progress))
         try:
@@ -100,7 +101,9 @@ def _about_check(name: str, check: str, report: str) -> str:
 
 
 def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
-    """Return the names sorted by estimated time, the longest first, so that no long notebook starts last.
+    """Return the names sorted by estimated time, with the longest time first.
+
+    Otherwise, a long notebook could start last.
 
     The estimate grows with the number of a notebook's cells and with the deadlines of its checks.
     """
@@ -113,7 +116,10 @@ def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
 
 
 async def _run(name: str, notebook: Notebook, progress: Progress) -> Notebook:
-    """Run a copy of `notebook` in a new kernel with its own master and folders, and return the copy."""
+    """Run a copy of `notebook` in a new kernel with a separate master and separate folders.
+
+    Return the copy.
+    """
     node = nbformat.from_dict(notebook)
     fresh: Notebook = node
     strip(fresh)
@@ -148,7 +154,7 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
         private = {
             "TMPDIR": temporary,
             "COURSE_STATE": Path(folder, "state"),
-            "COURSE_WORKSPACE": Path(folder, "workspace"),  # the path ../workspace in the chapters
+            "COURSE_WORKSPACE": Path(folder, "workspace"),  # The chapters use the path ../workspace.
             "ROS_LOG_DIR": Path(folder, "log"),
         }
         environment = {**os.environ, **{name: str(path) for name, path in private.items()}}
@@ -165,7 +171,7 @@ def _by_files(folder: Path) -> Config:
 
 
 def _what_went_wrong(notebook: Notebook, error: Exception) -> str:
-    """Return a message that contains the cell in which the run stopped, and its error."""
+    """Return a message with the cell in which the run stopped, and the error."""
     failed = [
         cell["id"]
         for cell in code_cells(notebook)

@@ -1,7 +1,7 @@
-"""A plug-in of pytest: nbval ignores the SVG of a figure, but still compares the figure's text.
+"""A pytest plug-in: nbval ignores the SVG of a figure, but compares the figure's text.
 
 A figure shows measured times, so its SVG differs in every run. Without this plug-in, nbval ignores only PNG
-and JPEG.
+and JPEG images.
 """
 
 from __future__ import annotations

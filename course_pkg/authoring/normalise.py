@@ -1,6 +1,6 @@
-"""Removes from a notebook everything that differs between runs or between front ends.
+"""Removes data from a notebook that differ between runs or between front ends.
 
-Printed addresses, ports, times and process ids stay, because they are part of the chapter.
+Printed addresses, ports, times and process ids are not removed, because they belong to the chapter.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ METADATA: NotebookMetadata = {
 
 
 def tidy(notebook: Notebook) -> None:
-    """Normalise `notebook` in place. A second call changes nothing."""
+    """Normalise the notebook; `notebook` itself is changed. A second call has no effect."""
     notebook["nbformat"], notebook["nbformat_minor"] = 4, 5
     title = notebook["metadata"].get("title")
     notebook["metadata"] = {**METADATA, "title": title} if title else {**METADATA}
@@ -43,13 +43,13 @@ def tidy(notebook: Notebook) -> None:
 
 
 def strip(notebook: Notebook) -> None:
-    """Remove every output and every execution count from `notebook`, in place."""
+    """Remove every output and every execution count; `notebook` itself is changed."""
     for cell in code_cells(notebook):
         cell["outputs"], cell["execution_count"] = [], None
 
 
 def _name(cells: list[Cell]) -> None:
-    """Give each cell a valid and unique id; a second run gives the same ids."""
+    """Give each cell a valid and unique id; a second run does not change the ids."""
     taken: set[str] = set()
     for cell in cells:
         wanted = _wanted_id(cell)
@@ -101,7 +101,7 @@ def _output(output: Output) -> Output:
 
 
 def _merged(outputs: list[Output]) -> list[Output]:
-    """Join successive outputs of the same stream, because their number differs from run to run."""
+    """Join successive outputs of the same stream, because their number can differ between runs."""
     merged: list[Output] = []
     for output in outputs:
         last = merged[-1] if merged else Output()

@@ -45,7 +45,7 @@ class NotebookStore:
             yield from _if_different(self.root / "notebooks" / path.name, text_of(derived(solution)))
 
     def orphans(self) -> list[Path]:
-        """Return the students' notebooks whose solution does not exist any more."""
+        """Return the students' notebooks without a solution."""
         names = {path.name for path in self.solutions()}
         derived = sorted((self.root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
         return [path for path in derived if path.name not in names]
@@ -58,8 +58,8 @@ class NotebookStore:
 def sync(*, check: bool = False, root: Path | None = None) -> int:
     """Normalise the solutions, derive the notebooks from them, and return 0.
 
-    If `check` is true, this function writes nothing; it raises AuthoringError with a list of the files that
-    are out of date. If a solution has problems, it raises AuthoringError with a list of all problems.
+    If `check` is True, nothing is written, and the function raises AuthoringError with a list of the outdated
+    files. If a solution has problems, the function raises AuthoringError with a list of all problems.
     """
     store = NotebookStore(root)
     stale, orphans = list(store.stale()), store.orphans()
@@ -79,7 +79,7 @@ def sync(*, check: bool = False, root: Path | None = None) -> int:
 
 
 def derived(solution: Notebook) -> Notebook:
-    """Return the student's notebook: without outputs, and with blank exercise cells."""
+    """Return the student's notebook, without outputs and with blank exercise cells."""
     notebook = copy.deepcopy(solution)
     strip(notebook)
     for cell in code_cells(notebook):
@@ -95,7 +95,7 @@ def read(path: Path) -> Notebook:
     """
     try:
         data = json.loads(path.read_text("utf-8"))
-        # nbformat.reads is not used here, because it changes an invalid notebook without a message
+        # nbformat.reads would change an invalid notebook without a message.
         notebook: Notebook = rejoin_lines(nbformat.from_dict(data))
     except (OSError, ValueError, TypeError, AttributeError, KeyError) as error:
         raise AuthoringError(f"{path.name} is not a notebook: {error!r}") from error

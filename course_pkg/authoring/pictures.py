@@ -1,4 +1,4 @@
-"""Adds still pictures to the panels of a stored notebook; an unchanged picture is kept."""
+"""Adds still pictures to the panels of a stored notebook; an unchanged picture is not replaced."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from course_pkg.panels.stills import STILLS
 from course_pkg.types.fields import Plain
 
 SVG = "image/svg+xml"
-# key in the metadata of a measured picture; its value is a digest of the code that drew the picture
+# The metadata of a measured picture have this key; its value is a digest of the drawing code.
 MADE_BY = "code"
 
 
 class _Stored(NamedTuple):
     """A stored picture with measured times.
 
-    `made_by` is the digest of the code that drew the picture, and `others` are the data of the same output in
-    other MIME types.
+    `made_by` is the digest of the drawing code, and `others` contains the data of the same output in other
+    MIME types.
     """
 
     picture: Plain
@@ -29,12 +29,12 @@ class _Stored(NamedTuple):
 
 
 def add_pictures(executed: Notebook, stored: Notebook) -> None:
-    """Add a still picture to each panel of `executed`, in place.
+    """Add a still picture to each panel of `executed`; `executed` itself is changed.
 
     The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
-    show a recording, contain measured times, so they differ in each run. The function takes such a picture
-    from the notebook `stored` if three things are the same: the code of all cells up to this cell, the code
-    that draws the panel, and the output's data in other MIME types.
+    show a recording, contain measured times, so they differ in each run. The function uses such a picture of
+    the notebook `stored` if nothing has changed in the code of the cells up to this cell, in the drawing
+    code, and in the output's data in other MIME types.
     """
     panels = SavedPanels(executed)
     before = {cell["id"]: cell for cell in code_cells(stored)}
@@ -59,12 +59,12 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
 def _settle(output: Output, made_by: str, old: list[_Stored]) -> None:
     """Store the digest `made_by` in the output.
 
-    Use an old picture if its digest and its data are the same.
+    Use an old picture with the same digest and the same data, if there is one.
     """
     output["metadata"].setdefault(SVG, {})[MADE_BY] = made_by
     same = next((each for each in old if each.made_by == made_by and each.others == _others(output)), None)
     if same:
-        # a cell may show several plots with the same text, so each old plot is used only once
+        # A cell may show several plots with the same text, so each old plot is used only once.
         old.remove(same)
         output["data"][SVG] = same.picture
 

@@ -1,4 +1,4 @@
-"""`course test`: runs the tests and, at the same time, the tools that check the code."""
+"""`course test`: runs the tests and the tools that check the code at the same time."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ TOOLS = {
     "imports": "lint-imports",
     "dead code": "vulture",
 }
-# pytest lists the slowest tests at the end of a run of all tests
+# After a run of all tests, pytest lists the slowest tests.
 SLOWEST = ("--durations", "40", "--durations-min", "4")
-A_CORE = 2  # number of pytest workers per core; most tests wait for nodes, browsers or builds
+A_CORE = 2  # Each core has this many pytest workers, because most tests wait for nodes, browsers or builds.
 
 
 @dataclass
@@ -38,7 +38,7 @@ class Tool:
     took: float = 0.0  # s
 
     def run(self, places: Places) -> None:
-        """Run the tool, and return when it has ended."""
+        """Run the tool; return after it has ended."""
         started = time.monotonic()
         program, *arguments = self.command.split()
         result = subprocess.run(
@@ -55,12 +55,12 @@ class Tool:
 
 
 def run_suite(arguments: Sequence[str]) -> int:
-    """Run all tools and all tests, even if some of them fail; return 0 if all passed.
+    """Run all tools and all tests, even if some of them fail; return 0 if all of them pass.
 
     `--changed` runs only the tests that a change since the last successful run can affect. `--slow` runs only
-    the slow tests. Other `arguments` are passed to pytest; then no tool runs.
+    the slow tests. All other `arguments` are passed to pytest; in this case, no tool runs.
 
-    Raises SetupError if the environment does not contain the tools; this is the case with conda.
+    Raises SetupError if the environment does not contain the tools, for example with conda.
     """
     places = Places.of()
     if not (places.venv / "bin" / "ruff").exists():

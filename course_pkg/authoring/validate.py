@@ -27,9 +27,9 @@ def validate(
 
     Each notebook has its own master. All cells of a notebook run on the same worker (`--dist loadfile`),
     because two workers cannot share a kernel of nbval. nbval starts the kernel in the folder of the notebook.
-    Therefore, the notebook is copied into an empty folder first. If `compare` is false, nbval does not
-    compare outputs; then a notebook passes if it runs to its end. Raises subprocess.TimeoutExpired after
-    `timeout` s.
+    Therefore, the notebook is copied into an empty folder first. If `compare` is False, nbval does not
+    compare outputs; a notebook then passes if all cells run. Raises subprocess.TimeoutExpired after `timeout`
+    s.
     """
     with tempfile.TemporaryDirectory(prefix="course-nbval-", ignore_cleanup_errors=True) as folder:
         copies = [_copied(path, Path(folder)) for path in notebooks]
@@ -50,7 +50,10 @@ def _copied(notebook: Path, folder: Path) -> Path:
 
 
 def command(notebooks: Sequence[Path], *, workers: int, compare: bool = True) -> list[str]:
-    """Return the command of `validate`. It does not use the configuration of the repository's own tests."""
+    """Return the command of `validate`.
+
+    The command does not use the configuration of the repository's own tests.
+    """
     parallel = ["-n", str(workers), "--dist", "loadfile"] if workers > 1 else ["-p", "no:xdist"]
     return [
         *(sys.executable, "-m", "pytest", "-q", "--nbval" if compare else "--nbval-lax"),

@@ -1,4 +1,4 @@
-"""The widgets of an executed notebook: which output shows which panel, and the last state of each panel."""
+"""The widgets of an executed notebook: the panel of each output, and the last state of each panel."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.types.fields import Plain
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATES = "application/vnd.jupyter.widget-state+json"
 OF_THE_COURSE = re.compile(r"course_pkg\.panels\.(?P<panel>\w+)\.view\.\w+")
-PRIVATE = ("layout", "tabbable", "tooltip")  # traits of ipywidgets
+PRIVATE = ("layout", "tabbable", "tooltip")  # These are traits of ipywidgets.
 
 
 class SavedPanel(NamedTuple):
@@ -30,7 +30,7 @@ class SavedPanels:
         self._models = widgets[STATES]["state"] if STATES in widgets else {}
 
     def of(self, output: Output) -> SavedPanel | None:
-        """Return the panel that `output` shows, or None if it shows no panel of the course."""
+        """Return the panel that `output` shows, or None."""
         view = output.get("data", {}).get(VIEW)
         if not isinstance(view, Mapping):
             return None

@@ -1,1 +1,1 @@
-"""The chapters: a folder for each, with everything that belongs to it except its notebook."""
+"""The chapters: each folder contains all files of a chapter except its notebook."""

@@ -17,24 +17,25 @@ from course_pkg.types import Plain
 # such a function raises an exception, for example because the value has another type, the value does not
 # match.
 Condition: TypeAlias = "Plain | bytes | re.Pattern[str] | Callable[[Any], object]"
-ANYTHING: Condition = re.compile("")  # matches every value; used for the last hint of a list
-# One hint for every wrong value, or pairs: the first condition that matches selects the hint.
+ANYTHING: Condition = re.compile("")  # This condition matches every value, for the last hint of a list.
+# One hint for every wrong value, or pairs (condition, hint): the first condition that matches selects the
+# hint.
 Hints: TypeAlias = "str | Sequence[tuple[Condition, str]]"
 
 
 class AssertionFailed(Exception):
-    """An assertion does not hold, so the check ends, or the goal in which it is."""
+    """An assertion does not hold, so the check or the current goal ends."""
 
 
 def matches(pattern: str) -> re.Pattern[str]:
-    """Return a condition for `hints`: it matches a value whose text contains `pattern`; case is ignored."""
+    """Return a condition for `hints` that matches a value whose text contains `pattern`, ignoring case."""
     return re.compile(pattern, re.IGNORECASE | re.DOTALL)
 
 
 def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
     """Return whether plain values are equal.
 
-    Numbers may differ by `near`, relative or absolute. True is not equal to 1.
+    Numbers may differ by `near` (absolute difference or relative difference). True is not equal to 1.
     """
     if isinstance(expected, dict) and isinstance(actual, dict):
         return expected.keys() == actual.keys() and all(
@@ -45,7 +46,7 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
     if isinstance(expected, bool) or isinstance(actual, bool):
         return expected is actual
     if isinstance(expected, (int, float)) and isinstance(actual, (int, float)):
-        # an integer that is too large for a float is not near to any other number
+        # The integer is too large for a float, so no other number is near it.
         with suppress(OverflowError):
             return expected == actual or math.isclose(expected, actual, rel_tol=near, abs_tol=near)
         return False
@@ -53,9 +54,9 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
 
 
 def first_unlike(expected: Iterable[Json], actual: Iterable[Json], near: float) -> tuple[Json, Json]:
-    """Return the first pair of different items, so that a report need not show whole lists.
+    """Return the first pair of different items, or ({}, {}) if all pairs are equal.
 
-    Returns ({}, {}) if all pairs are the same.
+    A report shows only this pair, not all items.
     """
     pairs = zip(expected, actual, strict=False)
     return next((pair for pair in pairs if not same(*pair, near)), ({}, {}))
@@ -84,11 +85,12 @@ class Results:
     """The assertions that were checked, and the last call of the check."""
 
     def __init__(self) -> None:
-        # returns the text of the call, which is needed only when a check fails
+        # The function returns the text of the call; a report needs this text only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
-        self.marked: set[str] = set()  # the goals for which the check has reached a mark
-        self._goals: dict[str, bool] = {}  # the goals that were examined separately, and whether they hold
+        self.marked: set[str] = set()  # The check has marked these goals.
+        # The dict contains the separately examined goals, and whether each goal holds.
+        self._goals: dict[str, bool] = {}
 
     @property
     def assertions(self) -> tuple[Assertion, ...]:
@@ -97,21 +99,21 @@ class Results:
 
     @property
     def failed_goals(self) -> set[str]:
-        """The goals of which an assertion does not hold."""
+        """The goals with a failed assertion."""
         return {goal for goal, fulfilled in self._goals.items() if not fulfilled}
 
     @property
     def kept_goals(self) -> set[str]:
-        """The goals that are fulfilled even if the check does not reach its end."""
+        """The goals that are fulfilled even if the check stops early."""
         return self.marked - self.failed_goals
 
     @property
     def fulfilled_goals(self) -> set[str]:
-        """The goals that are fulfilled if the check reaches its end."""
+        """The goals that are fulfilled if the check runs completely."""
         return (self.marked | self._goals.keys()) - self.failed_goals
 
     def goal_ended(self, goal: str, *, fulfilled: bool) -> None:
-        """Record whether the assertions of `goal` hold; a goal that failed once stays so."""
+        """Record whether the assertions of `goal` hold; after one failure, a goal remains failed."""
         self._goals[goal] = fulfilled and self._goals.get(goal, True)
 
     def passes(self, assertion: str) -> None:
@@ -121,7 +123,7 @@ class Results:
     def fails(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:
         """Record that `assertion` does not hold, and end the check or the goal by raising AssertionFailed.
 
-        If it fails several times, which is possible inside goals, the report shows the first time.
+        If an assertion fails several times, the report shows the first failure.
         """
         known = self._assertions.pop(assertion, None)
         failed = Assertion(assertion, False, self.asked(), expected, actual, hint)

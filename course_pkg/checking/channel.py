@@ -1,7 +1,7 @@
 """The connection between the check client in a kernel, which is not trusted, and the check runner.
 
-They use a stream socket; each line is one JSON object of at most `LIMIT` bytes. The runner never unpickles or
-evaluates the data that it receives.
+The client and the runner use a stream socket, with one JSON object of at most `LIMIT` bytes in each line. The
+runner never unpickles or evaluates received data.
 
     client -> runner   {"protocol": 4, "check": "05.1"}            once, first
     runner -> client   {"ask": 1, "do": "look", "name": "measure"}
@@ -26,8 +26,8 @@ The requests, their arguments, and the fields of the replies:
     stop     process                      as run; status is null if it was still running
     ports    process                      ports (the TCP ports on which the command listens)
 
-The connection is closed after a line that is too long, that is not a JSON object, or that replies to another
-request. For the runner, the check has then failed.
+The connection is closed after a line that is too long, is not a JSON object, or replies to another request.
+The check runner then reports that the check has failed.
 """
 
 from __future__ import annotations
@@ -42,12 +42,12 @@ from course_pkg.types import Plain
 from course_pkg.waiting import at_this_load
 
 PROTOCOL = 4
-LIMIT = 1 << 20  # maximum bytes of a line
-LONGEST = 400  # maximum characters of a received message in a report
+LIMIT = 1 << 20  # A line has at most this number of bytes.
+LONGEST = 400  # A report shows at most this number of characters of a received message.
 
 
 class Channel(JsonChannel):
-    """One end of the connection."""
+    """A JSON channel between the check client and the check runner."""
 
     def __init__(self, sock: socket.socket) -> None:
         super().__init__(sock, LIMIT)
@@ -71,13 +71,13 @@ class Channel(JsonChannel):
 
 
 def require_current(reply: Mapping[str, Json]) -> None:
-    """Raise CheckError if the kernel replies that the examined code is an earlier version."""
+    """Raise CheckError if the kernel replies that the examined code is not the current code."""
     if older := str(reply.get("older") or "")[:LONGEST]:
         raise CheckError(older)
 
 
 def connect(address: str) -> Channel:
-    """Connect to a check runner that waits at `address`, which is the path of a Unix socket, or host:port.
+    """Connect to a check runner at `address`, the path of a Unix socket or host:port.
 
     Raises ChannelClosed if no runner accepts the connection.
     """

@@ -1,4 +1,7 @@
-"""`check("05.1")`: the check client in the kernel. It calls the check runner, and shows the report."""
+"""`check("05.1")`: the check client in the kernel.
+
+The client calls the check runner, and shows the report.
+"""
 
 from __future__ import annotations
 
@@ -22,8 +25,8 @@ from course_pkg.checking.report import Report, Verdict, report_from
 from course_pkg.errors import ChannelClosed, ChannelError, CheckError
 from course_pkg.ros.notebook.cells import Cells
 
-# time limit in s between two messages of the check runner. In grading, another process runs the commands of a
-# check, so the kernel may receive no message until the deadline, which is 600 s at most on a busy machine.
+# The check runner has to send its next message within this time in s. In grading, a check can take up to 600
+# s on a busy machine, and the kernel may receive no message during this time.
 TIMEOUT = 900.0
 RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.runner_process import main; main()"
 
@@ -31,9 +34,8 @@ RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.runner_process i
 def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report:
     """Let a separate node examine part `check_id`, such as "05.1", and return the report.
 
-    The check looks up the names that it needs in `namespace`, or in the notebook if `namespace` is None.
-    Errors are contained in the report and are not raised. Only an interrupt is raised, and only after the
-    check runner has ended.
+    The check looks up the names that it needs in `namespace`, or in the notebook if `namespace` is None. An
+    error of the check is shown in the report. Only an interrupt is raised, after the check runner has ended.
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():
@@ -64,10 +66,7 @@ def _serve(channel: Channel, check_id: str, agent: KernelAgent) -> Report:
 
 @contextmanager
 def _runner() -> Iterator[Channel]:
-    """Connect to the check runner whose address is in COURSE_CHECK_RUNNER.
-
-    Start a check runner if the variable is not set.
-    """
+    """Connect to the check runner at COURSE_CHECK_RUNNER, or start one if the variable is not set."""
     if address := os.environ.get("COURSE_CHECK_RUNNER"):
         channel = connect(address)
         try:
@@ -94,7 +93,7 @@ def _started_runner() -> Iterator[Channel]:
         except ChannelError as error:
             raise ChannelClosed(_how_it_ended(process, log)) from error
         finally:
-            # the check runner notices that the connection is closed, and unregisters its node
+            # After this, the check runner unregisters its node.
             channel.close()
             _end(process)
 
@@ -103,7 +102,7 @@ def _spawn(theirs: socket.socket, log: IO[bytes]) -> subprocess.Popen[bytes]:
     """Start the check runner in a separate session, so that an interrupt of the kernel does not reach it.
 
     The check runner imports the course and the workspace from the same folders as this process. The
-    notebook's folder is the last one in its path, or is not in it, so that a student's file rospy.py cannot
+    notebook's folder is at the end of the import path or not in the path, so a student's file rospy.py cannot
     replace the module rospy.
     """
     here = os.getcwd()
@@ -129,7 +128,7 @@ def _end(process: subprocess.Popen[bytes]) -> None:
 
 
 def _how_it_ended(process: subprocess.Popen[bytes], log: IO[bytes]) -> str:
-    """Return a message that says what to do; it contains the last lines that the check runner wrote."""
+    """Return an error message with the last lines that the check runner printed."""
     _end(process)
     log.seek(0)
     last = log.read()[-2000:].decode("utf-8", errors="replace").strip().splitlines()[-3:]
@@ -148,7 +147,7 @@ def _notebook() -> Mapping[str, Value]:
 
 
 def _cells() -> Cells:
-    """Return the data about the runs of the notebook's cells; None if rospy is not imported yet."""
+    """Return the data about the runs of the notebook's cells, or None before the import of rospy."""
     if "rospy" not in sys.modules:
         return Cells(lambda _closes: None)
     from course_pkg.ros.node.join import cells

@@ -5,11 +5,10 @@ from __future__ import annotations
 from course_pkg.checking.assertions import Hints, matches
 
 NO_RETURN = "The function returned None, because it ended without a return line."
-# If a handler raises ServiceException, the handler chooses the error message. If a handler returns a wrong
-# value, rospy chooses the error message.
+# After a ServiceException, the error message is from the handler. After a wrong return value, the error
+# message is from rospy.
 REFUSED_BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
-# The error message that rospy sends to the client if a handler raises an exception other than
-# ServiceException.
+# rospy sends this error message to the client if a handler raises another exception than ServiceException.
 HANDLER_RAISED: Hints = [
     (
         matches(r"error processing request: .*takes 1 positional argument but 2 were given"),

@@ -1,4 +1,4 @@
-"""The object that a check works with: the student's servers, topics, functions and values, and assertions."""
+"""The object that a check uses: the student's servers, topics, functions and values, and assertions."""
 
 from __future__ import annotations
 
@@ -31,20 +31,20 @@ from course_pkg.ros.protocol.probe import header_fields
 from course_pkg.ros.protocol.snapshot import Snapshot, look
 from course_pkg.types import message_type, service_type
 
-# these exceptions may end a check; any other exception is a bug in the check
+# These exceptions may end a check; any other exception is a bug in the check.
 KNOWN = (AssertionFailed, ChannelError, CheckError)
 
 
 class CheckContext:
     """One run of a check.
 
-    The first assertion that fails ends the run, unless it is inside of a `goal`. At the end of a run, all
-    servers, topics and folders that it opened are closed.
+    The first failed assertion ends the run, or only the `goal` block that contains the assertion. When the
+    run ends, all its servers, topics and folders are closed.
     """
 
     def __init__(self, check: str, channel: Channel, node: Node, seed: int) -> None:
         self.random = RandomInputs(f"{seed}:{check}")
-        self.doing = ""  # what the check waits for; shown in the report if the check is too slow
+        self.doing = ""  # The report shows this text if the check is too slow.
         self._channel = channel
         self._node = node
         self._results = Results()
@@ -61,18 +61,18 @@ class CheckContext:
     def fulfilled(self, goal: str) -> None:
         """Mark a goal of the part as fulfilled: it earns its points even if a later assertion fails.
 
-        So a goal counts only if all assertions before its mark hold. Put the part's main goal first; then a
-        program that does nothing, or refuses everything, earns nothing for a later goal. If the goal was
-        examined with `goal`, it counts only if it did not fail there.
+        A goal earns points only if all assertions before this call hold. Put the part's main goal first, so
+        that a program that does nothing, or refuses everything, earns no points for a later goal. If the goal
+        was also examined with `goal`, it must not have failed there.
         """
         self._results.marked.add(goal)
 
     @contextmanager
     def goal(self, goal: str) -> Iterator[None]:
-        """Examine a goal of the part that does not depend on other goals; a failed assertion ends only it.
+        """Examine a goal that does not depend on other goals; a failed assertion ends only this goal.
 
-        The goal may be examined several times, such as in a loop. It earns its points if its assertions hold
-        each time, and if the check reaches its end.
+        The goal may be examined several times, such as in a loop. The goal earns its points if its assertions
+        hold each time, and if the check runs completely.
         """
         try:
             yield
@@ -88,10 +88,10 @@ class CheckContext:
     ) -> None:
         """Assert that `actual` equals `expected`; numbers may differ by `near`, absolute or relative.
 
-        `assertion` is the line of the report. `hints` say what to do about a wrong value: one hint for any
-        value, or a list of pairs (condition, hint). The first condition that matches `actual` selects the
-        hint. A condition is a wrong value, a pattern made by `matches`, or a function of the actual value.
-        Raises AssertionFailed, which a check does not catch.
+        `assertion` is the title of the assertion in the report. `hints` say what to do about a wrong value:
+        one hint for any value, or a list of pairs (condition, hint). The first condition that matches
+        `actual` selects the hint. A condition is a wrong value, a pattern made by `matches`, or a function of
+        the actual value. Raises AssertionFailed; a check must not catch this exception.
         """
         wanted, found = plain(expected), plain(actual)
         if not same(wanted, found, near):
@@ -104,7 +104,8 @@ class CheckContext:
     ) -> None:
         """Assert that `holds` is true; a report shows the text `expected` and the value `actual`.
 
-        `hints` are as for `expect`. Raises AssertionFailed, which a check does not catch.
+        `hints` have the same format as in `expect`. Raises AssertionFailed; a check must not catch this
+        exception.
         """
         if not holds:
             found = plain(actual)
@@ -123,9 +124,8 @@ class CheckContext:
     ) -> Service:
         """Return the service `name` of type `kind`, ready to be called; each call takes at most `timeout` s.
 
-        `kind` is a type's name, or a class. Asserts that a server of that type is registered and answers.
-        `hints` are for the error message of a failed call; messages of ROS itself are explained without
-        hints.
+        `kind` is a type's name, or a class. Asserts that a server of this type is registered and responds.
+        `hints` are for the error message of a failed call; error messages of ROS are explained without hints.
         """
         self.doing = f"waiting for {name}"
         label = "the service" if self.random.made(name) else name
@@ -181,7 +181,7 @@ class CheckContext:
         return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
 
     def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
-        """Serve `name` with `work`, and with the faults that are put into `plan` (peers/faulty_server.py)."""
+        """Serve `name` with `work`, and with the faults in `plan` (peers/faulty_server.py)."""
         server = FaultyServer(self._node, name, self.service_class(kind), work)
         self._open.enter_context(server)
         return server
@@ -189,7 +189,7 @@ class CheckContext:
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Unregister the server of `name` until the check ends.
 
-        With `stale`, register the address of a closed port instead.
+        If `stale` is true, register the address of a closed port instead.
         """
         return self._open.enter_context(Absent(self._node, name, stale=stale))
 
@@ -204,7 +204,7 @@ class CheckContext:
     ) -> Publisher:
         """Publish `messages` (fields by name) of the type `kind` in a cycle, one message every `every` s.
 
-        With `once`, publish each message only once, and begin as soon as there is a subscriber.
+        If `once` is true, publish each message only once, and begin as soon as there is a subscriber.
         """
         return self._open.enter_context(
             Publisher(
@@ -221,7 +221,7 @@ class CheckContext:
     def fake_node(
         self, name: str, topic: str, kind: str, *, alive: bool = True, reused: bool = False
     ) -> FakeNode:
-        """Register the node `name` as a publisher of `topic`, alive or killed; see peers/node.py."""
+        """Register the node `name` as a publisher of `topic`, running or killed; see peers/node.py."""
         return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive, reused=reused))
 
     # -- the student's topics
@@ -229,16 +229,13 @@ class CheckContext:
     def subscribe(self, topic: str, kind: str) -> Subscription:
         """Subscribe to `topic` until the check is over; see peers/subscription.py.
 
-        Subscribe before the student's function publishes: a late subscriber misses messages.
+        Subscribe before the student's function publishes, because a late subscriber misses messages.
         """
         cls, label = message_type(kind).cls, self._label(topic)
         return self._open.enter_context(Subscription(self._results, self._node, topic, cls, label))
 
     def _label(self, topic: str) -> str:
-        """Return the topic as assertions show it.
-
-        This text is the same in every run, but the names of topics are random.
-        """
+        """Return the text of the topic for assertions, which is the same in every run."""
         return "the topic" if self.random.made(topic) else topic
 
     # -- what the student wrote, in the kernel
@@ -254,7 +251,7 @@ class CheckContext:
     ) -> Result:
         """Call the student's `function` in the kernel, and interrupt it after `within` s.
 
-        A report shows the call. If `function` is the check's own helper, the report shows `worded` instead.
+        A report shows the call, or `worded` if `function` is the check's own helper.
         """
         label = worded or f"{function}()"
         self.doing = f"waiting for {label}"
@@ -266,7 +263,8 @@ class CheckContext:
         reply = self._channel.ask(
             "call", timeout=within + SLACK, name=function, args=values, kwargs=named, within=within
         )
-        took = time.monotonic() - started  # measured here, because the check runner does not trust the kernel
+        # The time is measured here, because the check runner does not trust the kernel.
+        took = time.monotonic() - started
         return Result(self._results, label, reply, took, hints)
 
     def prepare(self, code: str, within: float = 5.0) -> None:
@@ -282,11 +280,12 @@ class CheckContext:
             raise CheckError(f"The check could not prepare the kernel ({text}). Restart the kernel.")
 
     def place(self, name: str, item: object) -> None:
-        """Define `name` in the kernel as a proxy for `item`, which stays here; see checking/placed.
+        """Define `name` in the kernel as a proxy for `item`, which is in this process; see checking/placed.
 
-        The proxy has the methods and attributes that the class of `item` marks by `@remote`. It can be an
-        argument of the student's function, `context.run("move", Its("shelf"))`, and code of `prepare` can
-        use it. What the check has to believe belongs into `item`, and not into code of `prepare`.
+        The proxy has the methods and attributes that the class of `item` declares with `@remote`. The proxy
+        can be an argument of the student's function, `context.run("move", Its("shelf"))`, and code of
+        `prepare` can use the proxy. Keep all data that the check relies on in `item`, not in code of
+        `prepare`.
         """
         if self._placed is None:
             self._placed = self._open.enter_context(PlacedObjects())
@@ -302,7 +301,7 @@ class CheckContext:
     def folder(self, *, files: Sequence[str] = (), texts: Mapping[str, str] | None = None) -> Folder:
         """Return a new folder, on the kernel's computer, with copies of the student's files and folders.
 
-        `texts` are the check's own files, by path. They replace copies with the same path.
+        `texts` are the check's own files, by path; they replace copies with the same path.
         """
         return Folder(self._channel, files, texts or {}, self._under_way)
 
@@ -321,8 +320,8 @@ class CheckContext:
     def read(self, name: str, kind: type[Item] | None = None) -> Json | Item:
         """Return the value of the student's variable `name`, as plain data.
 
-        For a variable of the check's own, pass the `kind` of its value. CheckError is raised for another
-        kind.
+        For a variable of the check itself, pass the expected class as `kind`; CheckError is raised for a
+        value of another class.
         """
         value = self._channel.ask("read", timeout=SLACK, name=name).get("value")
         return value if kind is None else of_kind(kind, value, name)
@@ -341,7 +340,7 @@ class CheckContext:
     ) -> None:
         with held_back(signal.SIGTERM):
             self._open.close()
-            with suppress(GraphError):  # if the master has ended, there is nothing to unregister
+            with suppress(GraphError):  # If the master has ended, no registrations exist.
                 self._node.forget_topics(self.random.made)
         if isinstance(error, Exception) and not isinstance(error, KNOWN):
             text = f"{type(error).__name__}: {error}"

@@ -1,6 +1,7 @@
 """Partial credit: how the points of a part are divided among its goals.
 
-Points have at most two decimals. The points of the goals add up to exactly the points of the part.
+The points of a goal have at most two decimals. The points of all goals add up to exactly the points of the
+part.
 """
 
 from __future__ import annotations
@@ -20,10 +21,10 @@ class Goal:
 
 
 def goals_of(check: str, points: int, given: Sequence[str] | Mapping[str, float]) -> tuple[Goal, ...]:
-    """Return the goals that an author declares for the part `check`; a sequence divides the points equally.
+    """Return the goals that an author declares for the part `check`.
 
-    A mapping contains the weight of each goal. Raises ValueError if `given` is not a division into several
-    goals with positive weights.
+    A sequence divides the points equally; a mapping contains the weight of each goal. Raises ValueError if
+    `given` does not contain several goals with positive weights.
     """
     weights = dict(given) if isinstance(given, Mapping) else dict.fromkeys(given, 1.0)
     if given and (len(weights) < 2 or len(weights) < len(given) or min(weights.values()) <= 0):
@@ -33,10 +34,10 @@ def goals_of(check: str, points: int, given: Sequence[str] | Mapping[str, float]
 
 
 def divided(points: float, weights: Sequence[float]) -> list[float]:
-    """Divide `points` in proportion to `weights`, of which at least one is positive, into shares.
+    """Divide `points` in proportion to `weights`, of which at least one is positive.
 
-    The shares have two decimals, and their sum is exactly `points`: the shares with the largest rests get the
-    remaining hundredths. So 2 points for three goals are 0.67, 0.67 and 0.66.
+    The shares have two decimals, and their sum is exactly `points`. For example, three goals with 2 points in
+    total get 0.67, 0.67 and 0.66 points.
     """
     cents, total = round(points * 100), sum(map(Fraction, weights))
     exact = [cents * Fraction(weight) / total for weight in weights]
@@ -58,6 +59,6 @@ def earned(goals: Iterable[Goal]) -> float:
 
 
 def with_fulfilled(goals: Iterable[Goal], fulfilled: Iterable[str]) -> tuple[Goal, ...]:
-    """Return the goals; exactly those whose texts are in `fulfilled` are fulfilled."""
+    """Return the goals; only the goals with their texts in `fulfilled` are fulfilled."""
     texts = set(fulfilled)
     return tuple(replace(goal, fulfilled=goal.text in texts) for goal in goals)

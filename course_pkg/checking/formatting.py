@@ -14,10 +14,7 @@ def command_line(name: str, kind: ServiceClass, request: Message) -> str:
 
 
 def explained(error: str) -> str:
-    """Return what an error message of ROS means, and what the student can do; "" for an unknown message.
-
-    The result is empty for an unknown message.
-    """
+    """Return the meaning of a ROS error message, and what the student can do; "" for an unknown message."""
     if error.startswith("TimesUp"):
         return (
             "The call has not returned: the handler waits for something that does not happen, or runs an "

@@ -1,8 +1,8 @@
-"""Packs the source of checks for the students' edition.
+"""Pack the source of checks for the students' edition.
 
-A check compares values with expected values, and adds files to a student's package. Therefore, its source
-contains answers, but `check()` needs the source on the student's computer. Students do not see the packed
-source by accident, and cannot find it with a search. They can still unpack it deliberately.
+The source of a check contains answers, such as expected values and files of a package. `check()` needs this
+source on the student's computer. In the packed source, students do not find an answer by accident or with a
+search, but they can unpack the source deliberately.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import base64
 import textwrap
 import zlib
 
-WIDTH = 100  # maximum number of characters in a line
+WIDTH = 100  # A line of the packed source has at most this number of characters.
 MODULE = '''"""Packed by `course release`, because the source of a check contains answers."""
 
 from course_pkg.checking.packed import load

@@ -1,4 +1,4 @@
-"""A graded part of a chapter, and the functions that find parts."""
+"""A graded part of a chapter, and functions that find parts."""
 
 from __future__ import annotations
 
@@ -18,23 +18,24 @@ if TYPE_CHECKING:
     from course_pkg.checking.context import CheckContext
 
 CHAPTERS = "course_pkg.chapters"
-PRIVATE = "private_"  # the modules of an instructor's own parts have this prefix
-PUBLIC = ("__init__.py", "programs")  # the files of a chapter that student code may read
+PRIVATE = "private_"  # The modules with an instructor's own parts have this prefix.
+PUBLIC = ("__init__.py", "programs")  # Student code may read these files of a chapter.
 FOLDER = re.compile(r"ch(\d\d)_\w+")
 IMPORTED = re.compile(r"^\s*(?:from|import)\s+course_pkg\.chapters(?:\.|\s+import\s+)ch(\d\d)_", re.MULTILINE)
-PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")  # a file of a package in a workspace
+# The pattern matches a file of a package in a workspace.
+PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")
 
 
 @dataclass(frozen=True)
 class Part:
     """One graded part of a chapter; calling it examines the student's work.
 
-    `needs` are the names that the student defines. If one of these names is missing or its value is still
-    `...`, the part counts as not attempted. If names are joined with `|`, one of them is enough. For example,
-    a handler may have another name than in the exercise if its service exists. `deadline` is the time limit
-    of the whole check in s. If the student has to repair a file, `start` is the whole `%%writefile` cell that
-    the student gets. Otherwise `start` is empty, and the student gets the solution's cell without its answer.
-    `goals` divide the points; a part without goals gives all of its points or none.
+    `needs` are the names that the student defines. If a name is missing or its value is still `...`, the part
+    counts as not attempted. Names that are joined with `|` are alternatives: one of them is enough.
+
+    `deadline` is the time limit of the whole check in s. If the student has to repair a file, `start` is the
+    `%%writefile` cell that the student gets; otherwise, `start` is empty. `goals` divide the points; a part
+    without goals gives all of its points or none.
     """
 
     check: str
@@ -48,7 +49,7 @@ class Part:
 
     @property
     def package_files(self) -> dict[str, list[str]]:
-        """The files that the part needs from catkin packages: their paths, by the name of the package."""
+        """The files that the part needs: a dict from the names of catkin packages to paths in them."""
         found: dict[str, list[str]] = {}
         for name in self.needs:
             if packaged := PACKAGED.fullmatch(name):
@@ -72,9 +73,10 @@ def part(
 ) -> Callable[[Callable[[CheckContext], None]], Part]:
     """Return a decorator that declares the check of the part with the id `check`, such as "05.1".
 
-    `goals` are the goals among which the points are divided: a sequence divides them equally, and a mapping
-    contains weights. The check marks a goal with `context.fulfilled` or `context.goal`; the last goal needs
-    no mark if it is fulfilled exactly when the check passes. Without goals, only a pass earns points.
+    `goals` are the goals among which the points are divided: a sequence divides the points equally, and a
+    mapping contains weights. The check marks a goal with `context.fulfilled` or `context.goal`. The last goal
+    may be unmarked: it is then fulfilled if the check passes. Without goals, a part earns its points only if
+    the check passes.
     """
     divided = goals_of(check, points, goals)
 
@@ -107,7 +109,7 @@ def folder_of(chapter: str) -> Path:
 def folders_for(chapter: str) -> list[Path]:
     """Return the folder of a chapter, such as "14", and of each chapter that it imports from, sorted.
 
-    Indirect imports count, too. The list is empty if there is no such chapter.
+    Indirect imports count, too. For an unknown chapter, the list is empty.
     """
     modules, found, new = _modules(), set[str](), {chapter}
     while new := (new & modules.keys()) - found:

@@ -1,7 +1,4 @@
-"""Converts values of the student's code into plain data, because the channel transports only plain data.
-
-Plain data are JSON values.
-"""
+"""Convert values of student code into plain data (JSON values), the only data that the channel transmits."""
 
 from __future__ import annotations
 
@@ -11,12 +8,12 @@ from typing import Any, TypeAlias, TypeVar
 from course_pkg.errors import CheckError
 from course_pkg.ros.protocol.json_channel import Json
 
-Reply: TypeAlias = dict[str, Json]  # the fields of a reply on the channel
-Value: TypeAlias = Any  # any value that a student's code made
-Message: TypeAlias = Any  # a message, request or response that genpy generated; it has no types
-# the fields of a message as plain data; its definition contains their types
+Reply: TypeAlias = dict[str, Json]  # These are the fields of a reply on the channel.
+Value: TypeAlias = Any  # This is a value that student code created.
+Message: TypeAlias = Any  # A message, request or response; genpy generates no type annotations.
+# The fields of a message as plain data; the definition contains their types.
 Fields: TypeAlias = dict[str, Any]
-ServiceClass: TypeAlias = Any  # a class that genpy generated, for a service or a message
+ServiceClass: TypeAlias = Any  # This is a service or message class of genpy.
 Item = TypeVar("Item")
 
 DEPTH = 12
@@ -24,9 +21,10 @@ ITEMS = 10_000
 
 
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
-    """Return `value`, which must be an instance of `kind`. The check's own code in the kernel has made it.
+    """Return `value`, which must be an instance of `kind`.
 
-    Raises CheckError for a value of another type; then the student's code has changed the check's code.
+    Raises CheckError if student code has changed the check's own code in the kernel, so that the value has
+    another type.
     """
     if not isinstance(value, kind):
         raise CheckError(
@@ -63,20 +61,17 @@ def _compound(value: Value, depth: int) -> Json:
         return {str(key): plain(item, depth) for key, item in list(value.items())[:ITEMS]}
     if isinstance(value, (list, tuple)):
         return [plain(item, depth) for item in value[:ITEMS]]
-    if hasattr(value, "secs") and hasattr(value, "nsecs"):  # a time or a duration of genpy
+    if hasattr(value, "secs") and hasattr(value, "nsecs"):  # The value is a time or a duration of genpy.
         return {"secs": value.secs, "nsecs": value.nsecs}
-    if hasattr(value, "_slot_types"):  # a message of genpy
+    if hasattr(value, "_slot_types"):  # The value is a message of genpy.
         return {name: plain(getattr(value, name), depth) for name in value.__slots__}
-    if hasattr(value, "tolist"):  # an array, or a number of NumPy
+    if hasattr(value, "tolist"):  # The value is an array or a number of NumPy.
         return plain(value.tolist(), depth)
     return _exact(value)
 
 
 def _exact(value: Value) -> Json:
-    """Return a number or a string as a value of its base class.
-
-    An example is an IntEnum, which becomes an int.
-    """
+    """Return a number or a string as a value of its base class; an IntEnum becomes an int."""
     if isinstance(value, int):
         return int(int.__int__(value))
     if isinstance(value, float):

@@ -11,21 +11,18 @@ Item = TypeVar("Item")
 
 
 class RandomInputs:
-    """A source of random inputs.
-
-    A check uses no other source, so its inputs can be repeated if the seed is known.
-    """
+    """A check's only source of random inputs, so that a known seed repeats all inputs."""
 
     def __init__(self, seed: str) -> None:
         self._random = random.Random(seed)  # noqa: S311 -- these numbers are not secrets
         self._words: list[str] = []
 
     def number(self, low: float, high: float, *, digits: int = 2) -> float:
-        """Return a number between `low` and `high` with at most `digits` digits after the point."""
+        """Return a number between `low` and `high` with at most `digits` decimals."""
         return round(self._random.uniform(low, high), digits)
 
     def numbers(self, count: int, low: float, high: float, *, digits: int = 2) -> list[float]:
-        """Return `count` different numbers, so that a wrong answer is not right by accident."""
+        """Return `count` different numbers, so that a wrong answer cannot be correct by accident."""
         found: list[float] = []
         while len(found) < count:
             number = self.number(low, high, digits=digits)
@@ -42,7 +39,7 @@ class RandomInputs:
         return self._random.sample(range(low, high + 1), count)
 
     def choice(self, items: Sequence[Item]) -> Item:
-        """Return one of `items`, drawn at random."""
+        """Return a random item of `items`."""
         return self._random.choice(items)
 
     def shuffled(self, items: Sequence[Item]) -> list[Item]:
@@ -55,5 +52,5 @@ class RandomInputs:
         return self._words[-1]
 
     def made(self, text: str) -> bool:
-        """Return whether `text` contains a random word; the title of an assertion must not contain one."""
+        """Return whether `text` contains a random word; such a text cannot be the title of an assertion."""
         return any(word in text for word in self._words)

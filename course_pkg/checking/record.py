@@ -1,9 +1,10 @@
 """The student's own record: a file for each part, with the last result and the time of the first pass.
 
-The record shows students their progress in the course. It is in the student's own folder, so the student can
-change or forge it. Therefore, only the student's own overview reads the record; it is never used for a grade.
-Grades come from check runners that `course grade` starts. They store nothing here: a contract of
-import-linter in pyproject.toml forbids the packages grading and sandbox to import this module.
+The record shows students their progress in the course. Students can change the record, because it is in their
+own folder. The record is therefore never used for a grade.
+
+Grades come from check runners that `course grade` starts. A contract of import-linter in pyproject.toml
+forbids the packages grading and sandbox to import this module.
 """
 
 from __future__ import annotations
@@ -18,20 +19,20 @@ from pathlib import Path
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.state import locked, now, state_folder, write_json
 
-FOLDER = "results-2"  # the folder `results` belongs to the first edition, whose chapters have other numbers
+FOLDER = "results-2"  # The folder `results` belongs to the first edition, which had other chapter numbers.
 PASSED = "passed"
 
 
 @dataclass(frozen=True)
 class PartRecord:
-    """The results of the checks of one part. A time is ISO 8601 in UTC; "" means that it is not known yet."""
+    """The results of the checks of one part. A time is ISO 8601 in UTC, or "" if it is unknown."""
 
     check: str
-    verdict: str  # the verdict of the last check
-    checked: str  # the time of the last check
-    passed: str  # the time at which the part passed for the first time
+    verdict: str
+    checked: str
+    passed: str  # The part passed for the first time at this time.
     checks: int
-    points: float = 0  # of the last check
+    points: float = 0  # These are the points of the last check.
 
 
 class DamagedRecord(Exception):
@@ -45,10 +46,10 @@ class StudentRecord:
         self.folder = folder or state_folder() / FOLDER
 
     def store(self, check: str, result: Mapping[str, Json]) -> str:
-        """Store the result of a check; return a message if there was a problem, or "" if there was none.
+        """Store the result of a check; return a message if there was a problem, or "".
 
-        A damaged file is renamed and kept. If the disk cannot be written, the file does not change. This
-        method raises no error, because the report of a check must not depend on the record.
+        A damaged file is renamed, not deleted. If the file cannot be written, it does not change. This method
+        raises no error, because the report of a check must not depend on the record.
         """
         path = self._path(check)
         try:
@@ -116,7 +117,7 @@ class StudentRecord:
 
 
 def _record(check: str, data: object) -> PartRecord | None:
-    """Return the record of a part in `data`, or None if `store` has not written these data."""
+    """Return the record of a part in `data`, or None if the data are not from `store`."""
     if not isinstance(data, dict):
         return None
     texts = [data.get(name) for name in ("verdict", "checked", "passed")]
@@ -138,6 +139,6 @@ def _reason(error: Exception) -> str:
 
 
 def _listed(parts: list[str], most: int = 5) -> str:
-    """Return the ids of parts as one text; it contains only the first `most` ids."""
+    """Return the ids of parts as one text with at most `most` ids."""
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(parts[:most]) + more

@@ -1,8 +1,7 @@
 """The report of a check, as data, as text and as HTML.
 
-The report of a failed check first shows the assertions that hold, then the one thing to fix next, and then
-the goal. The report of a passed check contains no values, times or random texts, so it is the same in every
-run.
+The report of a failed check shows the assertions that hold, then the assertion that failed, and then the
+goal. The report of a passed check contains no values, times or random texts, so it is the same in every run.
 """
 
 from __future__ import annotations
@@ -58,11 +57,11 @@ class Assertion:
 
 @dataclass(frozen=True)
 class Review:
-    """What an instructor decided about an answer after the check."""
+    """An instructor's decision about an answer after the check."""
 
-    comment: str = ""  # for the student
-    computed: float | None = None  # the points of the check, if the instructor set the points
-    outdated: bool = False  # whether the answer has changed since the instructor reviewed it
+    comment: str = ""  # This comment is for the student.
+    computed: float | None = None  # These are the points of the check, if the instructor has changed them.
+    outdated: bool = False  # The value is true if the answer has changed since the review.
 
 
 @dataclass(frozen=True)
@@ -75,14 +74,16 @@ class Report:
     points: float = 0
     possible: float = 0
     assertions: tuple[Assertion, ...] = ()
-    note: str = ""  # what the student should do next, if no assertion shows this
-    printed: str = field(default="", compare=False)  # the text that student code printed during the check
-    goals: tuple[Goal, ...] = ()  # the goals among which the points are divided; none for all or nothing
-    inconclusive: bool = False  # True if grading counts a check that did not finish as failed
-    review: Review | None = None  # in grading, if an instructor has reviewed the answer
+    note: str = ""  # This text says what the student should do next, if no assertion shows it.
+    printed: str = field(default="", compare=False)  # Student code printed this text during the check.
+    # The points are divided among these goals; without goals, a check gives all points or none.
+    goals: tuple[Goal, ...] = ()
+    # The value is True if the check did not finish, and grading counts it as failed.
+    inconclusive: bool = False
+    review: Review | None = None  # The value is set in grading, if an instructor has reviewed the answer.
 
     def headline(self) -> str:
-        """Return the first line, which contains the result."""
+        """Return the first line of the report with the result."""
         if not self.possible:
             return f"{self.check} {self.verdict.value}"
         return f"{self.check} {self.verdict.value}: {self.points:g} of {self.possible:g} points"
@@ -101,9 +102,10 @@ class Report:
         return [*filter(None, [about, comment and f"The instructor's comment: {comment}"])]
 
     def credits(self) -> list[str]:
-        """Return a line for each goal with its points.
+        """Return a line with the points for each goal.
 
-        There are none for a pass, if no assertion was checked, or if the part gives all points or none.
+        The list is empty for a passed check, if no assertion was checked, or if the part gives all points or
+        none.
         """
         if self.verdict is Verdict.PASSED or not self.assertions or not total(self.goals):
             return []
@@ -112,7 +114,7 @@ class Report:
         ]
 
     def sections(self) -> list[tuple[str, tuple[Assertion, ...]]]:
-        """Return the assertions with their headings; the assertions that hold come first.
+        """Return the assertions with their headings, first the assertions that hold.
 
         A passed check has no headings.
         """

@@ -1,4 +1,4 @@
-"""The results of student code that a check runs: of a function in the kernel, or of a command."""
+"""The results of student code that a check runs: a function in the kernel, or a command."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ class Result:
         self, results: Results, label: str, reply: Mapping[str, Json], took: float, hints: Hints
     ) -> None:
         self.printed = str(reply.get("printed", ""))
-        self.took = took  # duration in s, as the check runner measured it
+        self.took = took  # The check runner measured this duration in s.
         self._value = reply.get("value")
         error = reply.get("error")
         self._error = error if isinstance(error, dict) else None
         self._results = results
-        self._label = label  # the call, as the titles of assertions show it: "measure()"
+        self._label = label  # Titles of assertions show this text for the call, such as "measure()".
         self._hints = hints
 
     @property
@@ -36,10 +36,7 @@ class Result:
 
     @property
     def value(self) -> Json:
-        """The value that the function returned, as plain data; None if it raised an error.
-
-        Asserts nothing.
-        """
+        """The return value as plain data, or None after an error."""
         return self._value
 
     @overload
@@ -49,8 +46,8 @@ class Result:
     def returned(self, kind: type[Item] | None = None) -> Json | Item:
         """Assert that the function returned without an error, and return its value as plain data.
 
-        For a function of the check itself, pass the expected class as `kind`. CheckError is raised if the
-        value has another class.
+        For a function of the check itself, pass the expected class as `kind`; CheckError is raised for a
+        value of another class.
         """
         assertion = f"{self._label} returns"
         if self.error:
@@ -89,12 +86,13 @@ class Finished:
 
     def __init__(self, reply: Mapping[str, Json]) -> None:
         status, took = reply.get("status"), reply.get("took")
-        # None means that the command was still running
+        # The value None means that the command was still running.
         self.status = status if isinstance(status, int) else None
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
-        self.took = took if isinstance(took, float) else 0.0  # s
+        self.took = took if isinstance(took, float) else 0.0  # The command took this time in s.
         # For a command that was still running: its CPU time, and the time that it waited for a CPU, in s.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
-        self.queued = queued if isinstance(queued, float) else math.inf  # infinity if this time is not known
+        # The value is infinity if the time is unknown.
+        self.queued = queued if isinstance(queued, float) else math.inf

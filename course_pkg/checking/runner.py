@@ -22,21 +22,21 @@ from course_pkg.errors import ChannelError, CheckError, CourseError, ToolMissing
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import at_this_load, interrupt_after
 
-FIRST_MESSAGE = 10.0  # time limit in s for the client's first message
-LOOK = 5.0  # time limit in s for the client to describe a name
+FIRST_MESSAGE = 10.0  # The client has to send its first message within this time in s.
+LOOK = 5.0  # The client has to describe a name within this time in s.
 Store: TypeAlias = "Callable[[str, Mapping[str, Json]], str]"
 
 
 class DeadlinePassed(BaseException):
-    """The time of the check is over. `except Exception` does not catch this error."""
+    """The time limit of the check is over; `except Exception` does not catch this error."""
 
 
 def run_check(channel: Channel, store: Store | None = None, only: str = "") -> Report:
     """Run the check that the client requests, `store` its result, and send and return its report.
 
     `store` gets the id of the check and its result, and returns a message for the report, or "". Without
-    `store`, nothing is stored. With `only`, no other check is run. Raises ChannelError if the client does not
-    request a check.
+    `store`, nothing is stored. If `only` is not empty, only the check with this id is run. Raises
+    ChannelError if the client does not request a check.
     """
     seed = int(os.environ.get("COURSE_SEED") or secrets.randbits(32))
     hello = channel.receive(FIRST_MESSAGE)
@@ -57,7 +57,7 @@ def run_check(channel: Channel, store: Store | None = None, only: str = "") -> R
 
 
 def record(report: Report, seed: int) -> dict[str, Json]:
-    """Return the stored result, which is enough for grading, and for a repetition with COURSE_SEED."""
+    """Return the data for grading, and for a repetition of the check with COURSE_SEED."""
     return {**report.as_dict(), "seed": seed, "time": time.time(), "course": _course_version()}
 
 
@@ -90,14 +90,14 @@ def _reported(part: Part, context: CheckContext) -> Report:
 
 
 def _require_marks(part: Part, marked: set[str]) -> None:
-    """Raise CheckError if the check did not mark exactly the goals of the part; the last needs no mark."""
+    """Raise CheckError if the check did not mark exactly the goals of the part; the last mark is optional."""
     texts = {goal.text for goal in part.goals}
     if wrong := (marked - texts) | (texts - marked - {goal.text for goal in part.goals[-1:]}):
         raise CheckError(f"The check itself has a bug (goals: {', '.join(sorted(wrong))}).")
 
 
 def _not_attempted(part: Part, channel: Channel) -> str:
-    """Return what to do first if a name that the check needs is missing or blank; else an empty string."""
+    """Return what to do first if a name that the check needs is missing or blank, else ""."""
     for need in part.needs:
         replies = {name: channel.ask("look", timeout=LOOK, name=name) for name in need.split("|")}
         blank = next((name for name, reply in replies.items() if reply.get("kind") == "blank"), "")
@@ -120,7 +120,7 @@ def _not_attempted(part: Part, channel: Channel) -> str:
 
 
 def _unchanged(part: Part, channel: Channel) -> str:
-    """Return what to do if a file that has to be repaired was not changed; else an empty string."""
+    """Return what to do if a file that has to be repaired was not changed, else ""."""
     first, _, text = part.start.partition("\n")
     path = first.removeprefix("%%writefile").strip()
     now = channel.ask("source", timeout=LOOK, name=f"file:{path}").get("text") if path else None
@@ -148,7 +148,7 @@ def _report(
     note: str = "",
     goals: Iterable[str] = (),
 ) -> Report:
-    """Return the report of `part`; `goals` are the texts of the goals that are fulfilled."""
+    """Return the report of `part`; `goals` are the texts of the fulfilled goals."""
     found = with_fulfilled(part.goals, goals)
     points = part.points if verdict is Verdict.PASSED else earned(found)
     return Report(part.check, verdict, part.goal, points, part.points, assertions, note, goals=found)

@@ -1,7 +1,4 @@
-"""The process of a check runner that a notebook has started.
-
-It stores the result in the student's own record.
-"""
+"""The process of a check runner that a notebook has started; it stores the result in the student's record."""
 
 from __future__ import annotations
 
@@ -29,7 +26,7 @@ def main() -> None:
     with suppress(RunnerStopped), _stopped_by(channel):
         run_check(channel, StudentRecord().store)
     sys.stderr.flush()
-    os._exit(0)  # skips rospy's shutdown, which sleeps for 0.6 s; nothing is registered any more
+    os._exit(0)  # This call skips rospy's shutdown, which sleeps for 0.6 s; no registrations exist any more.
 
 
 @contextmanager
@@ -37,7 +34,7 @@ def _stopped_by(channel: Channel) -> Iterator[None]:
     """Raise RunnerStopped in the main thread when the kernel closes `channel`, or after SIGTERM."""
 
     def stop(*_: object) -> None:
-        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second signal would interrupt the clean-up
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)  # A second signal would interrupt the clean-up.
         raise RunnerStopped
 
     signal.signal(signal.SIGTERM, stop)

@@ -20,7 +20,7 @@ from course_pkg.faults.stage import Stage
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.ros.protocol.xmlrpc import port_of
 
-NO_HOST = "robot-2"  # a host name that this machine cannot resolve
+NO_HOST = "robot-2"  # The machine cannot resolve this host name.
 
 _well = partial(Fault, group="calling", chapter="06", play=serving('return SetBoolResponse(True, "open")'))
 _python = partial(
@@ -114,7 +114,7 @@ def _freeze(stage: Stage) -> None:
 
 
 def _hog(stage: Stage) -> None:
-    """Connect to the server and send nothing, as a port scan or a hanging client does."""
+    """Connect to the server and send nothing, like a port scan."""
     stage.serve(keeper())
     uri = MasterClient(stage.uri).lookup_service(stage.door) or ""
     stage.later(socket.create_connection(("127.0.0.1", port_of(uri)), timeout=2.0).close)
@@ -123,11 +123,10 @@ def _hog(stage: Stage) -> None:
 def _misname(stage: Stage) -> None:
     """Start a server with a host name that cannot be resolved.
 
-    Because of this name, no other process can connect to the server, so this function does not check whether
-    the server answers.
+    No other process can connect to this server, so this function does not wait for a response.
     """
     master = MasterClient(stage.uri)
-    # If the client's own host name is localhost, rospy rejects all other host names before it tries to
+    # With localhost as the client's own host name, rospy would reject all other host names without trying to
     # resolve them.
     stage.visitor_env = {"ROS_HOSTNAME": "127.0.0.1"}
     program = stage.keep(keeper(), {"ROS_HOSTNAME": NO_HOST})

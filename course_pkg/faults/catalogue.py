@@ -33,7 +33,7 @@ def named(name: str) -> Fault:
 
 @contextmanager
 def caused(name: str) -> Iterator[Stage]:
-    """Cause the fault called `name` during the block of a `with` statement, and undo the fault at the end.
+    """Cause the fault called `name` during a `with` block, and undo it after the block.
 
     Raises UnknownFault if there is no such fault, and NodeFailed if the fault could not be caused.
     """

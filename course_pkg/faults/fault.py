@@ -7,21 +7,22 @@ from dataclasses import dataclass
 
 from course_pkg.faults.stage import Stage
 
-HANG = 2.0  # s; a program that still waits after this time is assumed to wait for ever
-START = 2.0  # s; the extra time for a command, because its process has to start first
-TIMEOUT = 10.0  # s; the time limit for a program that ends by itself
+HANG = 2.0  # If a program is still running after this time in s, it is assumed to wait for ever.
+START = 2.0  # A command gets this additional time in s, because its process has to start first.
+TIMEOUT = 10.0  # A program that is expected to end has to end within this time in s.
 
 
 @dataclass(frozen=True)
 class Fault:
-    """One fault. At first, students see only `story`; `diagnosis` and `remedy` are the correct choices.
+    """One fault.
 
-    The function `play` causes the fault on a stage (see the module `stage`). `visitor` shows the symptom: it
-    is the text of a Python program, or "$ " and a command line. `look` names the kind of symptom: its first
-    word names a group of similar symptoms, and its second word, if any, names a smaller group of very similar
-    symptoms. The wrong diagnoses that a student can choose belong to faults with a similar `look`. The
-    diagnoses of the faults in `unlike` are never offered as wrong choices, because they would also be
-    correct.
+    Students first see only `story`; `diagnosis` and `remedy` are the correct choices. The function `play`
+    causes the fault on a stage (see the module `stage`). `visitor` shows the symptom: it is the text of a
+    Python program, or "$ " and a command line.
+
+    `look` names the kind of symptom with one or two words: a group, and optionally a smaller group of very
+    similar symptoms. The wrong diagnoses for students come from faults with a similar `look`. The diagnoses
+    of the faults in `unlike` are never offered as wrong choices, because they would also be correct.
     """
 
     name: str

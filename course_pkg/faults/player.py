@@ -1,13 +1,13 @@
-"""Runs one short program of a case, as `python FILE` does.
+"""Run one short program of a case, as `python FILE` does.
 
-The process waits for a byte before it runs the program.
+The process reads a byte from a pipe before it runs the program.
 
 usage: player.py READY GO NAME CODE [ARGUMENT …]
 
-READY and GO are file descriptors. This program writes a byte to READY when the interpreter and rospy are
-loaded. It then reads a byte from GO, and runs the code. When the code has ended, this program writes the exit
-status to READY as one byte. A case can therefore start the interpreter early, and measure only the time that
-the code takes.
+READY and GO are file descriptors. When the interpreter and rospy are loaded, this program writes a byte to
+READY, reads a byte from GO, and runs the code. After the code has ended, this program writes the exit status
+to READY as one byte. A case can therefore start the interpreter early, and measure only the running time of
+the code.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ import traceback
 
 
 def main(argv: list[str]) -> int:
-    """Run the code, and return its exit status. A traceback shows only lines of this code."""
+    """Run the code, and return its exit status; a traceback shows only lines of this code."""
     ready, go = int(argv[1]), int(argv[2])
     name, code = argv[3:5]
-    del sys.path[0]  # The program must not import other modules from the folder of this file.
+    del sys.path[0]  # The program must not import modules from the folder of this file.
     import rospy  # noqa: F401 -- slow imports run before the first byte
     import std_srvs.srv  # noqa: F401
 
@@ -34,8 +34,7 @@ def main(argv: list[str]) -> int:
     sys.stdout.flush()
     sys.stderr.flush()
     os.write(ready, bytes([status & 255]))
-    # Wait here until the case kills this process. This is faster than rospy's own shutdown, which takes 0.6 s
-    # or more.
+    # The case kills this process here, which is faster than rospy's own shutdown (0.6 s or more).
     os.read(go, 1)
     return status
 
@@ -54,7 +53,7 @@ def _run(name: str, code: str) -> int:
 
 
 def _cut(shown: traceback.TracebackException, name: str) -> None:
-    """Remove the lines of all other files from a traceback, and remove the chained exceptions."""
+    """Remove the lines of all other files, and the chained exceptions, from a traceback."""
     shown.stack = traceback.StackSummary.from_list([each for each in shown.stack if each.filename == name])
     shown.__cause__ = shown.__context__ = None
 

@@ -1,4 +1,4 @@
-"""The tools with which a student examines a case. The tools are real commands with a time limit."""
+"""The tools with which a student examines a case; the tools are real commands with a time limit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from course_pkg.faults.stage import Stage
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.ros.protocol.registrations import remove_stale
 
-TIMEOUT = 4.0  # maximum time in s for a tool; a tool needs 0.5 s to start
+TIMEOUT = 4.0  # A tool has to end within this time in s; the start of a tool takes 0.5 s.
 
 COMMANDS = {
     "services": "rosservice list",
@@ -25,7 +25,7 @@ TOOLS = {
 
 
 def probe(stage: Stage, tool: str) -> Seen:
-    """Run a tool from TOOLS on a case, and return the tool's output. A tool takes at most 10 s."""
+    """Run a tool from TOOLS on a case, and return the tool's output; a tool takes at most 10 s."""
     if tool == "again":
         return stage.symptom()
     if tool == "output":
@@ -48,7 +48,7 @@ def _output(stage: Stage) -> Seen:
 
 
 def _cleaned(stage: Stage) -> Seen:
-    """Remove stale registrations as `rosnode cleanup` does, but only registrations of this case's nodes."""
+    """Remove stale registrations of this case's nodes, as `rosnode cleanup` does for all nodes."""
     try:
         nodes = MasterClient(stage.uri).system_state().nodes
         own = [node for node in nodes if node.startswith(f"{stage.namespace}/")]

@@ -1,7 +1,4 @@
-"""Runs a short program of a case in a separate process.
-
-The process starts early, and runs the code only after begin().
-"""
+"""Run a short program of a case in a separate process, which starts early and waits for begin()."""
 
 from __future__ import annotations
 
@@ -22,10 +19,10 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.waiting import wait_until
 
 PLAYER = Path(__file__).with_name("player.py")
-READY = 15.0  # maximum time in s to start an interpreter and import rospy; usually 0.3 s
-LONGEST = 8000  # maximum number of bytes of an output; of a longer output, only the last part is shown
-INTERVAL = 0.01  # s between polls
-# the terminal's escape codes for colours and for the window's title
+READY = 15.0  # An interpreter has to start and import rospy within this time in s; the usual time is 0.3 s.
+LONGEST = 8000  # If an output is longer (in bytes), only its last bytes are shown.
+INTERVAL = 0.01  # This is the time in s between two polls.
+# The pattern matches a terminal's escape codes for colours and for the window title.
 _FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")
 
 
@@ -44,12 +41,12 @@ class Seen:
 
     @property
     def waiting(self) -> bool:
-        """Whether the program was still running at the time limit."""
+        """Whether the program reached its time limit."""
         return self.status is None
 
     @property
     def verdict(self) -> str:
-        """How the program ended, as a short text."""
+        """A short text about the end of the program."""
         if self.status is None:
             return f"no answer within {self.seconds:.0f} s; still waiting"
         end = "ended" if self.status == 0 else f"ended with status {self.status}"
@@ -57,11 +54,9 @@ class Seen:
 
 
 class Program:
-    """A Python program or a command in a separate process.
+    """A Python program or a command in a separate process, which ends at the latest when this process ends.
 
-    The separate process ends when this process ends, or earlier.
-
-    A Python program waits for begin(). A command begins at once.
+    A Python program waits for begin(); a command begins at once.
     """
 
     def __init__(self, shown: str, command: Sequence[str], env: Mapping[str, str]) -> None:
@@ -82,7 +77,7 @@ class Program:
         return cls(code, [sys.executable, str(PLAYER), "READY", "GO", name, code, *args], env)
 
     def begin(self) -> None:
-        """Begin the code of a Python program, after its interpreter has started.
+        """Run the code of a Python program, after its interpreter has started.
 
         Raises NodeFailed if the interpreter ends, or does not start within READY s.
         """
@@ -93,7 +88,7 @@ class Program:
             self._began = time.monotonic()
 
     def watch(self, timeout: float) -> Seen:
-        """Wait until the program ends, or until `timeout` s after its start, and return its result."""
+        """Wait until the program ends, or until `timeout` s after its start; return its result."""
         wait_until(lambda: self.over, self._began + timeout - time.monotonic(), INTERVAL)
         took = time.monotonic() - self._began
         return Seen(self.shown, self.output(), took, self._status)
@@ -126,24 +121,21 @@ class Program:
         return self._process.listening_ports()
 
     def signal(self, number: int) -> None:
-        """Send the program a signal."""
+        """Send a signal to the program."""
         self._process.signal(number)
 
     def kill(self) -> None:
-        """Kill the program with SIGKILL.
-
-        The program cannot unregister, so its registrations remain at the master.
-        """
+        """Kill the program with SIGKILL; its registrations remain at the master."""
         self._process.signal(signal.SIGKILL)
         self._process.wait(3.0)
 
     def freeze(self) -> None:
-        """Suspend the program with SIGSTOP, and return when all its threads are suspended."""
+        """Suspend the program with SIGSTOP, and wait until all its threads are suspended."""
         self._process.signal(signal.SIGSTOP)
         wait_until(lambda: _still(self.pid), 3.0, INTERVAL)
 
     def end(self) -> None:
-        """End the program and all processes that it started, at once. A second call changes nothing."""
+        """End the program and all its child processes at once; a second call has no effect."""
         if self.running:
             self._process.end(grace=0)
         _close(self._pipes)
@@ -174,7 +166,7 @@ class Program:
 def _still(pid: int) -> bool:
     """Return whether all threads of a process are suspended.
 
-    psutil reports only one state for the whole process.
+    psutil returns only one state for the whole process.
     """
     try:
         stats = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]

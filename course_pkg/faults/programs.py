@@ -31,9 +31,9 @@ rospy.spin()
 
 
 def keeper(body: str = WELL, **changes: str) -> str:
-    """Return a program that provides /door; `body` is the code of its handler.
+    """Return a program that offers /door; `body` is the code of its handler.
 
-    In the program, each key of `changes` is replaced by its value.
+    Each key of `changes` in the program is replaced by its value.
     """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():
@@ -42,7 +42,7 @@ def keeper(body: str = WELL, **changes: str) -> str:
 
 
 def running(code: str) -> Callable[[Stage], None]:
-    """Return a function that causes a fault: it runs `code`, a server that provides /door."""
+    """Return a function that causes a fault by running `code`, a server of /door."""
 
     def play(stage: Stage) -> None:
         stage.serve(code)
@@ -51,7 +51,7 @@ def running(code: str) -> Callable[[Stage], None]:
 
 
 def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
-    """Return a function that causes a fault: it runs a server whose handler has the code `body`."""
+    """Return a function that causes a fault by running a server with `body` as the code of its handler."""
     return running(imports + keeper(body))
 
 

@@ -1,11 +1,10 @@
-"""Waits as long as a case exists, and cleans up if the notebook's kernel is killed.
+"""Wait until the notebook's kernel ends or is killed, and then clean up a case.
 
 usage: reaper.py MASTER NAMESPACE FOLDER
 
-The processes of a case end when the kernel ends. But if a case has killed a process on purpose, the
-registrations of this process remain at the master. This program removes these registrations when it receives
-SIGTERM, because the kernel has then ended. This program runs for every case, but is rarely needed. Therefore
-it imports other modules only after SIGTERM.
+The processes of a case end with the kernel. If the case has killed a process, the registrations of this
+process remain at the master. After SIGTERM, which means that the kernel has ended, this program removes these
+registrations. This program runs for every case, so it imports other modules only after SIGTERM.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ from __future__ import annotations
 import signal
 import sys
 
-DURATION = 1.5  # length of the clean-up in s; less than 2 s, because this program is killed 2 s after SIGTERM
+DURATION = 1.5  # The clean-up takes this time in s. Two seconds after SIGTERM, this program is killed.
 COURSE = __file__.rpartition("/course_pkg/")[0]
 
 
@@ -25,10 +24,7 @@ def main(argv: list[str]) -> None:
 
 
 def clean_up(master: str, namespace: str, folder: str) -> None:
-    """Remove the folder.
-
-    For DURATION s, repeatedly remove all registrations in the namespace from the master.
-    """
+    """Delete the folder, and remove all registrations in the namespace repeatedly for DURATION s."""
     import shutil
     import time
 
@@ -40,12 +36,12 @@ def clean_up(master: str, namespace: str, folder: str) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     deadline = time.monotonic() + DURATION
     try:
-        # A program that is just ending may still register, so this is repeated.
+        # The removal is repeated, because a program that is ending may still register.
         while time.monotonic() < deadline:
             withdraw_below(MasterClient(master, timeout=0.5), f"{namespace}/")
             time.sleep(0.1)
     except GraphError:
-        pass  # The master has ended with the kernel, so there is nothing to remove.
+        pass  # The master has ended with the kernel, so no registrations exist.
 
 
 if __name__ == "__main__":

@@ -60,7 +60,7 @@ rospy.spin()
 """
 
 
-# In the service type GetLoggers of ROS, the response has only one field, which is a list.
+# The response of ROS's service type GetLoggers has only one field, a list.
 LOGGERS = (
     keeper('return ["rosout", "hinge", "bell"]')
     .replace("std_srvs.srv import SetBool, SetBoolResponse", "roscpp.srv import GetLoggers")

@@ -1,9 +1,7 @@
 """A stage causes a fault and undoes it.
 
-A stage runs the programs of the fault, and if necessary a separate master.
-
-All nodes and services of a stage are in one namespace of the running graph, such as /lab. Other parts of the
-graph do not change.
+A stage runs the programs of the fault, and if necessary a separate master. All nodes and services of a stage
+are in one namespace of the running graph, such as /lab. A stage does not change other nodes and services.
 """
 
 from __future__ import annotations
@@ -32,16 +30,16 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 REAPER = Path(__file__).with_name("reaper.py")
-# environment variables that contain folders in which files are stored
+# In these environment variables, the stage sets folders for log files and other files.
 FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")
-READY = 10.0  # maximum time in s until a program is on the graph; usually 0.4 s
+READY = 10.0  # A program has to be on the graph within this time in s; the usual time is 0.4 s.
 NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
 
 
 class Playable(Protocol):
     """The attributes of a Fault that a stage uses.
 
-    This module cannot import the class Fault, because the module `fault` imports this module.
+    The module `fault` imports this module, so this module cannot import the class Fault.
     """
 
     @property
@@ -64,17 +62,16 @@ class Playable(Protocol):
 class Stage:
     """A fault on the running graph, or on a separate master.
 
-    undo() ends the fault. The fault also ends when this object is deleted, or when this process ends, even if
-    it is killed with SIGKILL. Raises MasterUnreachable or MasterSilent if there is no master, or if the
-    master does not answer.
+    The fault ends when undo() is called, when this object is deleted, or when this process ends. Raises
+    MasterUnreachable or MasterSilent if no master answers.
     """
 
     def __init__(self, fault: Playable) -> None:
         self.fault = fault
-        self.uri = master_uri()  # the address of the master that the programs of this fault use
+        self.uri = master_uri()  # The programs of this fault use the master at this address.
         self.namespace = _free_namespace(self.uri)
         self.visitor_env: dict[str, str] = {}
-        self.keeper: Program | None = None  # the faulty program; a student may read its output
+        self.keeper: Program | None = None  # The keeper is the faulty program; a student may read its output.
         self._visitor: Program | None = None
         self._resources = _Resources(self.uri, self.namespace)
         self._end = weakref.finalize(self, self._resources.clear)
@@ -85,11 +82,12 @@ class Stage:
         return f"{self.namespace}/door"
 
     def cause(self) -> None:
-        """Cause the fault. If this fails, undo everything, and raise NodeFailed."""
+        """Cause the fault; on failure, undo everything and raise NodeFailed."""
         try:
             self.fault.play(self)
             if not self.fault.is_command:
-                # the visitor starts last, because on a busy machine its start would delay the fault
+                # On a busy machine, the start of the visitor would delay the fault, so the visitor starts
+                # last.
                 self.expect_visitor()
         except BaseException:
             self.undo()
@@ -108,14 +106,11 @@ class Stage:
         return seen
 
     def undo(self) -> None:
-        """End the fault, and return when the graph is in its earlier state again.
-
-        A second call changes nothing.
-        """
+        """End the fault, and wait until the graph is in its earlier state; a second call has no effect."""
         self._end()
 
     def expect_visitor(self) -> None:
-        """Start the visitor's interpreter early; otherwise, symptom() would have to wait for its start."""
+        """Start the visitor's interpreter early, so that symptom() does not have to wait for it."""
         if self._visitor is None:
             text = self.fault.visitor
             self._visitor = (
@@ -125,22 +120,22 @@ class Stage:
             )
 
     def serve(self, code: str) -> Program:
-        """Run `code` as the server of /door, and return when it answers.
+        """Run `code` as the server of /door, and wait until it responds.
 
-        Raises NodeFailed if the server does not answer.
+        Raises NodeFailed if the server does not respond.
         """
         keeper = self.keep(code)
         self.await_that(lambda: self._answers(keeper), keeper)
         return keeper
 
     def keep(self, code: str, env: dict[str, str] | None = None) -> Program:
-        """Start the faulty program, and return at once. A student may read the output of this program."""
+        """Start the faulty program, and return at once; a student may read its output."""
         self.keeper = self.program("keeper.py", code, env)
         self.keeper.begin()
         return self.keeper
 
     def serve_too(self, program: Program) -> None:
-        """Start another program that provides /door, and return when it answers. Raises NodeFailed."""
+        """Start another program that offers /door, and wait until it responds; raises NodeFailed."""
         program.begin()
         self.await_that(lambda: self._answers(program), program)
 
@@ -151,34 +146,34 @@ class Stage:
         return program
 
     def command(self, line: str, env: dict[str, str] | None = None) -> Program:
-        """Start a command line; the command begins at once."""
+        """Start a command line at once."""
         line = self.local(line)
         program = Program(f"$ {line}", shlex.split(line), self.environment(env or {}))
         self._resources.programs.append(program)
         return program
 
     def own_master(self, port: int | None = None) -> PrivateMaster:
-        """Start a master only for this fault. All programs that start later use this master."""
+        """Start a master for this fault; all programs that start later use this master."""
         master = PrivateMaster(port).start()
         self._resources.masters.append(master)
         self.uri = master.uri
         return master
 
     def hang(self, master: PrivateMaster) -> None:
-        """Suspend this fault's own master with SIGSTOP. undo() continues the master and then ends it."""
+        """Suspend this fault's own master with SIGSTOP; undo() resumes the master and ends it."""
         pid = master.pid
         self.later(partial(os.kill, pid, signal.SIGCONT))
         os.kill(pid, signal.SIGSTOP)
 
     def later(self, end: Callable[[], object]) -> None:
-        """Call `end` when the fault is undone. `end` must not hold a reference to this stage."""
+        """Call `end` when the fault is undone. `end` must not have a reference to this stage."""
         self._resources.ends.append(end)
 
     def await_that(self, condition: Callable[[], object], program: Program) -> None:
-        """Return when `condition` is true. Raises NodeFailed if `program` ends first, or after 10 s."""
+        """Wait until `condition` is true; raises NodeFailed if `program` ends first, or after 10 s."""
 
         def settled() -> str:
-            # Read this before the condition, because the program may fulfil the condition and then end.
+            # The order is important: the program may fulfil the condition and then end.
             over = program.over
             return "met" if condition() else "over" if over else ""
 
@@ -188,7 +183,7 @@ class Stage:
     def environment(self, more: dict[str, str]) -> dict[str, str]:
         """Return the environment variables for the case's programs.
 
-        They set the master, the namespace and the log folder.
+        The variables set the master, the namespace and the log folder.
         """
         own = {
             "ROS_MASTER_URI": self.uri,
@@ -198,9 +193,9 @@ class Stage:
         return {**local_environment(), **own, **more}
 
     def local(self, text: str) -> str:
-        """Return `text` with this stage's namespace in place of /lab.
+        """Return `text` with this stage's namespace instead of /lab.
 
-        The word MASTER_PORT is replaced by the port of the stage's master.
+        The port of the stage's master replaces MASTER_PORT.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
@@ -215,9 +210,9 @@ class Stage:
 
 
 class _Resources:
-    """The processes and files that a stage has to end and remove.
+    """The processes and files of a stage, which are ended and deleted after the stage is deleted.
 
-    This object has no reference to the stage, because it cleans up after the stage is deleted.
+    This object has no reference to the stage.
     """
 
     def __init__(self, uri: str, namespace: str) -> None:
@@ -227,13 +222,13 @@ class _Resources:
         self._uri = uri
         self._namespace = namespace
         self.folder = Path(tempfile.mkdtemp(prefix="course-lab-"))
-        # If this process is killed, the reaper removes the registrations of programs that were killed.
+        # If this process is killed, the reaper removes the registrations of killed programs.
         self._reaper = SupervisedProcess(
             [sys.executable, "-I", "-S", str(REAPER), uri, namespace, str(self.folder)], env=os.environ
         )
 
     def clear(self) -> None:
-        """End all processes, and remove all files. If one step fails, the next steps still run."""
+        """End all processes, and delete all files; after a failed step, the next steps still run."""
         while self.ends:
             with suppress(OSError):
                 self.ends.pop()()
@@ -243,14 +238,14 @@ class _Resources:
             self.programs.pop().end()
         while self.masters:
             self.masters.pop().stop()
-        with suppress(GraphError):  # If the master has ended, there are no registrations to remove.
+        with suppress(GraphError):  # If the master has ended, no registrations exist.
             withdraw_below(MasterClient(self._uri), self._namespace + "/")
         self._reaper.end(grace=0)
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
 def _free_namespace(uri: str) -> str:
-    """Return a namespace that no node uses. Another notebook may already have a stage on this graph."""
+    """Return a namespace that no node uses, because another notebook may have a stage on this graph."""
     taken = [node for node in MasterClient(uri).system_state().nodes if node.startswith("/lab")]
     free = (name for name in NAMESPACES if not any(node.startswith(f"{name}/") for node in taken))
     return next(free, f"/lab_{os.getpid()}")

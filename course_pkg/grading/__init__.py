@@ -1,5 +1,5 @@
 """Grading.
 
-A student's answers are placed into the reference notebook, which runs in a sandbox and is checked from
-outside.
+Grades submissions: a sandbox runs the reference notebook with the student's answers, and a process outside
+checks the results.
 """

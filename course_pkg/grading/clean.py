@@ -1,6 +1,6 @@
 """Makes strings from a submission safe for a page, a table, XML, or the name of a file.
 
-No other module cleans strings. A string that is already clean does not change.
+Cleaning a string twice gives the same result as cleaning it once.
 """
 
 from __future__ import annotations
@@ -13,33 +13,36 @@ from html import escape
 
 from course_pkg.types.fields import Plain
 
-LONG = 4_000  # maximum number of characters of a text with several lines
-SHORT = 300  # maximum number of characters of one line
-NAME = 60  # maximum number of characters of a file name
-CODE = 20_000  # maximum number of characters of a part's code
+LONG = 4_000  # LONG is the maximum number of characters of a text with several lines.
+SHORT = 300  # SHORT is the maximum number of characters of one line.
+NAME = 60  # NAME is the maximum number of characters of a file name.
+CODE = 20_000  # CODE is the maximum number of characters of a part's code.
 LINES = 200
-ITEMS = 1_000  # maximum number of entries of a list in a record
+ITEMS = 1_000  # ITEMS is the maximum number of entries of a list in a record.
 
 ANSI = re.compile(
-    r"\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)?"  # sequences that set a title or make a link
-    r"|(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]?"  # sequences that set colours or move the cursor
-    r"|\x1b[PX^_][^\x1b]*(?:\x1b\\)?"  # strings that control the terminal
+    # This alternative matches sequences that set a title or make a link.
+    r"\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)?"
+    # This alternative matches sequences that set colours or move the cursor.
+    r"|(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]?"
+    r"|\x1b[PX^_][^\x1b]*(?:\x1b\\)?"  # This alternative matches strings that control the terminal.
     r"|\x1b[ -/]*[0-~]?"
 )
 UNSEEN = re.compile(
-    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"  # control characters; `text` handles tab, line feed and return
-    # characters that reverse or hide other characters
+    # This class contains the control characters; `text` handles tab, line feed and return.
+    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"
+    # These characters reverse or hide other characters.
     "\u00ad\u061c\u180e\u200b\u200e\u200f\u2060-\u206f\ufeff\ufff9-\ufffb"
     "\u202a-\u202e\U000e0000-\U000e007f]"
 )
-# halves of surrogate pairs, and codes that are not characters
+# The pattern matches halves of surrogate pairs, and codes that are not characters.
 ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-# the characters that begin a formula, with the wide forms that some spreadsheets accept
+# A formula begins with one of these characters; some spreadsheets also accept their wide forms.
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
-MARKED = re.compile(r"-[0-9a-f]{10}")  # the suffix that file_name() adds to a changed name
+MARKED = re.compile(r"-[0-9a-f]{10}")  # file_name() adds such a suffix to a changed name.
 
 
 def text(value: object, limit: int = LONG) -> str:
@@ -60,7 +63,7 @@ def line(value: object, limit: int = SHORT) -> str:
 
 
 def code(value: object, limit: int = CODE) -> str:
-    """Return the readable text of an answer, with at most `limit` characters; LINES does not limit it."""
+    """Return the readable text of an answer, with at most `limit` characters and any number of lines."""
     lines = BREAKS.sub("\n", str(value)[:limit]).split("\n")
     return "\n".join(ILLEGAL.sub("\ufffd", UNSEEN.sub("", ANSI.sub("", line))) for line in lines)
 
@@ -71,13 +74,13 @@ def html(value: object, limit: int = LONG) -> str:
 
 
 def cell(value: object, limit: int = SHORT) -> str:
-    """Return one line for a cell of a table; no spreadsheet reads it as a formula."""
+    """Return one line for a cell of a table; a spreadsheet does not read it as a formula."""
     kept = line(value, limit)
     return f"'{kept}" if kept.startswith(tuple(FORMULA)) else kept
 
 
 def record(fields: Mapping[str, Plain]) -> dict[str, Plain]:
-    """Return plain data in which each string is cleaned; a list keeps at most ITEMS items."""
+    """Return plain data with cleaned strings; a list in the result has at most ITEMS items."""
     return {line(key): _value(item) for key, item in fields.items()}
 
 
@@ -92,10 +95,7 @@ def _value(value: Plain) -> Plain:
 
 
 def identity(name: str) -> str:
-    """Return the name of a student for records; different names give different results.
-
-    Different names stay different.
-    """
+    """Return the name of a student for records; different names give different results."""
     known = unicodedata.normalize("NFC", name)
     kept = line(known, 120)
     return kept if kept == known else f"{kept}~{_mark(name)}".strip()
@@ -104,10 +104,10 @@ def identity(name: str) -> str:
 def file_name(name: str) -> str:
     """Return a safe file name for `name`.
 
-    It is never the name of a device, and never leads out of its folder.
+    The result is never the name of a device or a path to another folder.
 
-    Different names get different file names, even on a file system that ignores upper and lower case: each
-    changed name gets a suffix.
+    Different names get different file names: each changed name gets a suffix. The file names differ even on a
+    file system that ignores case.
     """
     if PLAIN_NAME.fullmatch(name) and _may_stand(name):
         return name

@@ -42,7 +42,8 @@ from course_pkg.sandbox.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
-A_CORE = 2  # submissions per core at the same time: a check waits for responses most of the time
+# Each core checks this many submissions at the same time, because a check mostly waits for responses.
+A_CORE = 2
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,9 @@ class Options:
     roster: Path | None = None
     moodle_worksheet: Path | None = None
     points: Path | None = None
-    validate: str = "missing"  # "all", "none" or "missing": the students whose notebooks nbval runs
-    flags: tuple[str, ...] = ()  # the kinds of flags; all of them if it is empty
+    # The value is "all", "none" or "missing", and selects the students whose notebooks nbval runs.
+    validate: str = "missing"
+    flags: tuple[str, ...] = ()  # These kinds of flags are searched; an empty tuple means all kinds.
 
 
 def grade(options: Options) -> int:
@@ -109,8 +111,8 @@ def grade(options: Options) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped. Type the same command again to continue.\n")
         sys.stderr.flush()
-        # The threads would wait until their notebooks have ended. The processes that they run end with this
-        # process.
+        # The threads would wait until their notebooks have ended. The exit of this process also ends the
+        # processes that the threads run.
         os._exit(130)
     graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
@@ -132,7 +134,7 @@ def grade(options: Options) -> int:
 def _print_end(
     out: Path, earlier: Earlier, graded: Sequence[Grade], rest: Sequence[Grade], took: float
 ) -> None:
-    """Print the changes since the last run, the results that stayed, and the last line."""
+    """Print the changes since the last run, the unchanged results, and the last line."""
     lines = []
     if earlier.grades:
         found = changes(earlier.grades, [*graded, *rest])
@@ -166,7 +168,10 @@ def grade_one(
     private: Path | None = None,
     points: Path | None = None,
 ) -> int:
-    """Grade one notebook into the file `out`, and store nothing else; a job array of a cluster uses this."""
+    """Grade one notebook and write the result into the file `out`.
+
+    A job array of a cluster uses this function.
+    """
     require_references()
     found = submissions(notebook)
     if not found:
@@ -188,14 +193,14 @@ def _is_class(source: Path) -> bool:
 
 
 def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Grade]) -> ClassList:
-    """Return the students who have handed in something in this or an earlier run, and the missing ones."""
+    """Return the students who submitted in this or an earlier run, and the missing students."""
     there = [each for each in handed_in if not each.nothing and not (isinstance(each, Grade) and each.absent)]
     return lists.matched(origins_of(there), source)
 
 
 def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
     """Return the deadlines, with the extensions in the roster."""
-    # A wrong number is reported before the grading begins.
+    # This call reports a wrong number before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None
@@ -208,7 +213,7 @@ def _dated(
     """Return the submissions to grade, with their days late."""
     zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
-    asked = bool(options.deadlines or options.times)  # without a deadline, a wrong times.csv does no harm
+    asked = bool(options.deadlines or options.times)  # Without a deadline, a wrong times.csv does no harm.
     lateness = Lateness(due, times_of(str(times), options.source, zone) if asked else lambda _: None)
     if table and (strangers := table.strangers(found)):
         sys.stderr.write(
@@ -231,7 +236,7 @@ def _handed_in(options: Options, selected: Selection) -> list[Submission]:
 def _graded(
     options: Options, found: Sequence[Submission], extras: Extras, store: Store, regrade: Regrade
 ) -> Iterator[Grade]:
-    """Yield a grade for each submission: first the grades of earlier runs, then new grades when ready."""
+    """Yield a grade for each submission: first earlier grades, then each new grade when it is ready."""
     todo: dict[tuple[str, tuple[str, ...]], list[Submission]] = {}
     progress = Progress(total=len(found), unit="notebooks")
     for submission in found:

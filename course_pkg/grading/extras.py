@@ -1,4 +1,4 @@
-"""An instructor's private parts and points, in a separate folder that students never see.
+"""Reads an instructor's private parts and points from a separate folder that students never see.
 
 private_05.py   further parts for exercises of chapter 05, declared like the chapter's own checks, with ids
                 such as "05.1.1": they are examined after the student's cell of exercise 05.1
@@ -24,7 +24,7 @@ class Extras:
 
     @property
     def digest(self) -> str:
-        """Return a digest of the private parts; the results of checks do not depend on the points."""
+        """Return a digest of the private parts; the digest does not depend on the points."""
         files = sorted(self.folder.glob("*.py")) if self.folder else []
         return digest([part for path in files for part in (path.name, path.read_bytes())])
 

@@ -1,6 +1,7 @@
-"""The data of grading: the submissions, and the points that they earned.
+"""The data of grading: the submissions, and their points.
 
-All data can be stored as JSON and read again without a change. So a report needs only the records on disk.
+All data can be stored as JSON and read again without a change. Therefore, a report needs only the stored
+records.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from course_pkg.checking.report import Report, report_from
 from course_pkg.sandbox.job import WorkFile
 
 IN_PACKAGES = "Examined in the packages, not in the cells of the notebook"
-NOTHING = "The student handed in nothing"  # the beginning of the problem of an empty folder
+NOTHING = "The student handed in nothing"  # The problem of an empty folder begins with this text.
 NO_TIME = "The time of handing in is not known, so this submission is treated as on time."
 
 
@@ -24,33 +25,37 @@ class Package:
 
     name: str
     files: tuple[WorkFile, ...] = field(repr=False)
-    origin: str  # the path of its folder in the submitted folder or archive
+    origin: str  # `origin` is the path of the package's folder in the submitted folder or archive.
 
     def has(self, paths: Iterable[str]) -> bool:
-        """Return whether the package contains all files `paths`, which are relative to its folder."""
+        """Return whether the package contains all files in `paths`.
+
+        The paths are relative to the package's folder.
+        """
         return {file.path for file in self.files}.issuperset(paths)
 
 
 @dataclass(frozen=True)
 class Submission:
-    """The work of one student for one chapter: a notebook, packages that its parts examine, or both.
+    """The work of one student for one chapter: a notebook, packages that the chapter's parts need, or both.
 
-    `problem` is the reason why there is no notebook, or why it cannot be graded.
+    `problem` says why there is no notebook, or why the notebook cannot be graded.
     """
 
     student: str
-    chapter: str  # such as "05"; empty if unknown
-    content: bytes = field(repr=False)  # a notebook that contains only the data for grading
-    origin: str  # the path of the file in the submitted folder or archive
-    late: float = 0.0  # days after the deadline
+    chapter: str  # An example is "05"; the chapter is empty if it is unknown.
+    content: bytes = field(repr=False)  # The notebook contains only the data for grading.
+    origin: str  # `origin` is the path of the file in the submitted folder or archive.
+    late: float = 0.0  # `late` is the number of days after the deadline.
     problem: str = ""
-    notes: tuple[str, ...] = ()  # notes about an unusual form of the submission
+    notes: tuple[str, ...] = ()  # Each note describes something unusual about the submission.
     packages: tuple[Package, ...] = ()
-    attempts: tuple[Submission, ...] = field(default=(), repr=False)  # the earlier attempts for this chapter
+    # `attempts` are the earlier attempts for this chapter.
+    attempts: tuple[Submission, ...] = field(default=(), repr=False)
 
     @property
     def nothing(self) -> bool:
-        """Whether it stands for an empty folder."""
+        """Whether the student's folder was empty."""
         return self.problem.startswith(NOTHING)
 
     @property
@@ -66,53 +71,58 @@ class Submission:
 
 @dataclass(frozen=True)
 class CellOutcome:
-    """The result of one cell of the rebuilt notebook in nbval; it is only feedback, and earns no points."""
+    """The result of nbval for one cell of the rebuilt notebook.
+
+    The result is only feedback, and earns no points.
+    """
 
     cell: str
-    outcome: str  # "passed", "failed", "skipped"
-    finding: str = ""  # a sentence for the student; empty for a cell that passed
-    line: str = ""  # the first line of the cell, so that the student recognises the cell
+    outcome: str  # The value is "passed", "failed" or "skipped".
+    finding: str = ""  # `finding` is a sentence for the student, or "" for a cell that passed.
+    line: str = ""  # `line` is the first line of the cell. With it, the student can recognise the cell.
 
 
 @dataclass(frozen=True)
 class Flag:
-    """A reason for the instructor to look at a student's work; it changes no points.
+    """A reason for the instructor to examine a student's work. A flag changes no points.
 
-    Students never see it.
+    Students never see a flag.
     """
 
-    kind: str  # a module in flags/kinds, such as "copies"
-    where: str  # the part, such as "05.1", or the path of a file
-    words: str  # a sentence
-    line: int = 0  # of the cell or file; 0 if the flag is about all of it
-    evidence: str = ""  # this line
-    others: tuple[str, ...] = ()  # the students whose work is similar
+    kind: str  # `kind` is the name of a module in flags/kinds, such as "copies".
+    where: str  # `where` is the part, such as "05.1", or the path of a file.
+    words: str  # `words` is a sentence about the reason for the flag.
+    line: int = 0  # `line` is the line number in the cell or file, or 0 for the whole cell or file.
+    evidence: str = ""  # `evidence` is the text of the line.
+    others: tuple[str, ...] = ()  # The work of these students is similar.
 
 
 @dataclass(frozen=True)
 class Grade:
-    """The grade of one submission: a report for each part of the reference, in its order."""
+    """The grade of one submission: a report for each part, in the order of the reference notebook."""
 
     student: str
     chapter: str
     reports: tuple[Report, ...]
-    notes: tuple[str, ...] = ()  # notes about an unusual form of the notebook
-    cells: tuple[CellOutcome, ...] = ()  # the results of the cells in nbval, if nbval was run
-    sandboxed: bool = True  # False means that it was run without a sandbox
+    notes: tuple[str, ...] = ()  # Each note describes something unusual about the notebook.
+    cells: tuple[CellOutcome, ...] = ()  # `cells` are the results of the cells in nbval, if nbval was run.
+    sandboxed: bool = True  # `sandboxed` is False if the submission ran without a sandbox.
     late: float = 0.0  # days
-    factor: float = 1.0  # the factor for the points of a late submission
-    key: str = ""  # a digest of the submission, the reference and the checks
+    factor: float = 1.0  # The points of a late submission are multiplied by this factor.
+    key: str = ""  # `key` is a digest of the submission, the reference and the checks.
     origin: str = ""
-    problem: str = ""  # the problem of the submission; if there is one, no part was examined
-    code: dict[str, str] = field(default_factory=dict)  # the student's code of each part that was examined
-    private: tuple[str, ...] = ()  # the parts whose points, but not their reports, students see
-    handed_in: str = ""  # the digest of the submission
-    flags: tuple[Flag, ...] = ()  # for the instructor only
-    absent: bool = False  # whether this is a result of an earlier run without a submission in this run
+    problem: str = ""  # `problem` is the problem of the submission; with a problem, no part was examined.
+    # `code` contains the student's code of each examined part.
+    code: dict[str, str] = field(default_factory=dict)
+    private: tuple[str, ...] = ()  # Students see the points of these parts, but not the reports.
+    handed_in: str = ""  # `handed_in` is the digest of the submission.
+    flags: tuple[Flag, ...] = ()  # Only the instructor sees the flags.
+    # `absent` is True for a result of an earlier run if this run has no submission for it.
+    absent: bool = False
 
     @property
     def nothing(self) -> bool:
-        """Whether it stands for an empty folder."""
+        """Whether the student's folder was empty."""
         return self.problem.startswith(NOTHING)
 
     @property
@@ -122,7 +132,7 @@ class Grade:
 
     @property
     def possible(self) -> float:
-        """The points that could be earned."""
+        """The maximum number of points."""
         return round(sum(report.possible for report in self.reports), 2)
 
     def unreviewed(self) -> Grade:
@@ -130,7 +140,7 @@ class Grade:
         return replace(self, reports=tuple(map(_unreviewed, self.reports)))
 
     def for_student(self) -> Grade:
-        """Return the grade without flags, and without the data that show how a private part is examined."""
+        """Return the grade without flags, and without the data about how a private part is examined."""
         shown = (
             replace(report, goal="A further check.", assertions=(), goals=(), note="", printed="")
             if report.check in self.private

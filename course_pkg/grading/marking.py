@@ -1,4 +1,4 @@
-"""Grade a submission: rebuild the notebook, run each part, and read the check runner's reports."""
+"""Grades a submission: rebuild the notebook, run each part, and read the reports of the check runner."""
 
 from __future__ import annotations
 
@@ -18,8 +18,9 @@ from course_pkg.grading.rebuild.rebuilder import Rebuilt
 from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
-# Maximum number of runs of a part if its sandbox worker fails, because an answer cannot cause this failure.
-LONGEST_CODE = 20_000  # maximum number of characters of a part's code in the feedback
+# If a sandbox worker fails, the part is run again, up to this number of runs. An answer cannot cause this
+# failure.
+LONGEST_CODE = 20_000  # LONGEST_CODE is the maximum number of characters of a part's code in the feedback.
 TRIES = 2
 
 
@@ -27,10 +28,10 @@ TRIES = 2
 class Answers:
     """A student's answers for a chapter, in packages and in the rebuilt notebook.
 
-    A package replaces the student's src/PACKAGE. If the files of a part are in the package, the part is
-    examined there, and the cells of the notebook are not run: the student may have continued in an editor. If
-    a file is not in the package, the cell that writes this file is used. `problem` is the reason why there is
-    no notebook.
+    A package replaces the student's src/PACKAGE. If the package contains all files of a part, the part is
+    examined in the package, and the notebook's cells are not run. The student may have changed the files in
+    an editor. If a file is not in the package, the cell that writes this file is used. `problem` says why
+    there is no notebook.
     """
 
     packages: tuple[Package, ...]
@@ -44,7 +45,7 @@ class Answers:
         return here and len(part.needs) == sum(map(len, asked.values())) > 0
 
     def files(self, part: Part) -> tuple[WorkFile, ...]:
-        """Return the files of the packages that `part` needs, with paths below src as in a workspace."""
+        """Return the files of the packages that `part` needs, with paths below src."""
         named = [each for each in self.packages if each.name in part.package_files]
         return tuple(file.below(f"src/{each.name}") for each in named for file in each.files)
 
@@ -73,7 +74,7 @@ class Answers:
 
 
 def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: bool) -> str:
-    """Return the key under which this grade is stored: a digest of all data on which it depends."""
+    """Return the key of this grade: a digest of all data that affect the grade."""
     digest = hashlib.sha256(submission.digest.encode())
     for text in (course_digest(), extras.digest, str(sandboxed), validate):
         digest.update(b"\0" + text.encode())
@@ -83,8 +84,8 @@ def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: 
 def mark(submission: Submission, plan: Plan, run: Run, secret: str, key: str, *, sandboxed: bool) -> Grade:
     """Return the grade of one submission.
 
-    `secret` is the seed for the random inputs of the checks. So students do not know these inputs, but they
-    are the same in each run.
+    `secret` is the seed for the random inputs of the checks. Students do not know the seed, but every run of
+    the folder uses the same inputs.
     """
     grade = Grade(
         submission.student,
@@ -140,7 +141,7 @@ def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Repor
 
 
 def _run(job: PartJob, run: Run) -> PartResult:
-    """Run a part; if there was no verdict, run it again, unless the answer took very long."""
+    """Run a part. Run it again if there was no verdict, unless the answer took very long."""
     for _ in range(TRIES):
         try:
             result = run(job)
@@ -163,7 +164,7 @@ def _above(notebook: Notebook, exercise: str) -> Sequence[str]:
 
 
 def _reported(planned: PartPlan, result: PartResult) -> Report:
-    """Return the check runner's report; if the part did not pass, add the error of the student's cell."""
+    """Return the check runner's report; if the part failed, add the error of the student's cell."""
     part, report = planned.part, result.report
     if report is None:
         verdict = Verdict.UNDECIDED if result.lost else Verdict.FAILED
@@ -172,8 +173,7 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
     if report.verdict is Verdict.PASSED:
         return report
     if report.verdict is Verdict.UNDECIDED:
-        # An answer can cause this, so the part counts as failed. Otherwise, students could choose this
-        # verdict.
+        # An answer can cause this verdict, so the part counts as failed.
         note = f"No points, because the check could not finish: {report.note}"
         return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]

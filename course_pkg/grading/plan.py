@@ -1,4 +1,7 @@
-"""The parts of a chapter, and the cells that each part needs; computed once for all submissions."""
+"""The parts of a chapter, and the cells that each part needs.
+
+The data are computed once for all submissions.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ from course_pkg.setup.stamps import digest
 
 @dataclass(frozen=True)
 class PartPlan:
-    """One part: its check, and the reference's cells that run before and after the answer."""
+    """One part: its check, and the cells of the reference that run before and after the answer."""
 
     part: Part
     before: str
@@ -25,18 +28,18 @@ class PartPlan:
 
     @property
     def exercise(self) -> str:
-        """The id of the exercise whose answer is examined."""
+        """The id of the exercise that the part examines."""
         return exercise_of(self.part.check)
 
     @property
     def private(self) -> bool:
-        """Whether it is an instructor's private part."""
+        """Whether the part is an instructor's private part."""
         return self.exercise != self.part.check
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A chapter: its parts in order, and the object that places answers into the reference notebook."""
+    """A chapter: its parts in order, and the object that puts answers into the reference notebook."""
 
     chapter: str
     rebuilder: Rebuilder
@@ -56,7 +59,7 @@ def _planned(part: Part) -> PartPlan:
 
 @cache
 def course_digest() -> str:
-    """Return a digest of all files on which a grade depends: code, checks, types, solutions."""
+    """Return a digest of all files that affect a grade: code, checks, types, solutions."""
     root = Path(course_pkg.__file__).parent
     folders = [root, *(root.parent / name for name in ("solutions", *CATKIN_FOLDERS))]
     paths = sorted(path for folder in folders for path in folder.rglob("*") if _counts(path))
@@ -64,7 +67,7 @@ def course_digest() -> str:
 
 
 def _counts(path: Path) -> bool:
-    apart = {"site", "lab"} & set(path.parts)  # grades do not depend on these folders
+    apart = {"site", "lab"} & set(path.parts)  # Grades do not depend on these folders.
     return (
         path.is_file() and not apart and path.suffix in {".py", ".srv", ".ipynb", ".launch", ".msg", ".json"}
     )

@@ -8,7 +8,8 @@
  "all parts": "all-or-nothing"             the default for all parts that the file does not contain
 }
 
-A stored result contains the goals that are fulfilled. So the points are computed again without a check.
+A stored result contains the goals that were reached. Therefore, points can be computed again without running
+a check.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ START = "`./course points FILE` writes a file to start from."
 
 @dataclass(frozen=True)
 class Worth:
-    """The points of a part, and of its goals; if no goal has points, only a pass earns the points."""
+    """The points of a part and of its goals. If no goal has points, only a full pass earns the points."""
 
     possible: float
     goals: tuple[Goal, ...]
@@ -42,12 +43,12 @@ class Worth:
 
 @dataclass(frozen=True)
 class PointsTable:
-    """The points of each part by its id: those of the instructor, or else those of the author."""
+    """The points of each part by its id: the instructor's points, or else the author's points."""
 
     parts: Mapping[str, Worth] = field(default_factory=dict)
 
     def weighed(self, grade: Grade) -> Grade:
-        """Return `grade` with the points of this table; parts that are not in the table stay as they are."""
+        """Return `grade` with the points of this table; parts that are not in the table do not change."""
         return replace(grade, reports=tuple(map(self._weighed, grade.reports)))
 
     def _weighed(self, report: Report) -> Report:
@@ -62,10 +63,10 @@ class PointsTable:
 
 
 def read_points(path: Path | None) -> PointsTable:
-    """Return the points of all parts, those in the file at `path` instead of the author's.
+    """Return the points of all parts; points in the file at `path` replace the author's points.
 
-    Private parts have to be declared before. Raises GradingError, with the place and what to do, if the file
-    is not valid.
+    Private parts must be declared before this call. Raises GradingError, with the position in the file and a
+    correction, if the file is not valid.
     """
     known = {part.check: part for chapter in chapters() for part in parts_of(chapter)}
     given = _read(path) if path else {}
@@ -172,7 +173,7 @@ def _with_points(part: Part, shares: Sequence[float]) -> tuple[Goal, ...]:
 
 
 def _points(value: Any, where: str, path: Path | None) -> float:  # noqa: ANN401 -- any JSON value
-    """Return the points `value` of `where`; raise GradingError if it is no valid number."""
+    """Return the points `value` of `where`; raise GradingError if the value is not a valid number."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         form = f'"{ALL_OR_NOTHING}", or an object with the points of each goal'
         raise _wrong(path, f"the value of {where} is a {_kind(value)}. Write a number, {form}.")
@@ -184,7 +185,7 @@ def _points(value: Any, where: str, path: Path | None) -> float:  # noqa: ANN401
 
 
 def _kind(value: object) -> str:
-    """Return what a JSON value is called."""
+    """Return the name of the type of a JSON value."""
     names = {dict: "object", list: "list", str: f"text ({str(value)[:40]!r})", bool: "truth value"}
     return names.get(type(value), "number" if isinstance(value, (int, float)) else "null value")
 

@@ -1,6 +1,6 @@
-"""Grade many submissions, a few at a time, in threads of this machine or in workers of a dask cluster.
+"""Grades many submissions in parallel, in threads of this machine or in workers of a dask cluster.
 
-The code is the same for both: a `Task` (plain data) is submitted to an object with the interface of
+Threads and clusters use the same code: a `Task` (plain data) is submitted to an object with the interface of
 concurrent.futures.Executor, and the result is a grade as plain data.
 """
 
@@ -33,7 +33,7 @@ from course_pkg.grading.rebuild.rebuilder import Rebuilder
 from course_pkg.grading.run.cluster import INTERVAL, Cluster, cluster_of
 from course_pkg.sandbox.worker_client import SandboxWorker
 
-AHEAD = 2  # number of submitted tasks for each running task; this limits the memory that many tasks need
+AHEAD = 2  # For each running task, at most this many tasks are submitted; the limit saves memory.
 
 
 @dataclass(frozen=True)
@@ -44,9 +44,12 @@ class Task:
     secret: str
     key: str
     sandboxed: bool
-    private: str = ""  # the folder of an instructor's extras
-    validate: str = "none"  # the students whose notebooks nbval runs: "all", "missing" points, "none"
-    parts: tuple[str, ...] = ()  # the parts to grade, or none for all; nbval does not run for some parts
+    private: str = ""  # `private` is the folder of an instructor's extras.
+    # `validate` selects the students whose notebooks nbval runs. The value is "all", "missing" (points) or
+    # "none".
+    validate: str = "none"
+    # Only these parts are graded; an empty tuple means all parts. With selected parts, nbval does not run.
+    parts: tuple[str, ...] = ()
 
     def grade(self) -> dict[str, Any]:
         """Grade the submission in this process, with the sandbox worker of this thread."""
@@ -73,7 +76,7 @@ class Pool:
 
 
 def grade_all(tasks: Iterable[Task], pool: Pool) -> Iterator[tuple[Task, Grade]]:
-    """Yield each of the `tasks` with its grade when it is ready; only a few tasks wait in the queue.
+    """Yield each task with its grade as soon as the grade is ready. Only a few tasks wait in the queue.
 
     Raises GradingError if the cluster has ended.
     """
@@ -110,7 +113,7 @@ def pool_of(scheduler: str, jobs: int) -> Iterator[Pool]:
 
 @cache
 def _tools(_pid: int, _thread: int, sandboxed: bool, private: str) -> SandboxWorker:
-    """Return the sandbox worker of one thread of one process; the worker ends with the thread."""
+    """Return the sandbox worker of one thread; the worker ends with the thread."""
     return SandboxWorker(sandboxed=sandboxed, private=private)
 
 
@@ -124,4 +127,4 @@ def _declare(_pid: int, private: str) -> None:
 def _plan(chapter: str) -> Plan:
     return (
         plan(chapter) if chapter in chapters() else Plan(chapter, Rebuilder({"cells": []}), ())
-    )  # there is a problem, so there is nothing to examine
+    )  # A submission with a problem has nothing to examine.

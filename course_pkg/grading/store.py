@@ -1,4 +1,4 @@
-"""The files that a grading run stores in its folder, so that a killed run can continue."""
+"""The files that a grading run stores in its folder; a killed run can continue with them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,9 @@ def handed_in(grade: Grade, submission: Submission) -> Grade:
 
 
 class Store:
-    """The finished grades; each has a key. Each file is complete, and no file contains a student's name.
+    """The finished grades; each grade has a key.
+
+    Each file is complete, and no file contains a student's name.
 
     Only the instructor can read the folder, because it contains the seed of the checks' random inputs.
     """
@@ -46,7 +48,7 @@ class Store:
             ) from error
 
     def find(self, key: str, submission: Submission) -> Grade | None:
-        """Return the grade that is stored under `key` for this submission, or None if there is none."""
+        """Return the grade that is stored under `key` for this submission, or None."""
         grade = self.load(key)
         return handed_in(grade, submission) if grade else None
 
@@ -60,7 +62,7 @@ class Store:
     def keep(self, grade: Grade) -> None:
         """Store `grade` under its key, unless a part could not be examined.
 
-        Then the next run examines it again.
+        In that case, the next run examines the part again.
         """
         if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
             self.drop(grade.key)
@@ -75,7 +77,7 @@ class Store:
             ) from error
 
     def drop(self, key: str) -> None:
-        """Remove the grade that is stored under `key`, so that the next run grades this notebook again."""
+        """Remove the grade that is stored under `key`; the next run then grades this notebook again."""
         (self._folder / f"{key}.json").unlink(missing_ok=True)
 
     def forget(self) -> None:

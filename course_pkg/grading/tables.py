@@ -1,4 +1,4 @@
-"""Reads an instructor's CSV tables, in all forms that spreadsheet programs save."""
+"""Reads an instructor's CSV tables, in all formats that spreadsheet programs save."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from pathlib import Path
 from course_pkg.errors import GradingError
 
 LARGEST = 1_000_000  # bytes
-SPREADSHEET = b"PK\x03\x04"  # the first bytes of .xlsx and .ods files
+SPREADSHEET = b"PK\x03\x04"  # Files in the formats .xlsx and .ods begin with these bytes.
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
     """Return the content of the file at `path`.
 
-    In messages, its name is `what`, such as "table of late days".
+    Error messages call the file `what`, such as "table of late days".
 
     Raises GradingError if the file cannot be read, has more than `largest` bytes, or is not CSV but a
     spreadsheet.
@@ -40,8 +40,8 @@ def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
 def table_rows(path: Path, what: str) -> list[list[str]]:
     """Return the rows of the CSV file at `path`; the separator is a comma, a semicolon or a tab.
 
-    Raises GradingError as `table_bytes` does, and if the contents are not CSV in UTF-8 (or in UTF-16 with a
-    byte order mark).
+    Raises the same errors as `table_bytes`, and GradingError if the contents are not CSV in UTF-8 (or in
+    UTF-16 with a byte order mark).
     """
     content = table_bytes(path, what)
     try:
@@ -52,7 +52,7 @@ def table_rows(path: Path, what: str) -> list[list[str]]:
 
 
 def delimiter_of(text: str) -> str:
-    """Return the separator of the columns: the one of the three that is most frequent in the first line."""
+    """Return the separator of the columns: the most frequent separator in the first line."""
     first = text.partition("\n")[0]
     return max(",;\t", key=first.count)
 

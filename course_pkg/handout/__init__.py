@@ -1,1 +1,1 @@
-"""Hands out the course to students as an edition without solutions, and collects their work."""
+"""Creates an edition of the course without solutions for students, and collects the students' work."""

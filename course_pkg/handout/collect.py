@@ -22,7 +22,8 @@ from course_pkg.handout.selection import chosen_chapters
 from course_pkg.setup.stamps import locked
 
 LOCK = ".lock"
-# ns; if a file was changed on disk this long after its modification time, an instructor should look at it
+# If a file changed on disk more than this many ns after its modification time, an instructor should examine
+# the file.
 SET_BACK = 60 * 10**9
 
 
@@ -30,7 +31,7 @@ SET_BACK = 60 * 10**9
 class Options:
     """The options of the command line."""
 
-    folder: str  # the path of the course's folder in each home folder
+    folder: str  # `folder` is the path of the course's folder in each home folder.
     out: Path
     homes: Path = Path("/home")
     students: Path | None = None
@@ -39,7 +40,7 @@ class Options:
 
 @dataclass
 class Collected:
-    """The result of the collection so far, with messages for the instructor."""
+    """The current result of the collection, with messages for the instructor."""
 
     notebooks: int = 0
     packages: int = 0
@@ -54,7 +55,8 @@ class Wanted:
 
     def __init__(self, chapters: Sequence[str]) -> None:
         self.notebooks = {notebook_of(chapter): chapter for chapter in chapters}
-        self._asking: dict[str, set[str]] = {}  # the packages that each chapter of the whole course requires
+        # The keys are all chapters of the course, and the values are the packages that they require.
+        self._asking: dict[str, set[str]] = {}
         for chapter in all_chapters():
             for name in (name for part in parts_of(chapter) for name in part.package_files):
                 self._asking.setdefault(name, set()).add(chapter)
@@ -63,7 +65,7 @@ class Wanted:
         )
 
     def chapters_of(self, file: WorkFile) -> list[str]:
-        """Return the chapter to which a notebook belongs.
+        """Return the chapter of a notebook.
 
         For a file of a package, return all chapters that require this package.
         """
@@ -71,14 +73,14 @@ class Wanted:
 
 
 def collect(options: Options) -> int:
-    """Collect the work, and print what was found and which students had none; return 1 if no student had any.
+    """Collect the work, and print a summary. Return 1 if no work was found, and 0 otherwise.
 
-    Raises HandoutError, and collects nothing, if an option is wrong.
+    Raises HandoutError if an option is wrong; in this case, nothing is collected.
     """
     folder = _course_folder(options.folder)
     wanted = Wanted(chosen_chapters(listed=options.chapters))
     homes = homes_in(options.homes, read_students(options.students) if options.students else None)
-    # raises an error if the folder is something else, before anything in it is changed
+    # The call raises an error for a folder with other contents, before anything in the folder is changed.
     TimesTable(options.out)
     if os.geteuid() != 0:
         sys.stderr.write("You are not root, so only files that your own account can read are collected.\n")
@@ -87,7 +89,8 @@ def collect(options: Options) -> int:
         out.mkdir(parents=True, exist_ok=True, mode=0o700)
         with locked(out / LOCK, lambda: _note("Another collection is under way; waiting for it.")):
             table = TimesTable(out)
-            table.replace((), ())  # written first, because the user may repeat an interrupted collection
+            # The table is written first, so that a user can repeat an interrupted collection.
+            table.replace((), ())
             for home in homes:
                 _collect_one(home, folder, wanted, out, table, found)
     except OSError as error:

@@ -24,17 +24,17 @@ class Options:
     """The options of the command line."""
 
     out: Path
-    path: str = ""  # the name of a learning path
+    path: str = ""  # `path` is the name of a learning path.
     chapters: tuple[str, ...] = ()
-    hub: str = ""  # the address of a JupyterHub
-    repository: str = ""  # the address of the repository for students
+    hub: str = ""  # `hub` is the address of a JupyterHub.
+    repository: str = ""  # `repository` is the address of the repository for students.
 
 
 def release(options: Options, hidden: Collection[str], root: Path | None = None) -> int:
     """Write the edition, print its location and how to hand it out, and return 0.
 
-    `hidden` are the commands that do not work in the edition. Raises HandoutError, and writes nothing, if the
-    folder contains other files or if an option is wrong.
+    `hidden` contains the commands that do not work in the edition. Raises HandoutError if the folder contains
+    other files or if an option is wrong. In this case, nothing is written.
     """
     checkout = root or Places.of().checkout
     released = chosen_chapters(options.path, options.chapters)
@@ -91,8 +91,8 @@ def _how_to_hand_out(folder: ReleaseFolder, options: Options, repository: str, l
 def pull_link(hub: str, repository: str, branch: str, notebook: str) -> str:
     """Return the link with which nbgitpuller copies the edition into a student's account on a JupyterHub.
 
-    It pulls `branch` of `repository`, and opens `notebook`, which is a path in this repository. `hub` is the
-    address of the JupyterHub. The format is documented at
+    The link pulls `branch` of `repository`, and opens `notebook`, which is a path in the repository. `hub` is
+    the address of the JupyterHub. The format is documented at
     https://nbgitpuller.readthedocs.io/en/latest/link.html. Raises HandoutError if an address begins neither
     with https:// nor with http://.
     """
@@ -103,7 +103,7 @@ def pull_link(hub: str, repository: str, branch: str, notebook: str) -> str:
                 f"{option} {address} is not an address that nbgitpuller can use. Write one that begins with "
                 "https://, such as https://hub.example.edu or https://git.example.edu/ros/course.git."
             )
-    # the folder into which nbgitpuller clones the repository
+    # nbgitpuller clones the repository into this folder.
     folder = repository.rstrip("/").rpartition("/")[2].removesuffix(".git")
     query = {"repo": repository, "urlpath": f"lab/tree/{folder}/{notebook}", "branch": branch}
     return f"{hub.rstrip('/')}/hub/user-redirect/git-pull?{urlencode(query, quote_via=quote, safe='')}"

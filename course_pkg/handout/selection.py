@@ -1,4 +1,4 @@
-"""Which chapters an edition for students has: all, those of a path, or those that the instructor lists."""
+"""Selects the chapters of an edition: all chapters, the chapters of a path, or listed chapters."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from course_pkg.overview.reading import learning_paths
 def chosen_chapters(path: str = "", listed: Sequence[str] = ()) -> tuple[str, ...]:
     """Return the chapters of the learning path `path`, the chapters in `listed`, or all chapters.
 
-    Sorted, such as ("05", "06").
+    The result is sorted, such as ("05", "06").
 
-    For a path with two possible ends, the result contains the chapters of both ends. Raises HandoutError for
-    an unknown path or chapter.
+    For a path with two possible last chapters, the result contains both chapters. Raises HandoutError for an
+    unknown path or chapter.
     """
     if path:
         return _of_path(path)

@@ -1,1 +1,1 @@
-"""The nodes that several chapters run. CMakeLists.txt creates an executable for each module."""
+"""The nodes that several chapters run; CMakeLists.txt creates an executable for each module."""

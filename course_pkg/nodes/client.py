@@ -13,7 +13,7 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.srv import geometry
 
-TIMEOUT = 5.0  # maximum time in s to wait for the server, and again to wait for its response
+TIMEOUT = 5.0  # Wait up to this time in s for the server, and up to this time again for its response.
 USAGE = "usage: client LENGTH WIDTH HEIGHT   (three numbers, in metres, such as 1.2 5.2 8.9)"
 
 
@@ -49,7 +49,8 @@ def measure(sides: tuple[float, float, float]) -> str:
     ROSException if the service does not exist within TIMEOUT s, and CallTimeout if the response does not
     arrive within TIMEOUT s.
     """
-    MasterClient(master_uri()).pid()  # raises an error if no master answers; init_node would wait for ever
+    # Raise an error if no master answers, because init_node would wait for ever.
+    MasterClient(master_uri()).pid()
     rospy.init_node("client", anonymous=True)
     prepare_node()
     rospy.wait_for_service("getGeometry", timeout=TIMEOUT)

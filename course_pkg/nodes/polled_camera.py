@@ -1,8 +1,8 @@
 """The node `polled_camera`: returns one picture of the shop for each call.
 
-It provides the service `request_image` (course_pkg/PolledImage). It subscribes to `counter`, on which
-`shop_camera` publishes the customers in the shop. If no messages arrive, the pictures show a random number of
-customers. If `~stream` is above 0, the node also publishes this number of pictures per second on `image`
+The node offers the service `request_image` (PolledImage). The node subscribes to `counter`, the topic with
+the customers that `shop_camera` sees. Without messages, the pictures show a random number of customers. If
+`~stream` is above 0, the node also publishes this number of pictures per second on `image`
 (sensor_msgs/Image).
 """
 
@@ -22,11 +22,11 @@ from course_pkg.shop.pictures import shop_picture
 from course_pkg.shop.watch import Watch
 from course_pkg.srv import PolledImage, PolledImageRequest, PolledImageResponse
 
-WIDTH, HEIGHT = 320, 240  # pixels; the size that is used if the request contains 0
-LEAST, MOST = 16, 1280  # pixels
-# maximum time in s without a message on `counter`; after this time, its last message is no longer used
+WIDTH, HEIGHT = 320, 240  # If the request contains 0, this size in pixels is used.
+LEAST, MOST = 16, 1280  # A width or height must be in this range of pixels.
+# The last message on `counter` is used for this time in s.
 SILENCE = 1.0
-UNCHANGED = 4.0  # time in s after which the random number of customers may change
+UNCHANGED = 4.0  # The random number of customers does not change for this time in s.
 
 
 class PolledCamera:
@@ -80,13 +80,13 @@ def _side(name: str, points: int) -> int:
 
 
 def main() -> None:
-    """Provide the service, and publish pictures, until the node is shut down."""
+    """Offer the service, and publish pictures, until the node is shut down."""
     if not start_node("polled_camera"):
         return
     rate = number_parameter("~stream", 0.0, 0.0, 100.0)
     with undisturbed():
         camera = PolledCamera()
-    # wait for the first message, because the first picture should show the real customers
+    # After the first message, the first picture can show the real customers.
     wait_until(camera.knows_the_shop, SILENCE / 2)
     with undisturbed():
         rospy.Service("request_image", PolledImage, camera.handle_request)

@@ -11,7 +11,7 @@ from sensor_msgs.msg import JointState
 
 from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
 
-RATE = 20.0  # Hz
+RATE = 20.0  # The robot publishes at this rate in Hz.
 
 
 class Joint(NamedTuple):
@@ -58,10 +58,7 @@ def main() -> None:
 
 
 def joint_state(at: float) -> JointState:
-    """Return the positions (rad) and velocities (rad/s) of the joints.
-
-    `at` is the time in s since the start of the motion.
-    """
+    """Return the joints' positions (rad) and velocities (rad/s), `at` s after the start of the motion."""
     return JointState(
         name=[joint.name for joint in ARM],
         position=[joint.position(at) for joint in ARM],

@@ -1,7 +1,7 @@
-"""The node `simulator`: publishes the mirror image of the robot, and draws pictures at the same time.
+"""The node `simulator` publishes the mirror image of the robot, and draws pictures at the same time.
 
-When it receives a message on `joint_states`, it immediately publishes the mirror image on `mirrored_joints`.
-It also draws pictures, and publishes the number of finished pictures on `~pictures`.
+For each message on `joint_states`, it immediately publishes the mirror image on `mirrored_joints`. The node
+also publishes the number of finished pictures on `~pictures`.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from std_msgs.msg import UInt32
 
 from course_pkg.ros.node.program import number_parameter, start_node, undisturbed
 
-DRAWING = 0.4  # time in s that the drawing of one picture takes
-QUIET = 5.0  # minimum time in s between two warnings
+DRAWING = 0.4  # The drawing of one picture takes this time in s.
+QUIET = 5.0  # Two warnings have at least this time in s between them.
 
 
 class Simulator:

@@ -1,4 +1,4 @@
-"""The command `course progress`: it prints the progress, or writes it to files."""
+"""The command `course progress`: prints the progress, or writes it to files."""
 
 from __future__ import annotations
 

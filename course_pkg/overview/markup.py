@@ -29,7 +29,7 @@ def chapter_output(progress: Progress, steps: Sequence[Step]) -> str:
 
 
 def chapters_table(progress: Progress, *, links: bool = True) -> str:
-    """Return a table with a row for each chapter. If `links` is true, each title links to the notebook."""
+    """Return a table with a row for each chapter. If `links` is True, each title links to the notebook."""
     rows = "".join(_row(chapter, links=links) for chapter in progress.chapters)
     return f"{_table('Chapters', HEAD, rows)}<p class='course-muted'>{escape(LEGEND)}</p>"
 
@@ -45,7 +45,7 @@ def parts_table(chapter: ChapterProgress) -> str:
 
 
 def steps_html(steps: Sequence[Step], *, links: bool = True) -> str:
-    """Return a paragraph with the next steps. If `links` is true, each step has a link to its notebook."""
+    """Return a paragraph with the next steps. If `links` is True, each step links to its notebook."""
     texts = " or ".join(_step(step, links=links) for step in steps)
     return f"<p><strong>Next:</strong> {texts}</p>"
 

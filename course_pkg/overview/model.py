@@ -15,7 +15,10 @@ NO_GRADE = "This is your own record of the checks that you ran. It is not a grad
 
 @dataclass(frozen=True)
 class PartProgress:
-    """A part of a chapter, and its record. The record is None if the part was never checked."""
+    """A part of a chapter, and the student's record for the part.
+
+    The record is None if the part was never checked.
+    """
 
     check: str
     goal: str
@@ -29,12 +32,12 @@ class PartProgress:
 
     @property
     def earned(self) -> float:
-        """The points of the part if it has passed, otherwise the points of the last check."""
+        """The points of a passed part, or the points of the last check."""
         return self.possible if self.passed else self.record.points if self.record else 0
 
     @property
     def state(self) -> str:
-        """The state in one or two words: "passed", "not checked", or the result of the last check."""
+        """The state of the part: "passed", "not checked", or the result of the last check."""
         if self.passed:
             return PASSED
         return self.record.verdict if self.record else NOT_CHECKED
@@ -88,20 +91,20 @@ class ChapterProgress:
 
     @property
     def latest(self) -> str:
-        """The time of the last check, prediction or choice, as ISO 8601 in UTC; "" if there is none."""
+        """The time of the last check, prediction or choice as ISO 8601 in UTC, or ""."""
         checked = [part.record.checked for part in self.parts if part.record]
         answered = [max(each.answered, each.compared) for each in self.predictions]
         return max([*checked, *answered, *(each.compared for each in self.choices)], default="")
 
     @property
     def next_part(self) -> PartProgress | None:
-        """The first part that has not passed; None if all parts have passed."""
+        """The first part that has not passed, or None if all parts have passed."""
         return next((part for part in self.parts if not part.passed), None)
 
 
 @dataclass(frozen=True)
 class LearningPath:
-    """A path through the course: its name, and the numbers of its chapters in their order."""
+    """A path through the course: its name, and the numbers of its chapters in order."""
 
     name: str
     chapters: tuple[str, ...]
@@ -111,7 +114,7 @@ class LearningPath:
 class Progress:
     """The progress in all chapters, or in selected chapters.
 
-    `problems` are messages about records that cannot be read.
+    `problems` contains messages about records that cannot be read.
     """
 
     chapters: tuple[ChapterProgress, ...]
@@ -143,7 +146,7 @@ class Progress:
     def current(self) -> ChapterProgress | None:
         """The chapter in which the student worked last.
 
-        None if there is no check, prediction or choice yet.
+        The result is None if there is no check, prediction or choice yet.
         """
         begun = [each for each in self.chapters if each.latest]
         return max(begun, key=lambda each: each.latest, default=None)

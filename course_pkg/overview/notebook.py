@@ -15,7 +15,7 @@ from course_pkg.panels.prediction.view import ChapterRow, Predictions
 
 @dataclass(frozen=True)
 class Overview:
-    """The progress in all chapters, or in one, as text and as HTML."""
+    """The progress in one chapter or in all chapters, as text and as HTML."""
 
     progress: Progress
     chapter: str
@@ -59,7 +59,7 @@ def predictions(chapter: str = "") -> Predictions:
 
 
 def _row(number: str) -> ChapterRow | None:
-    """Return the progress in a chapter; None if its checks cannot be read, for example during grading."""
+    """Return the progress in a chapter, or None if its checks cannot be read, for example during grading."""
     try:
         progress = read_progress([number])
     except (UnknownCheck, ImportError):

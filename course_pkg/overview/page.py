@@ -16,7 +16,7 @@ from course_pkg.overview.model import NO_GRADE, Progress
 from course_pkg.overview.steps import next_steps
 from course_pkg.overview.text import headline
 
-# this policy forbids the page to load any other file
+# With this policy, the page cannot load any other file.
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 PAGE_STYLE = """
 :root { color-scheme: light dark; }

@@ -23,8 +23,8 @@ PATHS = Path(__file__).parents[1] / "chapters" / "paths.json"
 def read_progress(chapters: Sequence[str] = ()) -> Progress:
     """Return the progress in `chapters`, such as ["05"], or in all chapters.
 
-    If a record cannot be read, the result does not contain it, and `problems` contains a message about it.
-    Raises UnknownCheck if there is no such chapter.
+    An unreadable record is left out, and `problems` contains a message about it. Raises UnknownCheck if there
+    is no such chapter.
     """
     parts = {number: parts_of(number) for number in chapters or _present()}
     records, message = StudentRecord().read(part.check for each in parts.values() for part in each)
@@ -44,7 +44,7 @@ def read_progress(chapters: Sequence[str] = ()) -> Progress:
 
 
 def _present() -> Sequence[str]:
-    """Return the chapters of this edition: the chapters that were released to students, or all chapters."""
+    """Return the chapters of this edition: the released chapters, or all chapters."""
     released = released_chapters(Places.of().checkout)
     return [number for number in all_chapters() if released is None or number in released]
 
@@ -52,7 +52,7 @@ def _present() -> Sequence[str]:
 def learning_paths() -> tuple[LearningPath, ...]:
     """Return the paths through the course.
 
-    A path that has two possible ends is returned twice, once for each end.
+    A path with two possible last chapters is returned twice, once for each last chapter.
     """
     every = tuple(all_chapters())
     text = PATHS.read_text("utf-8")

@@ -21,8 +21,7 @@ class Step:
 def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
     """Return the next steps in `chapter`, or in the chapter in which the student worked last.
 
-    If this chapter is complete, there may be a different next step on each path. There is always at least one
-    step.
+    If this chapter is complete, each path may have a different next step. The result has at least one step.
     """
     by_number = {each.number: each for each in progress.chapters}
     current = by_number.get(chapter) or progress.current
@@ -46,7 +45,7 @@ def next_steps(progress: Progress, chapter: str = "") -> list[Step]:
 def _following(
     progress: Progress, current: ChapterProgress, by_number: dict[str, ChapterProgress]
 ) -> dict[str, list[str]]:
-    """Return the numbers of the next incomplete chapters, and for each the paths that lead to it."""
+    """Return the numbers of the next incomplete chapters, and for each chapter the paths that lead to it."""
     found: dict[str, list[str]] = {}
     for path in progress.paths:
         chapters = [by_number[number] for number in path.chapters if number in by_number]

@@ -13,14 +13,14 @@ HEAD = (
     *("chapter", "title", "kind", "id", "text", "state", "points", "possible"),
     *("checks", "last_result", "last_time", "first_passed"),
 )
-# a spreadsheet program would run a cell that begins with one of these as a formula
+# A spreadsheet program would run a cell as a formula if the cell begins with one of these characters.
 FORMULA = ("=", "+", "-", "@")
 
 
 def table(progress: Progress) -> str:
     """Return the table as CSV text. Times are ISO 8601 in UTC.
 
-    A cell is empty if its column does not apply to its row.
+    A cell is empty if its column does not apply to the row.
     """
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -55,7 +55,10 @@ def _state(prediction: Prediction) -> str:
 
 
 def _cell(value: str | float) -> str | float:
-    """Return the value on one line; put a quote before a text that a spreadsheet could read as a formula."""
+    """Return the value on one line.
+
+    A quote is added before a text that a spreadsheet could read as a formula.
+    """
     if isinstance(value, (int, float)):
         return value
     line = " ".join(value.split())

@@ -1,4 +1,4 @@
-"""The progress as text, for a terminal and for a notebook that shows no HTML."""
+"""The progress as text, for a terminal or a notebook without HTML."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def of(pair: tuple[float, float]) -> str:
 def answers(chapter: ChapterProgress) -> str:
     """Return the numbers of correct predictions and choices of a chapter as text.
 
-    "" if none were compared.
+    Return "" if the student has compared none.
     """
     predicted = of(chapter.right) if chapter.right[1] else ""
     chosen = f"{of(chapter.chosen)} choices" if chapter.chosen[1] else ""
@@ -89,7 +89,7 @@ def _end(progress: Progress) -> Iterator[str]:
 def _wrapped(label: str, text: str) -> list[str]:
     """Return `label` and `text` in lines of at most WIDTH characters.
 
-    All lines after the first are indented.
+    All lines after the first line are indented.
     """
     space = " " * len(label)
     return textwrap.wrap(

@@ -1,9 +1,9 @@
-"""The panels of the notebooks.
+"""Interactive panels for the notebooks, such as the graph panel and the service panel.
 
-Each panel has a model that needs no page, a widget, and one ES module for the page.
+Each panel consists of a model that runs without a page, a widget, and one ES module for the page.
 
-A name is imported on its first use. Therefore, a program can import a model on a machine without ipywidgets
-or ROS.
+A panel's module is imported when its name is first used. Therefore, a program can import a model on a machine
+without ipywidgets or ROS.
 """
 
 from typing import TYPE_CHECKING

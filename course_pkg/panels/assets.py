@@ -1,8 +1,7 @@
 """Joins the files of a panel's front end into one ES module and one style sheet for its widget.
 
-A widget sends its code to the page as a single string. Therefore, the browser cannot import the other files
-that the module needs. The sources are ordinary modules, which editors and Node.js understand. This module
-joins them: it inserts the imported files and removes the import statements.
+A widget sends its code to the page as a single string. The source files are ordinary ES modules. This module
+inserts the imported files and removes the import statements.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MU
 def module(path: Path, frame: Path | None = None) -> str:
     """Return the ES module at `path`; each relative module that it imports is inserted once.
 
-    `frame` is the path of a module with a function `framed`. This function wraps the panel's render function.
+    `frame` is the path of a module with a function `framed`, and `framed` wraps the panel's render function.
     """
     done: set[Path] = set()
     around = f"{_EXPORT.sub('', _inlined(frame.resolve(), done))}\n" if frame else ""

@@ -1,4 +1,4 @@
-/* The axes of a chart: their limits, their ticks, and the texts of their numbers. All functions are pure. */
+/* The axes of a chart: their limits, their ticks, and the texts of their numbers. */
 import { power } from "./kit.js";
 
 /** @typedef {{low: number, high: number, ticks: {value: number, text: string}[]}} Axis */

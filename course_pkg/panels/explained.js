@@ -1,4 +1,4 @@
-/* The explanation that a panel shows below an error of its own: the cause, and what to do. */
+/* The explanation that a panel shows below its own error: the cause, and a remedy. */
 import { h, prose, setAttribute } from "./kit.js";
 
 /** @typedef {(context: {model: import("./kit.js").Model, el: HTMLElement, signal?: AbortSignal}) => any} Render */
@@ -13,7 +13,7 @@ export function framed(render) {
   };
 }
 
-/** Puts the explanation below the panel's error or banner, or at the end of a panel that has neither.
+/** Puts the explanation below the panel's error or banner, or else at the end of the panel.
  * @param {Element} panel @param {import("./kit.js").Model} model */
 function placeMeaning(panel, model) {
   const body = h("div", { class: "ros-meaning" });

@@ -37,7 +37,7 @@ export function setAttribute(element, name, value) {
   else element.setAttribute(name, value === true ? "" : String(value));
 }
 
-/** Sets the text only if it differs. So a selection stays, and a screen reader does not read the text again.
+/** Sets the text only if it differs. Otherwise, a selection would be lost, and a screen reader would read the text again.
  * @param {Element} element @param {string} text */
 export function say(element, text) {
   if (element.textContent !== text) element.textContent = text;
@@ -48,7 +48,7 @@ export function say(element, text) {
  * @param {Element} element @param {() => void} work */
 export function afterPress(element, work) {
   if (!element.matches(":root:active *")) return work();
-  addEventListener("mouseup", () => setTimeout(work), { once: true, capture: true }); // the browser reports the click before the timeout
+  addEventListener("mouseup", () => setTimeout(work), { once: true, capture: true }); // The browser reports the click before the timeout.
 }
 
 /** Returns a text as nodes; the parts between backticks are code. @param {string} text @returns {(Node | string)[]} */
@@ -95,7 +95,7 @@ async function copied(text) {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    return copiedBySelection(text); // browsers offer the clipboard only with https or on localhost
+    return copiedBySelection(text); // Browsers offer the clipboard only with https or on localhost.
   }
 }
 
@@ -113,17 +113,17 @@ function copiedBySelection(text) {
   return done;
 }
 
-/** Sends a message to the kernel. Returns false if it cannot be sent. @param {Model} model @param {object} content */
+/** Sends a message to the kernel. Returns false if the message cannot be sent. @param {Model} model @param {object} content */
 export function send(model, content) {
   try {
     model.send(content);
     return true;
   } catch {
-    return false; // the kernel was shut down, and its connection was closed
+    return false; // The kernel was shut down, and its connection was closed.
   }
 }
 
-const ANSWER_TIMEOUT = 1500; // ms; an idle kernel answers within 50 ms
+const ANSWER_TIMEOUT = 1500; // The kernel must answer within this many ms; an idle kernel needs 50 ms.
 const HEARTBEAT = 4000; // ms
 
 /**
@@ -163,7 +163,7 @@ export function kernelLink(model, signal, changed) {
     heart = setInterval(beat, HEARTBEAT);
     changed(true);
   });
-  model.on("comm_live_update", greet); // the kernel was restarted, or its connection was lost
+  model.on("comm_live_update", greet); // The kernel was restarted, or its connection was lost.
   window.addEventListener("pagehide", leave, { signal });
   signal.addEventListener("abort", leave);
   greet();

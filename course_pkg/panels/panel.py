@@ -15,23 +15,23 @@ from course_pkg.ros.explain import explain
 
 HERE = Path(__file__).parent
 
-# A message from the page or to the page: a JSON object. ipywidgets does not define a more exact type.
+# A message from the page or to the page is a JSON object. ipywidgets does not define a more exact type.
 PageMessage: TypeAlias = dict[str, Any]
 
 
 class Panel(anywidget.AnyWidget):
-    """A widget that any thread may update; it knows whether a page shows it.
+    """A widget that any thread may update.
 
-    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`. It overrides
-    `received` to handle the messages of the page. If it works only while a page shows it, it also overrides
-    `shown` and `hidden`.
+    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`. A subclass overrides
+    `received` to handle the messages of the page. A subclass that works only while a page shows the panel
+    also overrides `shown` and `hidden`.
     """
 
     front_end: ClassVar[Path]
     style_sheet: ClassVar[Path]
-    # names of the traits that hold an error message
+    # Each of these traits can contain an error message.
     errors: ClassVar[tuple[str, ...]] = ("notice", "trouble")
-    shared_sheets: ClassVar[tuple[Path, ...]] = ()  # style sheets that several panels use
+    shared_sheets: ClassVar[tuple[Path, ...]] = ()  # Several panels use these style sheets.
 
     notice = Unicode(help="an error inside the panel itself, in one line").tag(sync=True)
     explained = Dict(help="the explanation of the error that the panel shows, if the course has one").tag(
@@ -39,8 +39,8 @@ class Panel(anywidget.AnyWidget):
     )
 
     def __init__(self) -> None:
-        # A thread holds this lock while it handles a message from the page, and while it changes a trait. A
-        # change by another thread would be lost during that time.
+        # A thread holds this lock while it handles a message from the page, and while it changes a trait.
+        # Without this lock, a change by another thread could be lost.
         self.turn = threading.RLock()
         self._views: set[str] = set()
         super().__init__()
@@ -58,16 +58,22 @@ class Panel(anywidget.AnyWidget):
     def error_message(self) -> str:
         """Return the error message that the panel shows, or "" if there is none.
 
-        If several traits of `errors` have a message, the first one in `errors` is returned.
+        If several traits of `errors` have a message, the first message in the order of `errors` is returned.
         """
         messages = (getattr(self, name, "") for name in self.errors)
         return next((each for each in messages if each and isinstance(each, str)), "")
 
     def shown(self) -> None:
-        """Start the work that the panel does only while a page shows it. It is called for each new view."""
+        """Start the work that the panel does only while a page shows it.
+
+        The base class calls this method for each new view.
+        """
 
     def hidden(self) -> None:
-        """Stop the work that shown() started; called after the last view was closed."""
+        """Stop the work that shown() started.
+
+        The base class calls this method after the last view was closed.
+        """
 
     def received(self, kind: str, content: PageMessage) -> None:
         """Handle a message from the page."""
@@ -75,7 +81,7 @@ class Panel(anywidget.AnyWidget):
     def publish(self, **traits: object) -> None:
         """Set several traits; any thread may call this method.
 
-        The page receives all of them in one message.
+        The page receives all new values in one message.
         """
         with self.turn, self.hold_sync():
             for name, value in traits.items():
@@ -88,7 +94,7 @@ class Panel(anywidget.AnyWidget):
     def close(self) -> None:
         """Remove the panel from every page and stop its work."""
         if not hasattr(self, "turn"):
-            return  # the constructor raised an error, and ipywidgets closes the unfinished widget
+            return  # The constructor raised an error, and ipywidgets closes the unfinished widget.
         with self.turn:
             if self._views:
                 self._views.clear()
@@ -96,7 +102,7 @@ class Panel(anywidget.AnyWidget):
             super().close()
 
     def _explain(self, _change: Bunch) -> None:
-        """Send the page the course's explanation, if there is one, of the error message of the panel."""
+        """Send the page the course's explanation of the panel's error message, if there is an explanation."""
         message = self.error_message()
         meaning = explain(message) if message else None
         self.explained = meaning.as_dict() if meaning and meaning.known else {}

@@ -12,8 +12,9 @@ Value = TypeVar("Value")
 class Poller(Generic[Value]):
     """Calls `read` every `every` s on a separate thread, from start() to stop().
 
-    It calls `changed` with each value that differs from the previous value. It calls `failed` with an error,
-    unless the text of the error is the same as before. Both are called on the separate thread.
+    The poller calls `changed` with each value that differs from the previous value. The poller calls `failed`
+    with an error, unless the previous error had the same text. The separate thread also makes these two
+    calls.
     """
 
     def __init__(
@@ -31,24 +32,24 @@ class Poller(Generic[Value]):
         self._stop: threading.Event | None = None
 
     def start(self) -> None:
-        """Start to poll; a second call changes nothing."""
+        """Start to poll; a second call has no effect."""
         if self._stop is None:
             self._stop = threading.Event()
             thread = threading.Thread(target=self._poll, args=(self._stop,), daemon=True, name="panel-poller")
             thread.start()
 
     def stop(self) -> None:
-        """Stop the thread; it may call `read` once more.
+        """Tell the thread to stop; the thread may call `read` once more.
 
-        This method does not wait for the end of the thread, because `read` may need a lock that the caller
-        holds.
+        The method does not wait until the thread ends, because `read` may need a lock that the caller has
+        acquired.
         """
         if self._stop is not None:
             self._stop.set()
             self._stop = None
 
     def once(self) -> None:
-        """Read once on the calling thread, and report the value."""
+        """Call `read` once on the calling thread, and report the value."""
         self._read_and_report(None, threading.Event())
 
     def _poll(self, stop: threading.Event) -> None:

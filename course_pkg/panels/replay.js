@@ -1,11 +1,11 @@
 /* The controls that play a recording: a button, a slider, the time as text, and the clock that moves them. */
 import { freshId, h, say, setAttribute } from "./kit.js";
 
-const NEAR = 50; // ms; if Play is pressed this near the end, the recording starts again
-const ARROW = 100; // ms that an arrow key moves the slider
-const CALM = 1000; // ms between two pictures if the reader asked the system for less motion
+const NEAR = 50; // If Play is pressed less than this many ms before the end, the recording starts again.
+const ARROW = 100; // An arrow key moves the slider by this many ms.
+const CALM = 1000; // If the reader's system asks for less motion, a picture is drawn every CALM ms.
 
-/** Calls `told` with whether an element is visible: now, and whenever this changes.
+/** Calls `told(visible)` now and after each change of the element's visibility.
  * @param {Element} element @param {AbortSignal} signal @param {(visible: boolean) => void} told */
 export function watch(element, signal, told) {
   const observer = new IntersectionObserver(([entry]) => told(entry.isIntersecting && !document.hidden));
@@ -21,7 +21,7 @@ export class Replay {
     this.moved = moved;
     this.time = 0; // ms
     this.length = 0; // ms
-    this.some = false; // whether there is anything to play
+    this.some = false; // true if there is a recording to play
     this.playing = false;
     this.visible = true;
     this.frame = 0;
@@ -34,7 +34,7 @@ export class Replay {
     this.el = h("div", { class: "ros-replay" }, this.play, this.scrub, this.moment, ...more);
   }
 
-  /** Sets the time and the length (ms) of the recording, without moving anything; show() updates the page.
+  /** Sets the time and the length (ms) of the recording, but does not change the page; show() updates the page.
    * @param {number} time @param {number} length @param {boolean} some */
   be(time, length, some) {
     this.length = length;
@@ -42,12 +42,12 @@ export class Replay {
     this.some = some;
   }
 
-  /** Writes the time to the page if it differs. */
+  /** Writes the time to the page if the page shows another time. */
   show() {
     const [time, length] = [this.time, this.length].map((each) => (each / 1000).toFixed(1));
-    const step = this.length < 10 * ARROW ? 1 : ARROW; // a slider stops only at steps, so a short recording has smaller steps
+    const step = this.length < 10 * ARROW ? 1 : ARROW; // A slider stops only at steps, so a short recording has smaller steps.
     setAttribute(this.scrub, "step", step);
-    setAttribute(this.scrub, "max", step * Math.ceil(this.length / step)); // otherwise, the slider could not reach the end
+    setAttribute(this.scrub, "max", step * Math.ceil(this.length / step)); // Without this, the slider could not reach the end.
     this.scrub.value = String(this.time);
     say(this.moment, `${time} of ${length} s`);
     setAttribute(this.scrub, "aria-valuetext", `${time} of ${length} seconds`);

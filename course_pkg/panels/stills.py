@@ -1,7 +1,7 @@
 """The still picture of each panel, for pages without widgets.
 
 A picture depends only on the traits of the panel. Therefore, the picture is drawn outside the kernel when a
-notebook is stored; a student's run takes no extra time.
+notebook is saved, and the student's run takes no extra time.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from course_pkg.panels.wire.still import still as wire
 class Still(NamedTuple):
     """The function that draws the picture of a panel.
 
-    `measured` means that the picture shows measured times.
+    `measured` is True if the picture shows measured times.
     """
 
     draw: Callable[[State], str]
@@ -38,13 +38,13 @@ class Still(NamedTuple):
     def code(self) -> str:
         """The source code of the drawing function's module and of paper.py.
 
-        If it changes, a measured picture is drawn again.
+        If this source code changes, a picture with measured times is drawn again.
         """
         files = (sys.modules[self.draw.__module__].__file__, paper.__file__)
         return "".join(Path(str(file)).read_text("utf-8") for file in files)
 
 
-# The keys are the folders of the panels. The stored state of a widget contains the same folder name.
+# The keys are the folders of the panels. The saved state of a widget contains the same folder name.
 STILLS = {
     "breakit": Still(breakit),
     "choices": Still(choices),

@@ -1,4 +1,4 @@
-"""The student's predictions, choices and answers on disk: one JSON file for each kind."""
+"""Stores the student's predictions, choices and answers on disk, in one JSON file for each kind."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Record = TypeVar("Record", bound=Keyed)
 
 
 class Store(Generic[Record]):
-    """All records of one class in the file `path`, which is by default in the course's state folder."""
+    """All records of one class in the file `path`; by default, the file is in the course's state folder."""
 
     record: type[Record]
     file: ClassVar[str]
@@ -39,7 +39,10 @@ class Store(Generic[Record]):
         self.path = path or state_folder() / self.file
 
     def read(self) -> dict[str, Record]:
-        """Return all records by key, or {} if there is no file yet. Raises InvalidPredictions."""
+        """Return all records by key, or {} if there is no file yet.
+
+        Raises InvalidPredictions if the file is not valid.
+        """
         try:
             records = json.loads(self.path.read_text(encoding="utf-8"))
             return {key: self._checked(self.record(**record)) for key, record in records.items()}
@@ -61,9 +64,9 @@ class Store(Generic[Record]):
     def write(self, record: Record) -> Record:
         """Store a record, and return it; it replaces the record with the same key.
 
-        The method holds a lock of the file while it reads and replaces the whole file. Therefore, a record
-        that another kernel stores at the same time is not lost. Raises the same errors as `read`, and OSError
-        if the file cannot be written.
+        The method holds a lock on the file while it reads and replaces the file. Therefore, records that two
+        kernels store at the same time are both saved. Raises the same errors as `read`, and OSError if the
+        file cannot be written.
         """
         with locked(self.path.parent):
             records = {**self.read(), record.key: record}

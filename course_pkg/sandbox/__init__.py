@@ -12,8 +12,8 @@ Each part runs in a new process, which is forked from a process with all imports
                 ├─ command_runner.py  runs the check's commands; the student's kernel cannot change them
                 └─ student_process.py  the answer: no privileges, its own users and processes, limited memory
 
-If the machine forbids namespaces, users.py offers a weaker sandbox: the last three are other users of the
-machine, and the student's code can reach the network.
+If the machine forbids namespaces, users.py offers a weaker sandbox.
 
-These processes exchange JSON. Messages from `student_process.py` are shown as feedback, but never trusted.
+All processes of a sandbox exchange JSON. Messages from `student_process.py` are shown as feedback, but never
+trusted.
 """

@@ -1,8 +1,8 @@
 """The outer sandbox: the files of the machine that a submission and its processes can see.
 
-bubblewrap (https://github.com/containers/bubblewrap) creates this view of the file system. If root starts it,
-the command runs as an unprivileged user in the sandbox. If another user starts it, the machine must allow
-unprivileged user namespaces.
+bubblewrap (https://github.com/containers/bubblewrap) creates this view of the file system. If root starts the
+sandbox, the command runs as an unprivileged user. For all other users, the machine must allow unprivileged
+user namespaces.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from course_pkg.errors import SandboxUnavailable
 from course_pkg.sandbox.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
 from course_pkg.setup import PACKAGE_PARTS, Places, environment
 
-# uid and gid of a user without files; if root starts the sandbox, the command runs as this user
+# If root starts the sandbox, the command runs with this uid and gid of a user without files.
 NOBODY = 65534
 READABLE = (
     "/usr",
@@ -38,9 +38,9 @@ INVENTED = {
     "/etc/hosts": "127.0.0.1 localhost\n",
     "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
 }
-WRITABLE = 512 << 20  # maximum number of bytes that the trusted processes can write
-# The inner sandboxes can mount their own /proc only if nothing covers a part of this /proc. After this, the
-# process drops all privileges.
+WRITABLE = 512 << 20  # The trusted processes can write at most this number of bytes.
+# The inner sandboxes can mount their own /proc only if no other mount covers a folder of this /proc. After
+# this, the process drops all privileges.
 AS_ROOT = (
     "mount -t proc proc /proc && exec setpriv --reuid {0} --regid {0} --clear-groups --inh-caps=-all "
     '--bounding-set=-all --no-new-privs -- "$0" "$@"'
@@ -48,7 +48,7 @@ AS_ROOT = (
 
 
 def refusal() -> str:
-    """Return why this machine cannot create a sandbox, and what the user can do; "" if it can create one."""
+    """Return why this machine cannot create a sandbox, and what the user can do, or ""."""
     if sys.platform != "linux" or not (found := shutil.which("bwrap")):
         return (
             "bubblewrap is not installed (on Debian and Ubuntu: apt-get install bubblewrap python3-seccomp)."
@@ -81,7 +81,7 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
     """Return the command that runs `command` in a sandbox; start it with an empty environment.
 
     Inside the sandbox, only the course (without solutions and tests), ROS, and the paths in `readable` are
-    visible. All of them are read-only.
+    visible, and all of them are read-only.
     """
     root = os.geteuid() == 0
     prepared = ["sh", "-c", AS_ROOT.format(NOBODY)] if root else []
@@ -103,8 +103,8 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 def _root_capabilities() -> Iterator[str]:
     """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
 
-    bwrap covers some parts of the /proc that it mounts. As a result, the kernel does not allow the inner
-    sandboxes to mount their own /proc.
+    bwrap covers some folders of the /proc that it mounts. The kernel then does not allow the inner sandboxes
+    to mount their own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):
@@ -139,7 +139,7 @@ def _shadows(shown: Sequence[Path]) -> Iterator[str]:
 
 
 def _shown(source: Path, target: Path) -> Iterator[str]:
-    """Yield the options that make `source` visible at `target`; every user can read the folders above it."""
+    """Yield the options that make `source` visible at `target`; every user can read its parent folders."""
     for parent in reversed(target.parents[:-1]):
         yield from ("--perms", "0755", "--dir", str(parent))
     yield from ("--ro-bind", str(source), str(target))
@@ -157,8 +157,8 @@ def _course() -> Iterator[Path]:
 def clean_environment() -> dict[str, str]:
     """Return the course's environment, without variables of the user who grades.
 
-    With more than one arena, glibc reserves about 64 MiB of address space for each thread of a process.
-    Then a student's code could start only about ten threads within the limit MEMORY.
+    With more than one arena, glibc reserves about 64 MiB of address space for each thread. A student's code
+    could then start only about ten threads within the limit MEMORY.
     """
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")
@@ -166,7 +166,7 @@ def clean_environment() -> dict[str, str]:
 
 
 def _invented(path: str, text: str) -> Path:
-    """Return a file that contains `text`; all sandboxes of this checkout share this file."""
+    """Return a file that contains `text`, for all sandboxes of this checkout."""
     file = Places.of().cache / "sandbox" / Path(path).name
     if not file.exists() or file.read_text("utf-8") != text:
         file.parent.mkdir(parents=True, exist_ok=True)

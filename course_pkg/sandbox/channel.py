@@ -1,7 +1,4 @@
-"""Messages between the trusted processes of a sandbox worker: each is JSON text with optional open files.
-
-JSON and open files, as whole messages.
-"""
+"""Messages between the trusted processes of a sandbox worker: JSON texts with optional open files."""
 
 from __future__ import annotations
 
@@ -19,21 +16,21 @@ import psutil
 
 from course_pkg.waiting import Deadline
 
-LONGEST = 65536  # bytes; maximum size of a message
+LONGEST = 65536  # A message has at most this number of bytes.
 
 
 class Message(TypedDict, total=False):
     """A message between the worker, the fork server and a supervisor."""
 
-    ready: bool  # the fork server has imported all modules
-    job: bool  # the worker sends a job
-    supervisor: int  # the process id of a supervisor that has started its processes
-    port: int  # a supervisor's wait status; the supervisor and all its descendants have ended
-    over: int  # a supervisor's wait status, after it and all its descendants have ended
+    ready: bool  # The fork server has imported all modules.
+    job: bool  # The worker sends a job.
+    supervisor: int  # The process with this id is a supervisor that has started its processes.
+    port: int  # The master of the part uses this port.
+    over: int  # A supervisor with this wait status, and all its descendants, have ended.
 
 
 def pair() -> tuple[socket.socket, socket.socket]:
-    """Return the two ends of a new connection."""
+    """Return the two sockets of a new connection."""
     return socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
 
 
@@ -45,7 +42,7 @@ def send(sock: socket.socket, message: Message, descriptors: Sequence[int] = ())
 def receive(sock: socket.socket, timeout: float | None = None) -> tuple[Message, list[int]]:
     """Return the next message and its open file descriptors.
 
-    Raises EOFError if the other end is closed, and TimeoutError after `timeout` s.
+    Raises EOFError if the connection is closed, and TimeoutError after `timeout` s.
     """
     if not select.select([sock], [], [], timeout)[0]:
         raise TimeoutError(f"no message within {timeout:g} s")
@@ -72,15 +69,15 @@ def fork(work: Callable[[], None]) -> int:
 def share_memory_with_children() -> None:
     """Exclude all existing objects from garbage collection.
 
-    The garbage collector writes to each object; without this function, each fork would copy the memory of all
-    objects. A part then needs 20 % less CPU time.
+    The garbage collector writes to each object, so each fork would copy the memory of all objects. Without
+    this copy, a part needs 20 % less CPU time.
     """
     gc.collect()
     gc.freeze()
 
 
 def descendants(pid: int) -> list[int]:
-    """Return the ids of all descendants of the process `pid`, its children first; empty if it has ended."""
+    """Return the ids of all descendants of the process `pid`, its children first."""
     try:
         return [process.pid for process in psutil.Process(pid).children(recursive=True)]
     except psutil.NoSuchProcess:
@@ -88,10 +85,7 @@ def descendants(pid: int) -> list[int]:
 
 
 def end_all_below(timeout: float) -> None:
-    """Kill all descendants of this process within `timeout` s.
-
-    It also kills processes that this process adopts meanwhile.
-    """
+    """Kill all descendants of this process, including newly adopted processes, within `timeout` s."""
     deadline = Deadline(timeout)
     while (left := descendants(os.getpid())) and not deadline.passed:
         end(left)
@@ -100,7 +94,7 @@ def end_all_below(timeout: float) -> None:
 
 
 def end(pids: Sequence[int]) -> None:
-    """Kill processes; a process that has already ended is not an error."""
+    """Kill processes; ignore processes that have already ended."""
     for pid in pids:
         with suppress(ProcessLookupError):
             os.kill(pid, signal.SIGKILL)

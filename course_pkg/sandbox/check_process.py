@@ -1,4 +1,4 @@
-"""The check runner of one part: a trusted process in the part's network. It is forked for one check."""
+"""The check runner of one part: a trusted process in the part's network, which is forked for one check."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Runs the commands of a check during grading, because the student's kernel must not change their results.
+"""Run the commands of a check during grading, because the student's kernel must not change their results.
 
 When a student runs a check, the student's kernel runs these commands. During grading, a student's kernel
-could report a false result, for example that a failed build succeeded. Therefore, a process in another
-sandbox runs the commands and reads the part's folder.
+could report a false result, for example that a failed build succeeded. A process in another sandbox therefore
+runs the commands and reads the part's folder.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class SplitChannel(Channel):
 def run_commands(sock: socket.socket, folder: str, own: str) -> None:
     """Execute the requests of the check runner until the check runner closes the channel.
 
-    If `own` is a folder, the files of ROS and temporary files are in it, because the student's folder is
-    read-only; and other processes cannot read this one. It is empty if there is no sandbox.
+    In a sandbox, the student's folder is read-only, and `own` is a folder for the files of ROS and for
+    temporary files, which other processes cannot read. Without a sandbox, `own` is empty.
     """
     if own:
         be_unreadable()

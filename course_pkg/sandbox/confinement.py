@@ -10,24 +10,26 @@ from typing import Any, NoReturn
 
 from course_pkg.sandbox import namespaces
 
-STUDENT = 1000  # uid and gid of the student's code inside the sandbox
-MEMORY = 1 << 30  # maximum address space of each process (bytes)
-# maximum address space of a check runner (bytes); the stacks of its threads need most of it
+STUDENT = 1000  # The student's code inside the sandbox has this uid and gid.
+MEMORY = 1 << 30  # Each process may use at most this address space in bytes.
+# A check runner may use at most this address space in bytes, mostly for the stacks of its threads.
 CHECK_RUNNER = 2 << 30
-TOGETHER = 768 << 20  # maximum memory of all processes of a part together (bytes)
-PROCESSES = 200  # maximum number of processes and threads; a launch file with three nodes has about 60
-DISK = 128 << 20  # maximum size of all files in /student, and of all files in /tmp (bytes)
+TOGETHER = 768 << 20  # All processes of a part together may use at most this memory in bytes.
+# At most this number of processes and threads may run; a launch file with three nodes has about 60.
+PROCESSES = 200
+# The total size of all files in each of the folders /student and /tmp has this limit in bytes.
+DISK = 128 << 20
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
-# a folder with copies of files, and the list of these files' paths
+# This folder contains copies of files, and this variable lists the paths of the files.
 SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"
-FILES = 20_000  # maximum number of files in each of these folders
-FILE = 64 << 20  # maximum size of one file (bytes)
-# maximum number of open files and sockets; this also limits the memory for socket buffers, which has no limit
-# of its own
+FILES = 20_000  # Each of the folders /student and /tmp may contain at most this number of files.
+FILE = 64 << 20  # A file has at most this size in bytes.
+# At most this number of files and sockets may be open, which also limits the memory for socket buffers.
 OPEN = 256
-PROCESSOR = 120  # maximum CPU time (s)
+PROCESSOR = 120  # A process has at most this CPU time in s.
 
-TIOCSTI, TIOCLINUX = 0x5412, 0x541C  # asm-generic/ioctls.h: they write input into another user's terminal
+# These requests (asm-generic/ioctls.h) write input into another user's terminal.
+TIOCSTI, TIOCLINUX = 0x5412, 0x541C
 # fmt: off
 FORBIDDEN = (
     "acct", "add_key", "bpf", "chroot", "clock_adjtime", "clock_settime", "delete_module", "fanotify_init",
@@ -45,8 +47,9 @@ FORBIDDEN = (
 def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
     """Run `work` without privileges, in new user and process namespaces, and with new folders in memory.
 
-    Call this function in a forked process that is root in its user namespace. It never returns: after the end
-    of `work`, it also ends all processes that `work` started. Without `may_write`, /student is read-only.
+    Call this function in a forked process that is root in its user namespace. This function never returns:
+    after the end of `work`, the function ends all processes that `work` started. If `may_write` is false,
+    /student is read-only.
     """
     namespaces.die_with_parent()
     namespaces.unshare(
@@ -77,10 +80,7 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 
 def _mount_memory_folders() -> None:
-    """Mount empty folders for this sandbox only.
-
-    The visible paths of the outer sandbox are visible in them, too.
-    """
+    """Mount empty folders for this sandbox only, with the visible paths of the outer sandbox."""
     shadows = {path: f"{SHADOW}/{number}" for number, path in enumerate(shadowed_paths())}
     for path, place in shadows.items():
         if os.path.isdir(path):
@@ -114,12 +114,12 @@ def set_limits() -> None:
 
 
 def load_filter() -> None:
-    """Refuse dangerous system calls of this process and of all processes that it starts."""
+    """Refuse dangerous system calls of this process and of all its later child processes."""
     _filter().load()
 
 
 def write_filter(path: Path) -> None:
-    """Write the filter of system calls to `path`, as a program that bubblewrap loads."""
+    """Write the filter of system calls to `path`, for bubblewrap."""
     with path.open("wb") as file:
         _filter().export_bpf(file)
 
@@ -136,7 +136,7 @@ def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
         rules.add_rule(refused, call)
     users = seccomp.Arg(0, seccomp.MASKED_EQ, namespaces.USER, namespaces.USER)
     rules.add_rule(refused, "clone", users)
-    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # a filter cannot read the flags of clone3
+    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # A filter cannot read the flags of clone3.
     for request in (TIOCSTI, TIOCLINUX):
         rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))
     return rules

@@ -14,7 +14,7 @@ from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.student_process import prepare
 from course_pkg.sandbox.supervisor import supervise
 
-CLEAR_TIMEOUT = 60.0  # s
+CLEAR_TIMEOUT = 60.0  # All processes of a part have to end within this time in s.
 
 
 def serve_forks(sock: socket.socket, private: str, *, isolation: Isolation) -> NoReturn:
@@ -28,12 +28,12 @@ def serve_forks(sock: socket.socket, private: str, *, isolation: Isolation) -> N
         send(sock, {"ready": True})
         while True:
             _, (job_file, messages, commands) = receive(sock)
-            # Only the supervisor reads the job, because later forks could read this process's old memory.
+            # Only the supervisor reads the job, because later forks could read the memory of this process.
             pid = fork(lambda: supervise(job_file, shell, sock, messages, commands, isolation=isolation))  # noqa: B023
             for descriptor in (job_file, messages, commands):
                 os.close(descriptor)
             status = os.waitpid(pid, 0)[1]
-            end_all_below(CLEAR_TIMEOUT)  # in a sandbox, no other process is left now
+            end_all_below(CLEAR_TIMEOUT)  # In a sandbox, no other process is running now.
             if isolation.users:
                 users.clear(isolation.users)
             send(sock, {"over": status})
@@ -42,7 +42,7 @@ def serve_forks(sock: socket.socket, private: str, *, isolation: Isolation) -> N
 
 
 def _hide_checks(private: str) -> None:
-    """Hide the files of all checks, so that the processes that are forked later cannot read them."""
+    """Hide the files of all checks from all processes that are forked later."""
     namespaces.unshare(namespaces.MOUNT)
     for path in [*secret_paths(), *([Path(private)] if private else [])]:
         namespaces.hide(str(path))

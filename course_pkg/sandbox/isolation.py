@@ -11,13 +11,14 @@ from course_pkg.sandbox.users import Users
 class Kind(str, Enum):
     """The kinds of isolation; the value is the first argument of a worker."""
 
-    NAMESPACES = "sandboxed"  # bubblewrap, namespaces, limits, and a filter of system calls
-    USERS = "users"  # other users of the machine, limits, and a filter of system calls
-    NONE = "unsafe"  # students' code runs with the rights of the grader
+    # The isolation uses bubblewrap, namespaces, limits, and a filter of system calls.
+    NAMESPACES = "sandboxed"
+    USERS = "users"  # The isolation uses other users of the machine, limits, and a filter of system calls.
+    NONE = "unsafe"  # Students' code runs with the rights of the grader.
 
 
 class Isolation(NamedTuple):
-    """The isolation of a running worker; `users` is set only if its kind is USERS."""
+    """The isolation of a running worker; `users` is set only for the kind USERS."""
 
     kind: Kind
     users: Users | None = None

@@ -1,4 +1,4 @@
-"""The data that enter and leave the sandbox: a job, which checks one part, and its result."""
+"""The data that enter and leave the sandbox: a job for one part, and its result."""
 
 from __future__ import annotations
 
@@ -11,19 +11,21 @@ from course_pkg.checking.report import Report, report_from
 from course_pkg.types.fields import Plain
 from course_pkg.waiting import at_this_load
 
-SETUP_TIMEOUT = 25.0  # time limit for the cells before and after the answer (s); they may start nodes
-ANSWER_TIMEOUT = 20.0  # time limit for a student's cell (s)
+# The cells before and after the answer, which may start nodes, have this time limit in s.
+SETUP_TIMEOUT = 25.0
+ANSWER_TIMEOUT = 20.0  # A student's cell has this time limit in s.
 
-LONGEST_PATH = 500  # characters
+LONGEST_PATH = 500  # A path has at most this number of characters.
 
-Record = dict[str, Plain]  # the record of a check runner: its report, and the seed of its random inputs
+# The record of a check runner contains its report, and the seed of its random inputs.
+Record = dict[str, Plain]
 
 
 @dataclass(frozen=True)
 class WorkFile:
     """A file of a package that a student submitted; `content` is in base64."""
 
-    path: str  # relative path, with / between the folders
+    path: str  # The path is relative, with / between the folders.
     content: str
     executable: bool
 
@@ -56,8 +58,8 @@ def work_file(path: str, data: bytes, *, executable: bool = False) -> WorkFile:
 class PartJob:
     """One part: the cells to run, and the check to run after them.
 
-    `before` and `after` are cells of the reference notebook. `answers` are the student's cells; the last one
-    is the cell of this part. time limit for the check (s)
+    `before` and `after` are cells of the reference notebook. `answers` are the student's cells; the last cell
+    is the answer of this part.
     """
 
     check: str
@@ -65,14 +67,14 @@ class PartJob:
     answers: tuple[str, ...]
     after: str
     seed: int
-    deadline: float  # s for the check itself
+    deadline: float  # The check itself has this time limit in s.
     setup_timeout: float = SETUP_TIMEOUT
     answer_timeout: float = ANSWER_TIMEOUT
     files: tuple[WorkFile, ...] = ()
 
     @property
     def limit(self) -> float:
-        """The time limit for this part (s); after this time, all processes of the part are ended."""
+        """The time limit for this part in s; after this time, all processes of the part are ended."""
         return at_this_load(self.setup_timeout + self.answer_timeout * len(self.answers) + self.deadline)
 
     def as_json(self) -> str:
@@ -92,11 +94,12 @@ class PartResult:
     """The result of a part: the check runner's record, if any, and the student process's messages."""
 
     record: Record | None
-    ending: str  # the reason why there is no record, or "" if there is one
-    # error messages of cells; they may be false, so they are only used as feedback
+    ending: str  # This is the reason for a missing record, or "".
+    # The cells' error messages may be false, so they are only used as feedback.
     messages: tuple[dict[str, str], ...] = ()
-    took: float = 0.0  # s
-    lost: bool = False  # true if the sandbox worker itself failed; then the result of the answer is unknown
+    took: float = 0.0  # The part took this time in s.
+    # The value is true if the sandbox worker itself failed; the result of the answer is then unknown.
+    lost: bool = False
 
     @property
     def report(self) -> Report | None:

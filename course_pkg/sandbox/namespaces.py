@@ -1,8 +1,8 @@
 """Linux system calls for a sandbox, called from Python: namespaces(7), mount(2), capabilities(7).
 
-Each function changes the calling process. This process must have only one thread. It raises OSError with the
-name of the system call if the kernel refuses the call. The comments contain the names of the kernel headers
-that define the numbers.
+Each function changes the calling process, which must have only one thread. A function raises OSError with the
+name of the system call if the kernel refuses the call. The comments name the kernel headers that define the
+constants.
 """
 
 from __future__ import annotations
@@ -16,21 +16,24 @@ import socket
 import struct
 from pathlib import Path
 
-MOUNT = 0x00020000  # sched.h: CLONE_NEWNS
+MOUNT = 0x00020000  # This constant is CLONE_NEWNS in sched.h.
 CGROUP = 0x02000000
-HOSTNAME = 0x04000000  # CLONE_NEWUTS
+HOSTNAME = 0x04000000  # This constant is CLONE_NEWUTS in sched.h.
 IPC = 0x08000000
 USER = 0x10000000
-PROCESS = 0x20000000  # CLONE_NEWPID
+PROCESS = 0x20000000  # This constant is CLONE_NEWPID in sched.h.
 NETWORK = 0x40000000
 
-MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC, MS_REMOUNT, MS_BIND = 1, 2, 4, 8, 32, 4096  # sys/mount.h
+# These constants are from sys/mount.h.
+MS_RDONLY, MS_NOSUID, MS_NODEV, MS_NOEXEC, MS_REMOUNT, MS_BIND = 1, 2, 4, 8, 32, 4096
 MS_REC, MS_PRIVATE = 16384, 1 << 18
-PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_CAPBSET_DROP = 1, 4, 24  # linux/prctl.h
+PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_CAPBSET_DROP = 1, 4, 24  # These constants are from linux/prctl.h.
 PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 36, 38
-CAPABILITIES = 64  # more capabilities than any current kernel has
-CAPSET, CAPABILITY_VERSION_3 = {"x86_64": 126, "aarch64": 91}, 0x20080522  # asm/unistd.h, linux/capability.h
-SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP, IFF_RUNNING = 0x8913, 0x8914, 1, 64  # linux/sockios.h, linux/if.h
+CAPABILITIES = 64  # No current kernel has more capabilities.
+# These constants are from asm/unistd.h and linux/capability.h.
+CAPSET, CAPABILITY_VERSION_3 = {"x86_64": 126, "aarch64": 91}, 0x20080522
+# These constants are from linux/sockios.h and linux/if.h.
+SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP, IFF_RUNNING = 0x8913, 0x8914, 1, 64
 
 _libc = ctypes.CDLL(None, use_errno=True)
 
@@ -51,7 +54,7 @@ def enter(descriptor: int, kind: int) -> None:
 def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
     """Get the user id `uid` and the group id `gid` in a new user namespace.
 
-    `outside` are the ids outside it.
+    `outside` are the user id and group id in the parent namespace.
     """
     Path("/proc/self/setgroups").write_text("deny")
     Path("/proc/self/gid_map").write_text(f"{gid} {outside[1]} 1")
@@ -59,7 +62,7 @@ def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
 
 
 def become_root() -> None:
-    """Become root in a new user namespace and a new mount namespace; this gives no rights outside them."""
+    """Become root in a new user namespace and a new mount namespace, without rights outside them."""
     outside = os.getuid(), os.getgid()
     unshare(USER | MOUNT)
     become(0, 0, outside=outside)
@@ -67,24 +70,21 @@ def become_root() -> None:
 
 
 def keep_mounts_private() -> None:
-    """Separate the mounts of this namespace from those of its parent.
-
-    A new mount in one of them is not visible in the other.
-    """
+    """Separate the mounts of this namespace from the mounts of its parent; new mounts are then not shared."""
     _mount("none", "/", "", MS_REC | MS_PRIVATE, "")
 
 
 def mount_memory(target: str, *, size: int = 0, files: int = 0, read_only: bool = False) -> None:
     """Mount an empty folder over `target`, for at most `size` bytes and `files` files; 0 means the default.
 
-    The number of files also has a limit, because empty files use memory, too.
+    Empty files use memory, too, so the number of files is limited.
     """
     limits = [f"size={size}"] * bool(size) + [f"nr_inodes={files}"] * bool(files) + ["mode=0777"]
     _mount("tmpfs", target, "tmpfs", MS_NOSUID | MS_NODEV | (MS_RDONLY if read_only else 0), ",".join(limits))
 
 
 def hide(path: str) -> None:
-    """Hide a folder or a file: mount an empty folder or file over it."""
+    """Hide a folder or a file by mounting an empty folder or file over it."""
     if os.path.isdir(path):
         mount_memory(path, read_only=True)
     else:
@@ -92,12 +92,12 @@ def hide(path: str) -> None:
 
 
 def mount_processes() -> None:
-    """Mount a new /proc, which shows only the processes of this namespace."""
+    """Mount a new /proc with only the processes of this namespace."""
     _mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, "")
 
 
 def bind(source: str, target: str) -> None:
-    """Make `source` also visible at `target`, including everything that is mounted inside it."""
+    """Make `source` also visible at `target`, including all mounts inside it."""
     _mount(source, target, "", MS_BIND | MS_REC, "")
 
 
@@ -107,7 +107,7 @@ def make_read_only(target: str) -> None:
 
 
 def start_loopback() -> None:
-    """Start the interface 127.0.0.1 of a new network namespace; the namespace has no other interface."""
+    """Start the interface 127.0.0.1 of a new network namespace, which has no other interface."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sock:
         asked = struct.pack("16sh14x", b"lo", 0)
         (flags,) = struct.unpack_from("h", fcntl.ioctl(sock, SIOCGIFFLAGS, asked), 16)
@@ -117,20 +117,20 @@ def start_loopback() -> None:
 def die_with_parent() -> None:
     """Make the kernel kill this process when its parent ends.
 
-    This holds until the process changes its user or capabilities.
+    A later change of the user or of the capabilities cancels this setting.
     """
     _done(_libc.prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL), 0, 0, 0), "prctl")
 
 
 def adopt_orphans() -> None:
-    """Become the parent of all descendants whose parents have ended, so that this process can find them."""
+    """Become the parent of all descendants whose parents have ended."""
     _done(_libc.prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0), "prctl")
 
 
 def be_unreadable() -> None:
     """Prevent other processes of this user from reading this process.
 
-    They could use ptrace, /proc/PID/mem and /proc/PID/fd.
+    Other processes could otherwise use ptrace, /proc/PID/mem and /proc/PID/fd.
     """
     _done(_libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0), "prctl")
 
@@ -141,9 +141,10 @@ def be_readable() -> None:
 
 
 def give_up_privileges() -> None:
-    """Drop all capabilities; programs that this process executes cannot get them back."""
+    """Drop all capabilities, also for programs that this process executes."""
     for number in range(CAPABILITIES):
-        _libc.prctl(PR_CAPBSET_DROP, number, 0, 0, 0)  # fails if this kernel does not have this capability
+        # The call fails if this kernel does not have the capability.
+        _libc.prctl(PR_CAPBSET_DROP, number, 0, 0, 0)
     header = (ctypes.c_uint32 * 2)(CAPABILITY_VERSION_3, 0)
     nothing = (ctypes.c_uint32 * 6)()
     _done(_libc.syscall(CAPSET[os.uname().machine], header, nothing), "capset")

@@ -1,7 +1,4 @@
-"""Tests whether this machine can create the sandbox of a part.
-
-The exit status is 0, or there is an error message.
-"""
+"""Test whether this machine can create the sandbox of a part; if not, print an error message."""
 
 from __future__ import annotations
 
@@ -12,7 +9,7 @@ from course_pkg.sandbox import confinement, namespaces
 
 
 def main() -> None:
-    """Create the sandbox of one part; the process in it only reports that it is running."""
+    """Create the sandbox of one part with a process that only reports that it is running."""
     try:
         namespaces.become_root()
         namespaces.unshare(namespaces.MOUNT | namespaces.NETWORK | namespaces.IPC | namespaces.HOSTNAME)

@@ -1,6 +1,6 @@
 """The student's process of one part: it runs the cells as a kernel does, and then runs the check client.
 
-The student's code controls this process, so messages from this process earn no points.
+The student's code controls this process, so messages of this process earn no points.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from course_pkg.waiting import interrupt_after
 if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
-REPEAT = 0.5  # s between alarms; a cell may catch the first alarm
-LONGEST = 2000  # maximum length of an error message (characters)
+REPEAT = 0.5  # This is the time in s between two alarms; a cell may catch the first alarm.
+LONGEST = 2000  # An error message has at most this number of characters.
 
 Send = Callable[[Mapping[str, str]], None]
 
@@ -30,7 +30,7 @@ class CellTooSlow(BaseException):
 
 
 def prepare() -> InteractiveShell:
-    """Import the modules that submissions use, and return the shell that runs them.
+    """Import the modules that submissions use, and return the shell that runs submissions.
 
     Forked processes then need no imports.
     """
@@ -56,9 +56,9 @@ def prepare() -> InteractiveShell:
 def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
     """Run the cells of `job`, and then its check.
 
-    If a cell raises an error, a message is sent, and the next cell still runs.
+    After an error in a cell, a message is sent, and the next cell still runs.
     """
-    random.seed()  # otherwise, every forked process would draw the same random numbers
+    random.seed()  # Without this line, every forked process would use the same random numbers.
     _run(shell, "before", job.before, job.setup_timeout, send)
     for number, source in enumerate(job.answers, 1):
         _run(shell, f"answer {number}", source, job.answer_timeout, send)

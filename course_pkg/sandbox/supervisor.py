@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
 MASTER_PORT = 11311
-MASTER_TIMEOUT = 5.0  # s
-CLEAR_TIMEOUT = 5.0  # s
-MEMORY_INTERVAL = 0.1  # s between two measurements of the memory
-# proc(5): private memory, and shared memory that belongs to no file (KiB)
+MASTER_TIMEOUT = 5.0  # The master has to start within this time in s.
+CLEAR_TIMEOUT = 5.0  # All processes of a part have to end within this time in s.
+MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the memory.
+# These lines of proc(5) contain the private memory, and the shared memory without a file (KiB).
 COUNTED = ("RssAnon:", "RssShmem:")
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
-TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # exit statuses of a supervisor
+TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # These are exit statuses of a supervisor.
 
 
 def supervise(
@@ -44,7 +44,8 @@ def supervise(
 ) -> NoReturn:
     """Start the master, the command runner and the student's process, and wait for the student's process.
 
-    SIGTERM ends this wait. All processes of the part end together with this process.
+    After SIGTERM, the supervisor does not wait any longer. All processes of the part end together with this
+    process.
     """
     namespaces.die_with_parent()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
@@ -103,7 +104,7 @@ def _set_environment(folder: str, port: int, listener: int) -> None:
 
 
 def _start(work: Callable[[], None]) -> int:
-    """Fork a process that ends when this process ends, and unblock its signals; return its process id."""
+    """Fork a process that ends together with this process, and unblock its signals; return its process id."""
 
     def run() -> None:
         namespaces.die_with_parent()
@@ -148,7 +149,7 @@ def _confine(work: Callable[[], None], isolation: Isolation, uid: int, *, may_wr
     folder = os.getcwd()
 
     def run() -> None:
-        os.chdir(folder)  # in a sandbox, another mount is now visible at this path
+        os.chdir(folder)  # In a sandbox, another mount is now visible at this path.
         work()
 
     if isolation.namespaces:
@@ -165,7 +166,7 @@ def _close_all_but(descriptor: int) -> None:
 
 
 def _watch(student: int, folder: str, isolation: Isolation) -> int:
-    """Wait until the student's process ends, uses too much memory or disk, or SIGTERM arrives.
+    """Wait for the end of the student's process, too much memory or disk usage, or SIGTERM.
 
     Return the exit status.
     """
@@ -194,9 +195,9 @@ def memory_below(ancestor: int) -> int:
 
 
 def _end_all(folder: str, isolation: Isolation) -> None:
-    """Kill all descendants, wait for their end, and remove the folder.
+    """Kill all descendants, wait for their end, and delete the folder.
 
-    In a namespace, the mounts end with it.
+    When a namespace ends, its mounts end too.
     """
     end_all_below(CLEAR_TIMEOUT)
     if isolation.users:

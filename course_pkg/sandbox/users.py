@@ -1,9 +1,9 @@
 """A weaker sandbox for machines that forbid namespaces: other users of the machine, and limits.
 
-Such a machine is a container in which the grader is root, for example an autograder of Gradescope. The
-processes of a part run as users that own nothing else. So they cannot read the solutions, write the grades,
-or send signals to the grader. But there are no namespaces: the student's code can reach the network, and it
-can see the names of processes.
+An example is a container of Gradescope in which the grader is root. The processes of a part run as users that
+own no other files. The student's code therefore cannot read the solutions, write the grades, or send signals
+to the grader. Without namespaces, the student's code can reach the network, and it can see the names of
+processes.
 """
 
 from __future__ import annotations
@@ -28,17 +28,17 @@ from course_pkg.waiting import Deadline, wait_until
 
 # Debian, Ubuntu and systemd use no user ids from 60578 to 61183.
 FIRST, GROUPS = 60600, 140
-KILL_TIMEOUT = 20.0  # s
+KILL_TIMEOUT = 20.0  # All killed processes have to end within this time in s.
 SHARED = ("/tmp", "/var/tmp", "/dev/shm", "/run/lock", "/dev/mqueue")  # noqa: S108 -- everybody can write there
 
 
 class Users(NamedTuple):
     """The user ids of one worker; the group ids are the same numbers."""
 
-    student: int  # runs the student's cells
-    commands: int  # runs the commands of a check, such as a build of the student's package
-    trusted: int  # runs the master and the check runner
-    killer: int  # has no process except the one that kills the processes of another user
+    student: int  # This user runs the student's cells.
+    commands: int  # This user runs the commands of a check, such as a build of the student's package.
+    trusted: int  # This user runs the master and the check runner.
+    killer: int  # This user runs only the process that kills the processes of another user.
 
 
 def reserve() -> tuple[Users, socket.socket]:
@@ -56,13 +56,14 @@ def reserve() -> tuple[Users, socket.socket]:
 
 
 def become(uid: int) -> None:
-    """Become the user `uid`, and give up all privileges; the caller is root and has one thread."""
+    """Become the user `uid`, without privileges; the caller is root and has one thread."""
     os.setgroups([])
     os.setresgid(uid, uid, uid)
     os.setresuid(uid, uid, uid)
     namespaces.give_up_privileges()
     namespaces.be_unreadable()
-    namespaces.die_with_parent()  # a change of the user cancels this
+    # Linux has cancelled this setting because the user changed, so it is set again.
+    namespaces.die_with_parent()
 
 
 def run_confined(work: Callable[[], None], uid: int) -> NoReturn:
@@ -81,7 +82,7 @@ def run_confined(work: Callable[[], None], uid: int) -> NoReturn:
 def make_folder(users: Users) -> str:
     """Make the folders of a part, and return the student's work folder.
 
-    The folder `commands` beside it belongs to the command runner. It is also for its temporary files.
+    The folder `commands` next to the work folder belongs to the command runner, also for its temporary files.
     """
     base = Path(tempfile.mkdtemp(prefix="course-grading-"))
     base.chmod(0o755)
@@ -93,20 +94,20 @@ def make_folder(users: Users) -> str:
 
 
 def own_folder(student_folder: str) -> str:
-    """Return the command runner's folder for its files, beside the student's folder."""
+    """Return the command runner's folder, next to the student's folder."""
     return str(Path(student_folder).with_name("commands"))
 
 
 def hand_over(folder: str, uid: int) -> None:
-    """Make `uid` the owner of all files in `folder`, before a process of this user runs."""
+    """Make `uid` the owner of all files in `folder`, before a process of `uid` runs."""
     for path in [Path(folder), *Path(folder).rglob("*")]:
         os.chown(path, uid, uid, follow_symlinks=False)
 
 
 def clear(users: Users) -> None:
-    """Kill all processes that run student's code, and remove their files in shared folders.
+    """Kill all processes that run student's code, and delete their files in shared folders.
 
-    This includes processes that have left their parents. It does not include the check runner, which may not
+    Processes that have left their parents are killed, too. The check runner is not killed, because it may not
     have written its record yet. Raises TimeoutError if some processes do not end.
     """
     deadline = Deadline(KILL_TIMEOUT)
@@ -121,9 +122,10 @@ def clear(users: Users) -> None:
 
 
 def _kill_all(uid: int, killer: int) -> None:
-    """Kill all processes of `uid` in one system call, so that no process can escape by a fork.
+    """Kill all processes of `uid` in one system call, so that no process can fork in time.
 
-    The killing process has `uid` only as its effective user, so `uid` cannot send signals to it.
+    Only the effective user of the killing process is `uid`, so the killed processes cannot send signals to
+    it.
     """
     if not (pid := os.fork()):
         try:
@@ -137,7 +139,7 @@ def _kill_all(uid: int, killer: int) -> None:
 
 
 def _processes_of(uid: int) -> Iterator[int]:
-    """Yield the processes of a user; a process that has ended and that its parent has not read is none."""
+    """Yield the processes of a user, without zombie processes."""
     for pid in psutil.pids():
         with suppress(psutil.Error, OSError):
             process = psutil.Process(pid)
@@ -146,7 +148,7 @@ def _processes_of(uid: int) -> Iterator[int]:
 
 
 def disk_is_full(folder: str, users: Users) -> bool:
-    """Return whether `users` have too many bytes or files in `folder`, beside it, and in shared folders."""
+    """Return whether `users` have too many bytes or files in `folder`, next to it, or in shared folders."""
     size, count = 0, 0
     items = [item.path for shared in SHARED for item in _items_of(shared, set(users))]
     for path in _below([os.path.dirname(folder), *items]):
@@ -166,7 +168,7 @@ def _below(paths: Iterable[str]) -> Iterator[str]:
 
 
 def _items_of(folder: str, uids: set[int]) -> Iterator[os.DirEntry[str]]:
-    """Yield the items directly in `folder` that belong to one of the users."""
+    """Yield the entries directly in `folder` that belong to one of the users."""
     with suppress(OSError), os.scandir(folder) as items:
         for item in items:
             with suppress(OSError):
@@ -175,7 +177,7 @@ def _items_of(folder: str, uids: set[int]) -> Iterator[os.DirEntry[str]]:
 
 
 def remove(folder: str) -> None:
-    """Remove the folders of a part, after its processes have been killed."""
+    """Delete the folders of a part, after its processes have been killed."""
     _remove(os.path.dirname(folder))
 
 
@@ -188,9 +190,9 @@ def _remove(path: str) -> None:
 
 
 def refusal(hidden: Iterable[Path] = ()) -> str:
-    """Return why this machine cannot run students' code as another user; "" if it can.
+    """Return why this machine cannot run students' code as another user, or "".
 
-    The other user must be able to read the course and the environment, but no checks, solutions and none of
+    The other user must be able to read the course and the environment, but not the checks, the solutions and
     the paths `hidden`.
     """
     if os.geteuid() != 0:

@@ -1,7 +1,7 @@
 """The trusted process of a sandbox worker: it reads one job per line, and prints one result per line.
 
-It needs two arguments. The first is the kind of isolation (see isolation.py). The second is the folder of an
-instructor's private parts, or an empty string.
+The two arguments of the worker are the kind of isolation (see isolation.py), and the folder of an
+instructor's private parts or "".
 """
 
 from __future__ import annotations
@@ -22,12 +22,15 @@ from course_pkg.sandbox.channel import end, fork, pair, receive, send, share_mem
 from course_pkg.sandbox.isolation import Isolation, Kind
 from course_pkg.sandbox.job import PartJob, PartResult, Record, job_from
 
-START_TIMEOUT = 60.0  # time limit for the imports of the fork server (s)
-PLACE_TIMEOUT = 15.0  # time limit for a supervisor to start its processes (s)
-END_TIMEOUT = 8.0  # time limit for a supervisor to end all its descendants (s)
-KILLED_TIMEOUT = 30.0  # time limit for the fork server to report that a supervisor was killed (s)
-VERDICT_TIMEOUT = 3.0  # time limit for a check runner to finish after the student's process has ended (s)
-CHUNK = 65536  # bytes of one read; also the maximum for all messages of the student's process
+START_TIMEOUT = 60.0  # The fork server has to import its modules within this time in s.
+PLACE_TIMEOUT = 15.0  # A supervisor has to start its processes within this time in s.
+END_TIMEOUT = 8.0  # A supervisor has to end all its descendants within this time in s.
+KILLED_TIMEOUT = 30.0  # The fork server has to report a killed supervisor within this time in s.
+# After the end of the student's process, a check runner has to finish within this time in s.
+VERDICT_TIMEOUT = 3.0
+# One read returns at most this number of bytes; all messages of the student's process together have this
+# limit too.
+CHUNK = 65536
 
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",
@@ -45,7 +48,7 @@ def main() -> None:
         namespaces.become_root()
     if kind is Kind.USERS:
         os.umask(0o022)
-        reserved, _lock = users.reserve()  # until this process ends
+        reserved, _lock = users.reserve()  # The users are reserved until this process ends.
         isolation = Isolation(kind, reserved)
     ours, theirs = pair()
     child = fork(lambda: _serve_forks(theirs, ours, private, isolation))
@@ -69,7 +72,7 @@ def _serve_forks(theirs: socket.socket, ours: socket.socket, private: str, isola
 
 
 def _import_checks(private: str) -> None:
-    """Import every check, so that a check runner is only a forked process and needs no imports.
+    """Import every check, so that a forked check runner needs no imports.
 
     The fork server was forked earlier, so its memory does not contain the checks.
     """
@@ -87,16 +90,15 @@ class Session:
         self._fork_server = fork_server
         self._job = job
         self._isolation = isolation
-        self._over: int | None = None  # the wait status of the supervisor
+        self._over: int | None = None  # This is the wait status of the supervisor.
         self._supervisor = 0
         self._began = time.monotonic()
-        self._limit = job.limit  # s; it depends on the current load of the machine
+        self._limit = job.limit  # The limit in s depends on the current load of the machine.
 
     def run(self) -> PartResult:
         """Run the job, and end all processes that it started.
 
-        Raises TimeoutError if the fork server does not answer; after this error, the worker cannot be used
-        any more.
+        Raises TimeoutError if the fork server does not respond; then the worker cannot be used any more.
         """
         with ExitStack() as stack:
             messages, commands = self._begin(stack)
@@ -105,7 +107,7 @@ class Session:
                 network, port, listener = self._placed(stack)
                 record, ending = self._checked(network, port, listener, commands)
             except TimeoutError:
-                raise  # the next message of the fork server may belong to this job or to the next job
+                raise  # The next message of the fork server may belong to this job or to the next job.
             except (EOFError, OSError) as error:
                 ending = f"{ending} ({error})" if str(error) else ending
             self._end_supervisor()
@@ -115,7 +117,7 @@ class Session:
     def _begin(self, stack: ExitStack) -> tuple[int, socket.socket]:
         """Send the job to the fork server; return the pipe for messages, and the socket for commands."""
         job_file = os.memfd_create("job")
-        unseeded = replace(self._job, seed=0)  # only the check runner may know its random inputs
+        unseeded = replace(self._job, seed=0)  # Only the check runner may know the seed of its random inputs.
         os.write(job_file, unseeded.as_json().encode())
         os.lseek(job_file, 0, os.SEEK_SET)
         reading, writing = os.pipe()
@@ -143,7 +145,7 @@ class Session:
     ) -> tuple[Record | None, str]:
         """Wait for the check client, and run the check.
 
-        Return the record, or the reason why there is no record.
+        Return the record, or the reason for a missing record.
         """
         if listener not in self._wait([listener]):
             return None, self._reason()
@@ -172,11 +174,12 @@ class Session:
         from course_pkg.sandbox.check_process import check_part
 
         namespaces.die_with_parent()
-        namespaces.limit(AS=confinement.CHECK_RUNNER)  # a submission may send any amount of data
+        # A submission may send any amount of data, so the memory has a limit.
+        namespaces.limit(AS=confinement.CHECK_RUNNER)
         check_part(self._job, network, port, client, commands, out, isolation=self._isolation)
 
     def _wait(self, files: Sequence[int | socket.socket]) -> list[int | socket.socket]:
-        """Wait for one of `files` to be ready, the end of the supervisor, or the job's time limit."""
+        """Wait until one of `files` is ready, the supervisor ends, or the job reaches its time limit."""
         left = self._began + self._limit - time.monotonic()
         ready = select.select([*files, self._fork_server], [], [], max(left, 0.0))[0]
         if self._fork_server in ready:
@@ -197,8 +200,8 @@ class Session:
                 receive(self._fork_server, END_TIMEOUT)
             except TimeoutError:
                 end([self._supervisor])
-                # The next job must not receive this message. If the message does not come, the worker cannot
-                # be used any more.
+                # The next job must not receive this message. If the message does not arrive, this worker is
+                # not used any more.
                 receive(self._fork_server, KILLED_TIMEOUT)
 
 

@@ -1,7 +1,4 @@
-"""The grader's side of a sandbox worker.
-
-The worker is a process that runs one part at a time in a sandbox.
-"""
+"""The grader's interface to a sandbox worker, a process that runs one part at a time in a sandbox."""
 
 from __future__ import annotations
 
@@ -21,8 +18,10 @@ from course_pkg.sandbox.job import PartJob, PartResult, result_from
 from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 
-START_TIMEOUT = 90.0  # s; the start takes 2 s on a machine without load
-SLACK = 45.0  # s after a part's own limit; if there is no result by then, the worker itself has failed
+START_TIMEOUT = 90.0  # The worker has to start within this time in s; without load, the start takes 2 s.
+# After a part's own limit and this additional time in s, a missing result means that the worker itself has
+# failed.
+SLACK = 45.0
 
 
 class SandboxWorker:
@@ -31,8 +30,8 @@ class SandboxWorker:
     After a WorkerFailed error, the next call of `run` starts the worker again.
 
     When the thread that first called `run` ends, the processes in the sandbox end, too. `private` is the
-    folder of an instructor's private parts, which no submission can read. With `sandboxed=False` there is no
-    sandbox. With `users=True`, the sandbox consists of other users of the machine (see users.py).
+    folder of an instructor's private parts, which no submission can read. If `sandboxed` is false, there is
+    no sandbox. If `users` is true, the sandbox consists of other users of the machine (see users.py).
     """
 
     def __init__(self, *, sandboxed: bool = True, users: bool = False, private: str = "") -> None:
@@ -51,7 +50,7 @@ class SandboxWorker:
         self.close()
 
     def run(self, job: PartJob) -> PartResult:
-        """Run one part and return its result; raises WorkerFailed if the worker ends or does not answer."""
+        """Run one part and return its result; raises WorkerFailed if the worker ends or does not respond."""
         process = self._started()
         assert process.stdin is not None
         try:

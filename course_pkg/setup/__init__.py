@@ -1,6 +1,6 @@
 """Set up what is missing: the distribution's packages, the virtual environment, the catkin workspace.
 
-The other libraries are installed by the set-up, so this package uses only the standard library.
+This package uses only the standard library, because the set-up installs all other libraries.
 """
 
 from course_pkg.setup import environment

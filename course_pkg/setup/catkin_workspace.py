@@ -1,4 +1,4 @@
-"""The step that builds the catkin workspace, which contains links to the checkout."""
+"""The step that builds the catkin workspace, with links to the checkout."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _linked_packages(places: Places) -> Iterator[tuple[str, Path]]:
 
 
 def _link(package: Path, folder: Path) -> None:
-    """Create links to the files of the catkin package in `folder`, but not to other files of the checkout.
+    """Create links to the files of the catkin package in `folder`.
 
     rosrun searches a package's whole folder for a program, and follows links. With a link to the whole
     checkout, rosrun would also find the programs in the student's own packages.
@@ -92,14 +92,14 @@ def _tool(places: Places, name: str) -> Path:
 
 
 def _build_environment(places: Places) -> dict[str, str]:
-    """Return the environment, but remove the user's settings that could break the build."""
-    if places.conda:  # catkin finds the compilers through variables that `conda activate` sets
+    """Return the environment without the user's settings that could break the build."""
+    if places.conda:  # catkin finds the compilers through variables of `conda activate`.
         return {**os.environ, "PATH": f"{places.conda}/bin:{SYSTEM_PATH}"}
     return {"PATH": SYSTEM_PATH, "HOME": os.path.expanduser("~"), "LANG": "C.UTF-8"}
 
 
 def _write_path_file(places: Places) -> None:
-    """Let programs that know only the interpreter, such as editors, find the package and its types."""
+    """Write a file for programs such as editors, so that they find the package and its types."""
     for packages in places.venv.glob("lib/python3*/site-packages"):
         paths = environment.python_path(places)
         write_atomically(packages / "course_pkg.pth", "".join(f"{path}\n" for path in paths))

@@ -16,8 +16,8 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.steps import Step, steps_of
 from course_pkg.waiting import wait_until
 
-ENDING = 5.0  # s; when a process was killed, its children end within this time
-NEEDED = 1 << 30  # bytes of free disk space; a complete set-up needs a little less
+ENDING = 5.0  # The child processes of a killed process end within this time in s.
+NEEDED = 1 << 30  # A complete set-up needs a little less than this number of bytes of disk space.
 
 
 class Finding(NamedTuple):
@@ -122,7 +122,7 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 def _leftovers(places: Places) -> Iterator[Finding]:
     """Find processes of this checkout that are still running although their parent has ended.
 
-    If SIGKILL ends the owner of a process, the process's supervisor normally ends the process within seconds.
+    If an owner was killed with SIGKILL, its supervisor normally ends the owned process within seconds.
     """
     orphans = _orphans(places)
     wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from course_pkg.errors import SetupError
 
-RECORD = ".course-release.json"  # a file of the students' edition: a list of its chapters and files
+RECORD = ".course-release.json"  # In the students' edition, this file lists the chapters and files.
 
 
 def released_chapters(checkout: Path) -> tuple[str, ...] | None:

@@ -1,6 +1,6 @@
 """The environment variables of ROS.
 
-They are read once from the workspace's setup.bash and then stored in a file.
+The set-up reads these variables once from the workspace's setup.bash and stores them in a file.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from pathlib import Path
 from course_pkg.files import write_atomically
 from course_pkg.setup.places import Places
 
-# Settings of the user that the course does not use. The first three could break it. The last one would make
-# Python compile all modules of JupyterLab at every start (2 s).
+# The course does not use these settings of the user. The first three settings could break the course. With
+# the last setting, Python would compile all modules of JupyterLab at every start (2 s).
 REMOVED = ("PYTHONHOME", "PYTHONPATH", "PYTHONSTARTUP", "PYTHONDONTWRITEBYTECODE")
-LOOPBACK = "devel/lib/libcourse_loopback.so"  # built from ros/process/loopback.c
+LOOPBACK = "devel/lib/libcourse_loopback.so"  # The set-up builds this library from ros/process/loopback.c.
 BY_SHELL = ("PWD", "OLDPWD", "SHLVL", "_")
 NETWORK = ("ROS_MASTER_URI", "ROS_HOSTNAME", "ROS_IP")
 
@@ -38,7 +38,7 @@ def write(places: Places) -> None:
 
 
 def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
-    """Return `environ` with the course's environment added; the course's values replace the user's.
+    """Return `environ` with the variables of the course, which replace the user's values.
 
     In PATH, the folders of the interpreter and of the system come before all other folders. ROS_MASTER_URI,
     ROS_HOSTNAME and ROS_IP keep the user's values. LD_PRELOAD contains a library of the course: if
@@ -52,18 +52,18 @@ def merged(places: Places, environ: Mapping[str, str]) -> dict[str, str]:
     if not any(environ.get(name) for name in NETWORK):
         result["ROS_HOSTNAME"] = "localhost"
     library = places.workspace / LOOPBACK
-    if library.exists():  # the set-up builds it only on Linux
+    if library.exists():  # The set-up builds the library only on Linux.
         preloaded = environ.get("LD_PRELOAD", "").replace(":", " ").split()
         result["LD_PRELOAD"] = ":".join(dict.fromkeys([*preloaded, str(library)]))
     result.setdefault("ROS_LOG_DIR", str(places.logs / "ros"))
     # rospy's messages import numpy, and numpy starts threads. These threads would receive signals that the
-    # main thread blocks, and a process with several threads cannot enter a user namespace.
+    # main thread blocks. A process with several threads cannot enter a user namespace.
     result.setdefault("OPENBLAS_NUM_THREADS", "1")
     return result
 
 
 def apply(places: Places | None = None) -> bool:
-    """Apply the environment to this process; if it is not built yet, change nothing and return False."""
+    """Apply the environment to this process; before the set-up, change nothing and return False."""
     places = places or Places.of()
     try:
         fresh = merged(places, os.environ)

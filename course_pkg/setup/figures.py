@@ -8,9 +8,8 @@ from __future__ import annotations
 import logging
 import sys
 
-# Without a salt, the ids in an SVG are random. Without "Date": None, the metadata of an SVG contain the time
-# of the run. With "none", letters are stored as text, not as shapes: the SVG is smaller, and a screen reader
-# can read it.
+# Without a salt, the ids in an SVG are random. Without "Date": None, an SVG contains the time of the run.
+# With "none", an SVG contains letters as text, so it is smaller, and a screen reader can read it.
 RC = {"svg.hashsalt": "course_pkg", "svg.fonttype": "none"}
 SETTINGS = {
     "figure_formats": {"svg"},
@@ -22,15 +21,15 @@ SETTINGS = {
 def set_up_figures() -> None:
     """Make this kernel show figures as SVG; outside of IPython, do nothing.
 
-    The function imports nothing: matplotlib's inline backend reads the settings before it draws the first
-    figure. If the backend has already drawn a figure, the settings apply to the next figure.
+    matplotlib's inline backend reads the settings before it draws the first figure. If it has already drawn a
+    figure, the settings apply to the next figure.
     """
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     if shell is None:
         return
     shell.config.InlineBackend.update(SETTINGS)
-    # On a new machine, matplotlib logs that it builds its font cache; a cell would show this message.
+    # On a new machine, a cell would show matplotlib's log message about its font cache.
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     config = sys.modules.get("matplotlib_inline.config")
     if config and config.InlineBackend.initialized():

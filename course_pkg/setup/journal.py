@@ -12,8 +12,8 @@ from course_pkg.errors import SetupError
 
 KEPT_LOGS = 10
 TAIL_LINES = 8
-WATCH_INTERVAL = 0.5  # s
-LEAST_FREE = 1 << 20  # bytes; a disk with less free space is treated as full
+WATCH_INTERVAL = 0.5  # This is the time in s between two calls of `watch`.
+LEAST_FREE = 1 << 20  # A disk with less free space (in bytes) is treated as full.
 FULL = ("No space left on device", "not enough free space")
 
 
@@ -33,12 +33,12 @@ class Journal:
         env: Mapping[str, str] | None = None,
         watch: Callable[[str], None] | None = None,
     ) -> None:
-        """Run `command`, and wait for its end.
+        """Run `command`, and wait until it ends.
 
-        Call `watch` twice per second with the last line of the output.
+        `watch` is called twice per second with the last line of the output. The output goes to a file, so a
+        package manager can finish even if the set-up is killed. The command inherits the lock, so the next
+        set-up waits until the command has ended.
 
-        The output goes to a file, not through a pipe: a package manager can finish even if the set-up is
-        killed. The command inherits the lock; therefore, the next set-up waits until the command has ended.
         Raises SetupError, with the last lines of the output, if the command fails.
         """
         with self.path.open("ab") as log:
@@ -71,7 +71,7 @@ class Journal:
         return SetupError(f"`{name}` ended with status {status}:\n{shown}\nThe whole output: {self.path}")
 
     def _is_full(self) -> bool:
-        """Return whether the cache's disk is full, because some tools do not report this."""
+        """Return whether the cache's disk is full."""
         disk = os.statvfs(self.path)
         return disk.f_bavail * disk.f_frsize < LEAST_FREE
 

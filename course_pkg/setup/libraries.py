@@ -18,7 +18,8 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
 LOCKS = Path(__file__).with_name("locks")
-SLOW_STARTER = "a1_coverage.pth"  # this file delays every start of Python by 30 ms, also in nodes and kernels
+# This file delays every start of Python by 30 ms, also in nodes and kernels.
+SLOW_STARTER = "a1_coverage.pth"
 PIP_TO_UV = {
     "index-url": "UV_DEFAULT_INDEX",
     "extra-index-url": "UV_INDEX",
@@ -33,7 +34,7 @@ UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
     "UV_SYSTEM_CERTS": "1",
-    # this is pip's strategy; it is safe because the lock file contains hashes
+    # pip uses the same strategy; it is safe because the lock file contains hashes.
     "UV_INDEX_STRATEGY": "unsafe-best-match",
 }
 
@@ -44,27 +45,26 @@ def lock_file(extra: str) -> Path:
 
 
 def libraries_key(extra: str) -> str:
-    """Return a hash of the lock file and the interpreter, which determine the environment."""
+    """Return a hash of the lock file and the interpreter."""
     return digest([lock_file(extra).read_bytes(), base_python(), sys.version])
 
 
 def environment_works(places: Places) -> bool:
-    """Return whether the environment's interpreter, which is a link, still exists."""
+    """Return whether the link to the environment's interpreter is valid."""
     return os.access(places.python, os.X_OK)
 
 
 def make_environment(places: Places, extra: str, journal: Journal) -> None:
     """Create the virtual environment if it is missing, and install the libraries in the lock of `extra`.
 
-    Other libraries that the user has installed are kept. Raises SetupError if a tool fails.
+    Other libraries of the user are not removed. Raises SetupError if a tool fails.
     """
     uv, env = installed_uv(places, journal), uv_environment()
     if not _is_on_base(places):
         journal.run(
             [uv, "venv", "--clear", "--system-site-packages", "--python", base_python(), places.venv], env=env
         )
-    # --no-deps: the lock lists all libraries that are needed; some dependencies are omitted on purpose (see
-    # lock.py).
+    # The lock lists all necessary libraries, and some dependencies are omitted on purpose (see lock.py).
     options: list[str | Path] = ["--no-deps", "--require-hashes", "-r", lock_file(extra)]
     journal.run([uv, "pip", "install", "--python", places.python, *options], env=env)
     for unwanted in places.venv.glob(f"lib/python3*/site-packages/{SLOW_STARTER}"):
@@ -93,20 +93,20 @@ def installed_uv(places: Places, journal: Journal) -> Path:
             lock_file("uv"),
         ]
         journal.run(command, env=_clean_environment())
-        with suppress(OSError):  # the set-up of another checkout may have installed uv in the meantime
+        with suppress(OSError):  # The set-up of another checkout may have installed uv.
             fresh.rename(folder)
     return uv
 
 
 def uv_environment() -> dict[str, str]:
-    """Return this process's environment, and add the user's pip settings as variables of uv."""
+    """Return this process's environment, with the user's pip settings as variables of uv."""
     return {**_clean_environment(), **as_uv_variables(_pip_settings(), os.environ)}
 
 
 def as_uv_variables(settings: Mapping[str, list[str]], environ: Mapping[str, str]) -> dict[str, str]:
-    """Return pip's `settings` as variables of uv, because uv does not read pip.conf.
+    """Return pip's `settings` as variables of uv, without variables that are already set in `environ`.
 
-    The result omits variables that are already set in `environ`.
+    uv does not read pip.conf.
     """
     variables = dict(UV_SETTINGS)
     for option, variable in PIP_TO_UV.items():
@@ -117,7 +117,7 @@ def as_uv_variables(settings: Mapping[str, list[str]], environ: Mapping[str, str
 
 
 def pip_command() -> list[str]:
-    """Return the command that runs pip: from the distribution's wheel, or from the interpreter.
+    """Return the command that runs pip from the distribution's wheel, or from the interpreter.
 
     Raises SetupError if this machine has no pip.
     """
@@ -159,12 +159,12 @@ def _clean_environment() -> dict[str, str]:
 
 
 def base_python() -> str:
-    """Return the path of the interpreter that ROS was built for; the virtual environment is based on it."""
+    """Return the path of the interpreter that ROS was built for, the base of the virtual environment."""
     return str(os.path.realpath(sys._base_executable))  # type: ignore[attr-defined]
 
 
 def _is_on_base(places: Places) -> bool:
-    """Return whether the environment exists in the folder in which it was created, with this interpreter."""
+    """Return whether the environment is in the folder in which it was created, with this interpreter."""
     if not environment_works(places):
         return False
     program = "import os, sys; print(os.path.realpath(sys._base_executable), sys.version, sys.prefix)"

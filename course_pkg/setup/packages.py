@@ -1,4 +1,4 @@
-"""The packages of the distribution: list those that the course needs on this machine, and install them."""
+"""List the packages of the distribution that the course needs on this machine, and install them."""
 
 from __future__ import annotations
 
@@ -26,19 +26,21 @@ APT_OPTIONS = (
     "-o",
     "Dpkg::Use-Pty=0",
     "-o",
-    "Dpkg::Options::=--force-unsafe-io",  # faster; this is safe, because a failed set-up is repeated
+    # This option is faster, and it is safe because a failed set-up is repeated.
+    "Dpkg::Options::=--force-unsafe-io",
     "-o",
     "Dpkg::Options::=--force-confold",
 )
 LISTS = Path("/var/lib/apt/lists")
 STATUS = Path("/var/lib/dpkg/status")
-FRESH = 24 * 3600  # s; apt's package lists are considered up to date for this time
+FRESH = 24 * 3600  # apt's package lists are considered up to date for this time in s.
 APT = "/usr/bin/apt-get"
 # The messages have to be in English, because LOCKED matches English messages.
 UNATTENDED = ("env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8")
 LOCKED = re.compile(r"Could not get lock|lock was locked by another process|Unable to (?:acquire|lock)")
-LOCK_TIMEOUT = 600.0  # s; the set-up waits for a lock, because `apt-get update` and dpkg cannot wait for it
-RETRY_INTERVAL = 2.0  # s between two attempts
+# The set-up waits up to this time in s for a lock, because `apt-get update` and dpkg cannot wait.
+LOCK_TIMEOUT = 600.0
+RETRY_INTERVAL = 2.0  # This is the time in s between two attempts.
 WAITING = "Another program is installing packages. Waiting for its end, for at most 10 minutes."
 
 
@@ -53,7 +55,7 @@ class Platform(NamedTuple):
 
 
 def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
-    """Return the platform for the distribution in `os_release`, or for the distribution on which it is based.
+    """Return the platform for the distribution in `os_release`, or for its base distribution.
 
     Raises SetupError on all other systems; its message contains the commands for conda.
     """
@@ -122,12 +124,12 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
     except SetupError:
         if not updated:
             raise
-        run(APT, "update", "-q")  # the lists may refer to files that the server has replaced
+        run(APT, "update", "-q")  # The package lists may refer to files that the server has replaced.
         run(APT, "install", *APT_OPTIONS, *names)
 
 
 def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callable[[str], None]) -> None:
-    """Run `command`; repeat it as long as another program holds a lock that the command needs."""
+    """Run `command`, and repeat it while another program holds a lock that the command needs."""
     deadline = time.monotonic() + LOCK_TIMEOUT
     while True:
         try:
@@ -140,7 +142,7 @@ def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callabl
 
 
 def become_root(names: Sequence[str]) -> list[str]:
-    """Return the start of a command that runs as root, such as sudo; raises SetupError if there is none."""
+    """Return a prefix that runs a command as root, such as sudo; raises SetupError if there is none."""
     advice = "As an administrator, type\n  apt-get update && apt-get install --no-install-recommends " + (
         " ".join(names)
     )

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from course_pkg.errors import SetupError
 
-# The first tuple: the folders of the catkin package other than course_pkg; the second one: all its files.
+# The first tuple contains the package's folders except course_pkg; the second tuple contains all its files.
 CATKIN_FOLDERS = ("srv", "msg", "action", "launch")
 PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")
 
@@ -18,7 +18,7 @@ PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt",
 class Places(NamedTuple):
     """The folders of one checkout.
 
-    Created files are outside the checkout, because rosrun searches the checkout.
+    The set-up creates files only outside the checkout, because rosrun searches the checkout.
     """
 
     checkout: Path
@@ -34,7 +34,7 @@ class Places(NamedTuple):
 
     @property
     def conda(self) -> Path | None:
-        """The active conda environment if it contains this interpreter and ROS, otherwise None."""
+        """The active conda environment, or None if it does not contain this interpreter and ROS."""
         prefix = os.environ.get("CONDA_PREFIX")
         if not prefix or Path(prefix).resolve() != Path(sys.prefix).resolve():
             return None
@@ -76,7 +76,7 @@ class Places(NamedTuple):
         return self.cache.parent / "tools"
 
     def make_cache(self) -> None:
-        """Create the cache folder; raises SetupError, with the next step, if that fails."""
+        """Create the cache folder; raises SetupError, with the next step for the user."""
         if any(letter.isspace() for letter in str(self.cache)):
             raise SetupError(
                 f"catkin cannot build in {self.cache}, because the name contains a space. "

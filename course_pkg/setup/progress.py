@@ -1,4 +1,4 @@
-"""Shows the progress of long steps: one updated line on a terminal, or some lines in other outputs."""
+"""Show the progress of long steps: one updated line on a terminal, or a few lines in other outputs."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TextIO
 
-LIVE_INTERVAL = 0.2  # s between two updates of the line on a terminal
-LINE_INTERVAL = 10.0  # s between two lines with the count, if the output is not a terminal
-BAR = 20  # characters
+LIVE_INTERVAL = 0.2  # This is the time in s between two updates of the line on a terminal.
+# If the output is not a terminal, two lines with the count have this time in s between them.
+LINE_INTERVAL = 10.0
+BAR = 20  # The progress bar has this width in characters.
 GREEN, RED, PLAIN = "\033[32m", "\033[31m", "\033[0m"
 
 
 class Progress:
-    """Shows the running steps on stderr, because stdout is for the command's output.
+    """Shows the running steps on stderr.
 
-    With a `total`, it also shows how many of the `unit` (such as "cells") are done, and the estimated
-    remaining time.
+    If `total` is given, the line also contains the number of finished `unit` (such as "cells") and the
+    estimated remaining time.
     """
 
     def __init__(self, stream: TextIO | None = None, *, total: int = 0, unit: str = "") -> None:
@@ -37,7 +38,7 @@ class Progress:
 
     @contextmanager
     def step(self, title: str) -> Iterator[None]:
-        """Show the step `title` and its duration while it runs, and its result at the end."""
+        """Show the step `title` and its duration during the block, and its result after the block."""
         started = time.monotonic()
         with self._lock:
             self._running[title] = started
@@ -69,9 +70,9 @@ class Progress:
                 self._write("\r\033[K")
 
     def advance(self, count: int = 1, *, kept: bool = False) -> None:
-        """Add `count` to the items that are done.
+        """Add `count` to the finished items.
 
-        With `kept`, an earlier run did them, so they take no time.
+        If `kept` is true, an earlier run finished these items, so they take no time.
         """
         with self._lock:
             self._done += count
@@ -83,7 +84,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show `text`, which explains a wait; the same text is not shown twice in succession."""
+        """Show `text`, which explains a wait, but not twice in succession."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:
@@ -103,7 +104,7 @@ class Progress:
         return f"[{'#' * filled}{'.' * (BAR - filled)}] "
 
     def _counted(self, now: float) -> str:
-        """Return the number of items that are done, and the estimated remaining time."""
+        """Return the number of finished items, and the estimated remaining time."""
         counted = f"{self._done} of {self._total} {self._unit}"
         left, here = self._total - self._done, self._done - self._kept
         if not left or not here:

@@ -1,7 +1,4 @@
-"""Records the steps that are done, in one small file per step.
-
-A lock prevents changes by two set-ups at a time.
-"""
+"""Record the finished steps, in one small file per step; a lock allows only one set-up at a time."""
 
 from __future__ import annotations
 
@@ -15,24 +12,24 @@ from course_pkg.files import write_atomically
 
 
 class Stamps:
-    """The steps that are done; the file of each step contains a hash of the step's inputs."""
+    """The finished steps; the file of each step contains a hash of the step's inputs."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
 
     def read(self, name: str) -> str | None:
-        """Return the hash of the step `name`, or None if the step is not done."""
+        """Return the hash of the step `name`, or None if the step is not finished."""
         try:
             return (self._folder / name).read_text()
         except OSError:
             return None
 
     def write(self, name: str, key: str) -> None:
-        """Record that the step `name` is done, with the hash `key`."""
+        """Record that the step `name` is finished, with the hash `key`."""
         write_atomically(self._folder / name, key)
 
     def clear(self, name: str) -> None:
-        """Record that the step `name` is not done; call this before the step runs again."""
+        """Record that the step `name` is not finished; call this before the step runs again."""
         (self._folder / name).unlink(missing_ok=True)
 
 
@@ -47,9 +44,9 @@ def digest(parts: Iterable[str | bytes]) -> str:
 
 @contextmanager
 def locked(path: Path, on_wait: Callable[[], None]) -> Iterator[int]:
-    """Hold the lock at `path`, and yield its file descriptor.
+    """Acquire the lock at `path`, and yield its file descriptor.
 
-    Call `on_wait` if another process holds the lock.
+    If another process has the lock, `on_wait` is called.
     """
     with path.open("w") as file:
         try:

@@ -1,4 +1,4 @@
-"""Run the steps of the set-up that are not done; independent steps run at the same time."""
+"""Run the steps of the set-up that are not finished; independent steps run at the same time."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
 
 
 class Step(NamedTuple):
-    """One step of the set-up. `is_done` runs at every start, so it must be fast.
+    """One step of the set-up.
 
-    `makes` is the folder that it creates.
+    `is_done` runs at every start, so it must be fast. `makes` is the folder that the step creates.
     """
 
     title: str
@@ -32,9 +32,10 @@ class Step(NamedTuple):
 
 
 def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool = False) -> None:
-    """Set up what is missing. If nothing is missing, this takes a few milliseconds and prints nothing.
+    """Set up what is missing.
 
-    Raises SetupError, with the next step for the user, if a step fails.
+    If nothing is missing, this function takes a few milliseconds and prints nothing. Raises SetupError, with
+    the next step for the user, if a step fails.
     """
     stages = steps_of(places, grade=grade, hub=hub, test=test)
     if all(step.is_done() for stage in stages for step in stage):
@@ -57,11 +58,11 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
 def steps_of(
     places: Places, *, grade: bool = False, hub: bool = False, test: bool = False
 ) -> list[list[Step]]:
-    """Return the steps in stages; the steps of a stage do not depend on each other."""
+    """Return the steps in stages; all steps of one stage can run at the same time."""
     stamps = Stamps(places.stamps)
     library_step = _library_step(places, stamps, "test" if test else "hub" if hub else "course")
     catkin = _workspace_step(places, stamps)
-    if places.conda:  # environment.yml lists the packages and the libraries for conda
+    if places.conda:  # For conda, environment.yml lists the packages and the libraries.
         return [[catkin]]
     platform = packages.read_platform(places.checkout)
     wanted = [*platform.course, *(platform.test if test else platform.grade if grade else ())]
@@ -91,7 +92,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        # with this stamp, the next start is faster, because it does not have to call dpkg
+        # With this stamp, the next start does not call dpkg.
         with suppress(OSError):
             stamps.write(name, state)
         return True
@@ -104,7 +105,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
-        # each lock file also contains all libraries of those before it
+        # Each lock file also contains all libraries of those before it
         sufficient = list(EXTRAS)[list(EXTRAS).index(extra) :]
         made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in sufficient)
         return libraries.environment_works(places) and any(made)
@@ -135,7 +136,7 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
         with progress.step(step.title):
             step.make(journal, progress)
 
-    # imported here, because it takes 5 ms and most starts do not need it
+    # The import takes 5 ms, and most starts do not need it.
     from concurrent.futures import ThreadPoolExecutor
 
     with progress.painting(), ThreadPoolExecutor(max_workers=2) as pool:

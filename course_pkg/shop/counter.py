@@ -1,7 +1,4 @@
-"""The counter of a shop, with the times at which each customer comes and leaves.
-
-This module does not need ROS.
-"""
+"""The counter of a shop, with the times at which each customer comes and leaves; without ROS."""
 
 from __future__ import annotations
 
@@ -11,8 +8,8 @@ from dataclasses import dataclass
 
 from course_pkg.errors import FieldError
 
-MOST = 1000  # maximum number of customers in one call
-LONGEST = 3600.0  # s; the maximum delay and the maximum stay of a customer
+MOST = 1000  # One call adds at most this number of customers.
+LONGEST = 3600.0  # A customer's delay and stay are at most this time in s.
 
 
 @dataclass(frozen=True)
@@ -61,7 +58,7 @@ class Counter:
 
 
 def _require_seconds(field: str, value: float) -> None:
-    if not 0.0 <= value <= LONGEST:  # also refuses NaN
+    if not 0.0 <= value <= LONGEST:  # The condition also refuses NaN.
         raise FieldError(
             field, value, f"seconds, from 0 to {LONGEST:g}", f"{value:g} s is not a possible time to wait"
         )

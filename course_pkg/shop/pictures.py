@@ -1,7 +1,4 @@
-"""Computes pictures of the shop: a colour picture, and the frames of a small grey camera.
-
-This module does not need ROS.
-"""
+"""Compute pictures of the shop: a colour picture, and the frames of a small grey camera; without ROS."""
 
 from __future__ import annotations
 
@@ -16,22 +13,22 @@ COUNTER: Colour = (120, 84, 56)
 TOP: Colour = (160, 118, 82)
 FACE: Colour = (226, 184, 150)
 COATS: tuple[Colour, ...] = ((46, 98, 150), (168, 60, 56), (62, 122, 78), (122, 84, 146), (196, 140, 44))
-MOST = 12  # maximum number of customers that a picture shows
-HALF_BREADTH = 0.13  # half the breadth of a customer, as a fraction of the picture's height
+MOST = 12  # A picture shows at most this number of customers.
+HALF_BREADTH = 0.13  # Half the width of a customer is this fraction of the picture's height.
 
-WIDTH, HEIGHT = 160, 120  # size of a frame in points (pixels)
-DARK = 96  # a point with a lower brightness is dark
-SHARE = 10  # if at least one point in 10 is dark, the frame shows a customer
-BRIGHT, DARK_COAT = 208, 40  # minimum brightness of a point of the wall, and of a point of a coat
-SHADE = 12  # a point is brighter than its minimum brightness by less than SHADE
-# half the breadth of a figure's head and shoulders, as a fraction of the frame's height
+WIDTH, HEIGHT = 160, 120  # A frame has this size in pixels.
+DARK = 96  # A pixel with a lower brightness is dark.
+SHARE = 10  # If at least 1/SHARE of the pixels are dark, the frame shows a customer.
+BRIGHT, DARK_COAT = 208, 40  # These are the minimum brightness of the wall and of a coat.
+SHADE = 12  # Pixels of the wall and of a coat vary in brightness by less than this value.
+# Half the width of a customer's head and shoulders is this fraction of the frame's height.
 HEAD, SHOULDERS = 0.14, 0.2
 
 
 def shop_picture(width: int, height: int, customers: int) -> bytes:
-    """Return the picture in the encoding rgb8: `height` rows of `width` points, from the top left.
+    """Return the picture in the encoding rgb8: `height` rows of `width` pixels, from the top left.
 
-    Each point has three bytes. The picture shows at most MOST customers.
+    Each pixel has three bytes. The picture shows at most MOST customers.
     """
     return b"".join(
         _picture_row((row + 0.5) / height, width, height, min(customers, MOST)) for row in range(height)
@@ -43,7 +40,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
     if y >= 0.72:
         return bytes(TOP if y < 0.76 else COUNTER) * width
     row = bytearray(bytes(WALL if y < 0.6 else FLOOR) * width)
-    # If there are many customers, the figures are drawn narrower, to keep a gap between them.
+    # Many customers are drawn narrower, with a gap between them.
     squeeze = min(height, 0.44 / HALF_BREADTH * width / (customers + 1))
     for number, coat in enumerate(islice(cycle(COATS), customers), 1):
         half, colour = _figure_at(y, coat)
@@ -54,10 +51,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
 
 
 def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
-    """Return half the breadth of a customer at `y`, and the colour.
-
-    The breadth is a fraction of the picture's height.
-    """
+    """Return half the width of a customer at `y`, as a fraction of the picture's height, and the colour."""
     head = 0.08**2 - (y - 0.3) ** 2
     if head > 0:
         return float(head**0.5), FACE
@@ -74,16 +68,16 @@ class Frame(Protocol):
     data: bytes
 
 
-@lru_cache(maxsize=16)  # cached, because the camera needs a frame ten times per second
+@lru_cache(maxsize=16)  # The camera needs a frame ten times per second, so the frames are cached.
 def frame_points(customers: int) -> bytes:
-    """Return the points of a frame, row by row: a light wall, with a dark figure for each customer."""
+    """Return the pixels of a frame, row by row: a light wall, with a dark shape for each customer."""
     return b"".join(_frame_row(row, customers) for row in range(HEIGHT))
 
 
 def sees_customer(frame: Frame) -> bool:
-    """Return whether a frame shows a customer: at least a tenth of its points are dark.
+    """Return whether a frame shows a customer: at least a tenth of its pixels are dark.
 
-    Raises ValueError for a malformed frame: its encoding is not mono8, it has no points, its rows are longer
+    Raises ValueError for a malformed frame: its encoding is not mono8, it has no pixels, its rows are longer
     than its step, or its data do not have `height * step` bytes.
     """
     if frame.encoding != "mono8":
@@ -100,7 +94,7 @@ def sees_customer(frame: Frame) -> bool:
 
 
 def _frame_row(row: int, customers: int) -> bytes:
-    """Return the points of one row, with the figures of all customers."""
+    """Return the pixels of one row, with the shapes of all customers."""
     points = bytearray(BRIGHT + _shade(row, column) for column in range(WIDTH))
     for column in _figures(row / HEIGHT, customers):
         points[column] = DARK_COAT + _shade(row, column)
@@ -108,7 +102,7 @@ def _frame_row(row: int, customers: int) -> bytes:
 
 
 def _figures(y: float, customers: int) -> set[int]:
-    """Return the columns of all figures at `y`, which is 0 at the top and 1 at the bottom."""
+    """Return the columns of all customers at `y`, which is 0 at the top and 1 at the bottom."""
     head = HEAD**2 - (y - 0.3) ** 2
     half = round(HEIGHT * head**0.5) if head > 0 else round(HEIGHT * SHOULDERS) if y >= 0.46 else -1
     middles = [WIDTH * number // (customers + 1) for number in range(1, customers + 1)]

@@ -1,4 +1,4 @@
-"""The printer of a cash register. This module does not need ROS."""
+"""The printer of a cash register; without ROS."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 
 from course_pkg.errors import PrinterFailed
 
-LINE = 0.01  # time in s to print a line
+LINE = 0.01  # Printing a line takes this time in s.
 
 
 class Printer:
@@ -18,7 +18,7 @@ class Printer:
 
     def __init__(self, paper: int = 1000) -> None:
         self.lines: list[str] = []
-        self.paper = paper  # the number of lines that fit on the paper
+        self.paper = paper  # This number of lines fits on the paper.
         self._busy = threading.Lock()
 
     def print(self, text: str) -> None:

@@ -1,6 +1,4 @@
-"""The customers that a camera sees at a counter, and functions that wait for a customer.
-
-This module does not need ROS.
+"""The customers that a camera sees at a counter, and functions that wait for a customer; without ROS.
 
 A Watch receives messages with the customers' numbers. An Eye receives frames, which are pictures of the
 counter.
@@ -18,10 +16,11 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-POLL = 0.25  # time in s between two checks whether the camera still sends messages
-FRAME_TIMEOUT = 1.0  # s; if an Eye receives no valid frame for this time, the state of the counter is unknown
+POLL = 0.25  # This is the time in s between two checks whether the camera still sends messages.
+# If an Eye receives no valid frame for this time in s, the state of the counter is unknown.
+FRAME_TIMEOUT = 1.0
 
-Time: TypeAlias = "float | genpy.Time"  # a time of a Watch's clock
+Time: TypeAlias = "float | genpy.Time"  # This is a time of the clock of a Watch.
 Frame = TypeVar("Frame")
 
 
@@ -32,7 +31,7 @@ class CameraMessage(Protocol):
 
 
 class Customer(NamedTuple):
-    """A customer at the counter: the customer's number, and the time at which the Watch first received it."""
+    """A customer at the counter: the customer's number, and the time of the first message with it."""
 
     number: int
     arrived: Time
@@ -41,18 +40,18 @@ class Customer(NamedTuple):
 class Watch:
     """The customers at the counter.
 
-    Hold the condition `changed` while you read the customers or wait for a change.
+    Acquire the condition `changed` before you read the customers or wait for a change.
     """
 
     def __init__(self, now: Callable[[], Time] = time.time) -> None:
         self.changed = threading.Condition()
         self._now = now
         self._there: tuple[Customer, ...] = ()
-        self._last = -float("inf")  # the time of the camera's last message, in s of time.monotonic()
+        self._last = -float("inf")  # The camera's last message arrived at this time of time.monotonic().
 
     @property
     def silent_for(self) -> float:
-        """The time since the camera's last message in s, or infinity before the first message."""
+        """The time since the camera's last message in s; infinity before the first message."""
         return time.monotonic() - self._last
 
     @property
@@ -77,13 +76,13 @@ class Watch:
             return came
 
     def next(self, after: int = 0) -> Customer | None:
-        """Return the customer with the lowest number above `after`, or None. This method does not wait."""
+        """Return the customer with the lowest number above `after`, or None; this method does not wait."""
         return min((customer for customer in self._there if customer.number > after), default=None)
 
     def wait(self, after: int, patience: float, silence: float) -> Customer | None:
-        """Wait for a customer with a number above `after`, and return this customer.
+        """Wait up to `patience` s for a customer with a number above `after`; return the customer or None.
 
-        Returns None after `patience` s. Raises CameraSilent if no message has arrived for `silence` s.
+        Raises CameraSilent if no message has arrived for `silence` s.
         """
         deadline = time.monotonic() + patience
         with self.changed:
@@ -107,7 +106,7 @@ class Eye(Generic[Frame]):
         self.changed = threading.Condition()
         self._sees = sees
         self._seen = False
-        self._last = -float("inf")  # the time of the newest valid frame, in s of time.monotonic()
+        self._last = -float("inf")  # The newest valid frame arrived at this time of time.monotonic().
 
     def hear(self, frame: Frame) -> None:
         """Process a frame, but ignore a malformed frame; this method is the callback of a subscriber."""
@@ -120,10 +119,7 @@ class Eye(Generic[Frame]):
             self.changed.notify_all()
 
     def look(self) -> bool | None:
-        """Return whether a customer is at the counter.
-
-        Return None if no valid frame arrived in the last second.
-        """
+        """Return whether a customer is at the counter, or None without a valid frame in the last second."""
         return self._seen if time.monotonic() - self._last <= FRAME_TIMEOUT else None
 
 

@@ -1,4 +1,4 @@
-"""The course as a static site. Its pages open from a folder, without a network and without a kernel."""
+"""The course as a static site. The pages work from a local folder, without a network and without a kernel."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""The whole course as one document; this machine's Chromium prints it to a PDF file."""
+"""The whole course as one document; Chromium prints it to a PDF file."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ OPTIONS = (
     "--no-first-run",
     "--no-pdf-header-footer",
     "--generate-pdf-document-outline",
-    "--virtual-time-budget=20000",  # ms; enough time to draw the panels of all chapters
+    "--virtual-time-budget=20000",  # The drawing of all panels takes less than this virtual time in ms.
 )
 LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 

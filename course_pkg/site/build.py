@@ -25,7 +25,7 @@ from course_pkg.site.runs import Runs
 from course_pkg.site.scripts import panels_script, panels_sheet
 from course_pkg.site.search_index import Section, script, sections
 
-LIST = ".course-site"  # this file in the site's folder lists all files of the site
+LIST = ".course-site"  # This file in the site's folder lists all files of the site.
 ASSETS = Path(__file__).with_name("assets")
 FOOTER = (
     "These pages use no network: all files that they load are in the same folder. "
@@ -38,7 +38,7 @@ PANEL_CLASS = 'class="panel"'
 class PageSource(NamedTuple):
     """A chapter for which the site has a page.
 
-    `trouble` is the reason why the page does not show the latest run, or "" if it does.
+    `trouble` says why the page does not show the latest run, and is "" if the page shows it.
     """
 
     chapter: Chapter
@@ -49,7 +49,7 @@ class PageSource(NamedTuple):
 
 
 def write_site(settings: Settings, store: NotebookStore | None = None, runs: Runs | None = None) -> list[str]:
-    """Write the site, and return a message for each chapter whose run failed.
+    """Write the site, and return a message for each chapter with a failed run.
 
     The pages of these chapters show the stored outputs.
     """
@@ -111,7 +111,7 @@ def _pages(renderer: Renderer, books: Sequence[PageSource], settings: Settings) 
 
 
 def _links(each: PageSource, settings: Settings) -> list[tuple[str, str, bool]]:
-    """Return the links to the notebook file: (label, address, whether the file is a part of the site)."""
+    """Return the links to the notebook: (label, address, whether the file belongs to the site)."""
     links = [("Download this chapter", f"notebooks/{each.source.name}", True)]
     if settings.binder:
         place = quote(f"notebooks/{each.source.name}", safe="")
@@ -125,7 +125,7 @@ def _sections(books: Sequence[PageSource]) -> Iterator[Section]:
 
 
 def _bodies(books: Sequence[PageSource], exporter: Exporter) -> list[tuple[Chapter, Body]]:
-    """Return the chapters for the book; the anchors of each chapter have their own prefix."""
+    """Return the chapters for the book; the anchors of each chapter have a different prefix."""
     return [
         (each.chapter, exporter.body(each.notebook, prefix(each.chapter), each.source.parent))
         for each in books
@@ -135,11 +135,11 @@ def _bodies(books: Sequence[PageSource], exporter: Exporter) -> list[tuple[Chapt
 class Settings(NamedTuple):
     """The options of `course site`.
 
-    `out` is the folder to write to. If `student` is true, the pages show the students' notebooks; otherwise
-    they show the solutions. `chapters` are the chapters to run again if they have changed. For all other
-    chapters, and if `execute` is false for all chapters, the site shows the last run. `binder` is the address
-    that opens the repository in Binder, without the query. If `book` is true, the site has one more page,
-    which contains all chapters.
+    `out` is the output folder. If `student` is True, the pages show the students' notebooks; otherwise, they
+    show the solutions. `chapters` lists the chapters that run again if they have changed. For all other
+    chapters, the site shows the last run. If `execute` is False, no chapter runs again. `binder` is the
+    address that opens the repository in Binder, without the query. If `book` is True, the site also has a
+    page with all chapters.
     """
 
     out: Path
@@ -151,10 +151,10 @@ class Settings(NamedTuple):
 
 
 class Folder:
-    """The folder of a site while it is written; it is a context manager.
+    """The folder of a site during writing; it is a context manager.
 
-    If the block ends without an exception, it removes the files of the earlier site that were not written
-    again.
+    If the block ends without an exception, all files of the earlier site that were not written again are
+    removed.
     """
 
     def __init__(self, path: Path) -> None:

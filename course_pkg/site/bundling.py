@@ -1,8 +1,8 @@
 """Builds the scripts, fonts and licences that every page loads: `python -m course_pkg.site.bundling`.
 
-The build downloads packages from the npm registry and needs Node. You need Node only if you change these
-files, because the built files are in `assets/`. A test builds the files again, and compares them with the
-stored files.
+The build downloads packages from the npm registry and needs Node. Only a maintainer who changes these files
+needs Node, because the built files are stored in `assets/`. A test builds the files again, and compares them
+with the stored files.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ ASSETS = HERE / "assets"
 BUILT = ("early.js", "fonts.css", "site.js", "LICENSES.txt")
 AXE = "axe.min.js"  # No page loads this file. The tests use it to check the pages.
 TESTS = Path(__file__).parents[2] / "tests" / "site"
-TIMEOUT = 300  # s for one npm command, which may download packages
+TIMEOUT = 300  # One npm command may take this many s, because it may download packages.
 
 
 def build(target: Path, names: Sequence[str] = (*BUILT, AXE)) -> list[Path]:
     """Build the files `names` in the folder `target`, and return their paths.
 
-    The build uses a temporary folder, because rosrun would search a node_modules folder inside the package.
-    Raises SiteError if npm is missing or fails.
+    The build uses a temporary folder, because rosrun would also search a node_modules folder inside the
+    package. Raises SiteError if npm is missing or fails.
     """
     with tempfile.TemporaryDirectory(prefix="course-bundle-") as folder:
         work = Path(shutil.copytree(BUNDLE, Path(folder) / "bundle"))

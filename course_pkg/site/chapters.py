@@ -1,7 +1,4 @@
-"""The data of each chapter on the landing page: its title, time, goals and points.
-
-They come from the notebook.
-"""
+"""The data of each chapter on the landing page: its title, time, goals and points."""
 
 from __future__ import annotations
 
@@ -22,13 +19,13 @@ class Chapter(NamedTuple):
     `lead`, `will` and `need` are Markdown. `minutes` is 0 if the notebook does not contain a time.
     """
 
-    name: str  # the name of the chapter's files without the extension, such as 05_write_a_server
+    name: str  # `name` is the name of the chapter's files without the extension, such as 05_write_a_server.
     title: str
     lead: str
     will: str
     need: str
     minutes: int
-    points: tuple[int, ...]  # the points of each exercise
+    points: tuple[int, ...]  # `points` contains the points of each exercise.
 
     @property
     def number(self) -> str:
@@ -42,12 +39,12 @@ class Chapter(NamedTuple):
 
     @property
     def full_title(self) -> str:
-        """The chapter's number and title, as links show them."""
+        """The chapter's number and title, as in a link."""
         return f"{self.number} {self.title}"
 
 
 def chapter_of(name: str, notebook: Notebook) -> Chapter:
-    """Return the chapter of the notebook called `name`, from the notebook's first cell and its exercises."""
+    """Return the chapter of the notebook `name`, from the notebook's first cell and its exercises."""
     first = str(notebook["cells"][0]["source"]) if notebook["cells"] else ""
     title = TITLE.match(first)
     labels = {found["label"]: found["text"].strip() for found in LABEL.finditer(first)}

@@ -72,14 +72,14 @@ class _Reader(HTMLParser):
             self._inside.append(tag)
 
     def handle_endtag(self, tag: str) -> None:
-        """Record the end of an element whose text is not prose, such as <pre>."""
+        """Record the end of an element without prose, such as <pre>."""
         if self._inside and self._inside[-1] == tag:
             self._inside.pop()
 
     def handle_data(self, data: str) -> None:
         """Record formulas that are still LaTeX.
 
-        Only formulas in prose become MathML, not those in a cell's output.
+        Only formulas in prose must be MathML; a cell's output may contain LaTeX.
         """
         if not self._inside and (found := FORMULA.search(data)):
             self.faults.append(f"{found[0]} looks like a formula, but is not rendered")

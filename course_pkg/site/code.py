@@ -1,4 +1,4 @@
-"""Code as HTML with colours. It uses as little markup as possible, because a page is mostly code."""
+"""Code as HTML with colours. The HTML has as little markup as possible, because a page contains much code."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pygments.lexers import get_lexer_by_name
 from pygments.token import Comment, Keyword, Name, Number, Operator, String, _TokenType
 from pygments.util import ClassNotFound
 
-# The kinds of tokens that get a colour; a subtype comes before its parent type. The letters are classes in
+# These kinds of tokens get a colour; a subtype comes before its parent type. The letters are classes in
 # site.css.
 COLOURS = (
     (Comment, "c"),
@@ -45,7 +45,7 @@ FILES = {
 class Highlighter:
     """Adds colours to cells and to fenced blocks.
 
-    It creates the lexer of each language only when it is first needed.
+    The lexer of a language is created when it is first needed.
     """
 
     def __init__(self) -> None:
@@ -63,7 +63,7 @@ class Highlighter:
         return f"<i class=k>{escape(first, quote=False)}</i>" + self.block(rest, _language(magic))
 
     def block(self, source: str, language: str) -> str:
-        """Return `source` as HTML. It has colours if Pygments knows `language`."""
+        """Return `source` as HTML. The HTML has colours if Pygments knows `language`."""
         lexer = self._lexer(language)
         coloured = ((_colour(kind), text) for kind, text in lexer.get_tokens(source.rstrip("\n")))
         return "".join(_runs(coloured)).rstrip("\n")

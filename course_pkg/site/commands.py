@@ -1,4 +1,4 @@
-"""`course site`: it writes the site, checks it, prints the book, and lists the problems."""
+"""`course site`: writes the site, checks it, prints the book, and lists the problems."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ COMMANDS = {
 }
 
 
-# the environment variable with the address that opens the repository and its branch in Binder
+# This environment variable contains the address that opens the repository and its branch in Binder.
 BINDER = "COURSE_BINDER"
 
 

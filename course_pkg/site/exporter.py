@@ -1,4 +1,4 @@
-"""A notebook as the body of a page: nbconvert renders it with the course's own template."""
+"""Converts a notebook to the body of a page; nbconvert renders it with the course's template."""
 
 from __future__ import annotations
 
@@ -60,20 +60,20 @@ SOMEWHERE = {
     "td": {"colspan", "rowspan"},
     "th": {"colspan", "rowspan", "scope"},
 }
-VERDICT = ["border-left"]  # the CSS property by which a report shows whether the check has passed
-PLAIN = re.compile(r"[-\w\s:;#.%]*")  # a style without a function of CSS, such as url()
+VERDICT = ["border-left"]  # A report uses this CSS property to show whether the check has passed.
+PLAIN = re.compile(r"[-\w\s:;#.%]*")  # The pattern matches a style without a CSS function such as url().
 PICTURE = re.compile(r"data:image/(png|jpeg|gif|webp);base64,[A-Za-z0-9+/=\s]*")
 HERE = Path(__file__).parent
 PARTS = {"include_code": True, "include_input": True, "include_output": True, "include_markdown": True}
 SHOWN = [PANEL, "text/html", "image/svg+xml", "image/png", "image/jpeg", "text/plain"]
 TITLE = re.compile(r"\s*<svg\b[^>]*>\s*<title>([^<]+)</title>")
 TEXT = re.compile(r"<text\b[^>]*>([^<]+)</text>")
-NUMBER = re.compile(r"[-\u2212+]?[\d.]+(e[-+]?\d+)?")  # a number at an axis of a plot
+NUMBER = re.compile(r"[-\u2212+]?[\d.]+(e[-+]?\d+)?")  # The pattern matches a number at an axis of a plot.
 CONTROL = re.compile(r"\x1b\[[0-9;?]*[A-LN-Za-ln-z]|\x1b\][^\x07]*\x07|[\x00-\x08\x0b\x0c\x0e-\x1a\x1c-\x1f]")
 
 
 class Body(NamedTuple):
-    """The body of a page, and the headings in this body: (level, anchor, text)."""
+    """The body of a page, and its headings as tuples (level, anchor, text)."""
 
     html: str
     headings: list[tuple[int, str, str]]
@@ -103,7 +103,7 @@ class Exporter(HTMLExporter):
 
     @property
     def default_config(self) -> Config:
-        """The settings: the MIME types that a page can show, in order of preference. Scripts are excluded."""
+        """The settings: the MIME types for pages in order of preference, without scripts."""
         own = Config({"NbConvertBase": {"display_data_priority": SHOWN}})
         inherited: Config = super().default_config.copy()
         inherited.merge(own)
@@ -146,7 +146,7 @@ def _has_a_form(output: Output) -> bool:
 def packed(states: Sequence[Mapping[str, Plain]]) -> str:
     """Return the states of a page's panels, in their order.
 
-    They are JSON, compressed with zlib, in base64.
+    The result is JSON, compressed with zlib, in base64.
     """
     text = json.dumps(states, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(zlib.compress(text.encode(), 9)).decode()
@@ -155,7 +155,7 @@ def packed(states: Sequence[Mapping[str, Plain]]) -> str:
 def picture(data: str, kind: str, metadata: Mapping[str, Mapping[str, str]]) -> str:
     """Return a picture as an <img> element that contains the picture's data.
 
-    A script in an SVG cannot run there.
+    A script in an SVG cannot run in such an element.
     """
     code = base64.b64encode(data.encode()).decode() if kind == "image/svg+xml" else data.replace("\n", "")
     about = metadata.get(kind, {})
@@ -166,7 +166,7 @@ def picture(data: str, kind: str, metadata: Mapping[str, Mapping[str, str]]) -> 
 
 
 def description(svg: str) -> str:
-    """Return the title of a panel's picture, or the labels of a plot, for readers who cannot see it.
+    """Return the title of a panel's picture, or the labels of a plot, as a text for screen readers.
 
     The labels of a plot are its title and the labels of its axes and legend, but not the numbers at its axes.
     """
@@ -180,14 +180,15 @@ def description(svg: str) -> str:
 def terminal(text: str) -> str:
     """Return the output of a terminal as HTML.
 
-    Colours stay. A carriage return overwrites the line, as in a terminal. Other control codes are removed.
+    Colours do not change. A carriage return overwrites the line, as in a terminal. All other control codes
+    are removed.
     """
     lines = (line.rpartition("\r")[2] for line in text.replace("\r\n", "\n").split("\n"))
     return str(ansi2html(CONTROL.sub("", "\n".join(lines)))).strip("\n")
 
 
 class Sanitizer:
-    """Removes everything from HTML except text, its structure, links, and pictures with their own data."""
+    """Removes everything from HTML except text, its structure, links, and pictures with embedded data."""
 
     def __init__(self) -> None:
         self._cleaner = Cleaner(
@@ -200,7 +201,7 @@ class Sanitizer:
         )
 
     def __call__(self, html: str) -> str:
-        """Return `html` without anything that could run code, load a file, or look like the site's page."""
+        """Return `html` without elements that could run code, load a file, or look like the site's page."""
         return str(self._cleaner.clean(html))
 
 

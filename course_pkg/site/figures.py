@@ -1,10 +1,10 @@
-"""The figures in the Markdown of a notebook, as HTML.
+"""Converts the figures in the Markdown of a notebook to HTML.
 
-The HTML contains the data of the figures, because a page loads no other file.
+The HTML contains the data of the figures, because a page must not load image files.
 
-A drawing (SVG) becomes part of the page's HTML, so that a reader can select and find its text. A drawing uses
-the page's colours if its text has the colour `currentColor` and its white background is `<rect class="ground"
-…>`; the page does not fill this rectangle. Any other drawing keeps a white background, even in dark mode.
+A drawing (SVG) becomes part of the page's HTML, so readers can select and search its text. A drawing uses the
+page's colours if its text has the colour `currentColor`, and its white background is `<rect class="ground"
+…>`. The page does not fill such a rectangle. Any other drawing has a white background, even in dark mode.
 """
 
 from __future__ import annotations
@@ -23,20 +23,21 @@ SHAPES = ("circle", "ellipse", "line", "path", "polygon", "polyline", "rect", "t
 DRAWN = frozenset(
     (*SHAPES, "svg", "g", "defs", "marker", "clipPath", "linearGradient", "radialGradient", "stop")
 )
-SAID = ("title", "desc")  # the description in the Markdown replaces these elements
-WITHIN = re.compile(r"url\(#([^)]*)\)")  # a reference to another element of the same drawing
+SAID = ("title", "desc")  # The description in the Markdown replaces these elements.
+# The pattern matches a reference to another element of the same drawing.
+WITHIN = re.compile(r"url\(#([^)]*)\)")
 KINDS = {".png": "png", ".jpg": "jpeg", ".jpeg": "jpeg", ".gif": "gif", ".webp": "webp"}
 # The minimum width of a drawing, divided by the drawing's own width. In a narrower window, the drawing gets a
-# scroll bar, because its text would be too small.
+# scroll bar, because smaller text cannot be read.
 SMALLEST = 0.75
 
 
 def figure(folder: Path, url: str, alt: str, prefix: str) -> str:
     """Return the figure `url` of a notebook as HTML; `folder` is the folder of the notebook.
 
-    All ids in a drawing begin with `prefix`, so that two drawings of a page have no id in common. Raises
-    SiteError if the figure's file is missing or has another format, if the figure has no description (`alt`),
-    or if a drawing contains a script or another element that a page does not allow.
+    All ids in a drawing begin with `prefix`, so two drawings on a page have different ids. Raises SiteError
+    if the file is missing or has another format, if the description `alt` is empty, or if a drawing contains
+    a script or another forbidden element.
     """
     if not alt.strip():
         raise SiteError(f"The figure {url} has no description. Write one: ![description]({url}).")
@@ -80,8 +81,7 @@ def _width(root: ElementTree.Element) -> float:
 def _carried(path: Path, element: ElementTree.Element, prefix: str) -> None:
     """Give an element its HTML name and an id that is unique on the page.
 
-    Raises SiteError if a page must not contain this element, such as a script, or if an attribute runs code
-    or loads a file.
+    Raises SiteError for a forbidden element such as a script, or if an attribute runs code or loads a file.
     """
     element.tag = element.tag.removeprefix(NAMESPACE)
     if element.tag not in DRAWN:

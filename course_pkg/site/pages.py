@@ -29,10 +29,10 @@ POLICY = (
 
 
 class Page(NamedTuple):
-    """The parts that differ between pages; `html` is the part between the header and the footer."""
+    """The parts that differ between pages; `html` is the content between the header and the footer."""
 
     file: str
-    kind: str  # chapter, landing, glossary or book
+    kind: str  # The value is chapter, landing, glossary or book.
     title: str
     description: str
     html: Markup
@@ -44,16 +44,16 @@ class Page(NamedTuple):
 
 
 class Choice(NamedTuple):
-    """The chapters of a learning path in their order, and their total time as text."""
+    """The chapters of a learning path in order, and their total time as text."""
 
     chapters: Sequence[Chapter]
     hours: str
 
 
 class LearningPath(NamedTuple):
-    """A selection of chapters; they require no chapter outside the selection.
+    """A selection of chapters that require no other chapter.
 
-    A path with two possible ends has two choices.
+    A path with two possible last chapters has two choices.
     """
 
     name: str
@@ -86,13 +86,12 @@ class Renderer:
         self._assets = assets
 
     def part(self, template: str, **values: object) -> Markup:
-        """Return the template filled with `values`; it escapes a str, but not Markup."""
+        """Return the template, filled with `values`; a str is escaped, but Markup is not escaped."""
         return Markup(self._environment.get_template(template).render(**self._frame, **values))  # noqa: S704
 
     def page(self, page: Page) -> str:
         """Return the HTML of the complete page."""
-        # The nonce is computed from the whole page; therefore, code in a stored output cannot contain the
-        # nonce.
+        # The nonce depends on the whole page, so code in a stored output cannot contain the nonce.
         nonce = digest([self._assets, page.html])
         policy = POLICY.format(nonce=nonce)
         return str(self.part("frame.html.j2", page=page, nonce=nonce, policy=policy))
@@ -122,7 +121,10 @@ def landing(renderer: Renderer, chapters: Sequence[Chapter]) -> Page:
 
 
 def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
-    """Return the learning paths through `chapters`; if a path lists no chapters, it contains all chapters."""
+    """Return the learning paths through `chapters`.
+
+    A path without a list of chapters contains all chapters.
+    """
     by_number = {chapter.number: chapter for chapter in chapters}
     found = []
     for path in json.loads(PATHS.read_text("utf-8")):
@@ -140,5 +142,5 @@ def learning_paths(chapters: Sequence[Chapter]) -> list[LearningPath]:
 
 
 def drawing() -> Markup:
-    """Return the drawing of the landing page, which compares a topic with a service."""
+    """Return the landing page's drawing, which compares a topic with a service."""
     return Markup((HERE / "template" / "waiting.svg").read_text("utf-8"))  # noqa: S704 -- a file of ours

@@ -1,6 +1,6 @@
 """Converts Markdown to HTML.
 
-It escapes raw HTML, adds anchors to headings, and changes links into the site's links.
+The class escapes raw HTML, adds anchors to headings, and changes links into the site's links.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ NOTEBOOK = re.compile(r"(?P<name>\d\d_\w+)\.ipynb(?P<anchor>#.*)?$")
 
 
 class Prose:
-    """Renders the Markdown of one page, and gives each heading an anchor.
+    """Renders the Markdown of one page, and adds an anchor to each heading.
 
     `highlight` converts code and the name of its language into HTML. `figure` converts the address and the
     description of a figure into HTML. All anchors begin with `prefix`.
@@ -32,7 +32,8 @@ class Prose:
         prefix: str = "",
         figure: Callable[[str, str], str] | None = None,
     ) -> None:
-        self.headings: list[tuple[int, str, str]] = []  # level, anchor, text
+        # Each tuple contains the level, the anchor and the text of a heading.
+        self.headings: list[tuple[int, str, str]] = []
         self.figure = figure or _no_figure
         self._render = create_markdown(renderer=_Renderer(self, highlight), plugins=PLUGINS)
         self._taken: set[str] = set()
@@ -67,7 +68,7 @@ class _Renderer(HTMLRenderer):
         return f'<div class="wide"><table>{text}</table></div>\n'
 
     def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
-        # an empty cell in the corner of a table is not a header
+        # An empty corner cell of a table is not a header.
         tag = "th" if head and text.strip() else "td"
         style = f' style="text-align:{align}"' if align else ""
         return f"<{tag}{style}>{text}</{tag}>"
@@ -97,7 +98,7 @@ def _no_figure(url: str, _alt: str) -> str:
 def page_of(url: str) -> str:
     """Return the site's address for a link in a notebook.
 
-    A link to another chapter becomes a link to its page.
+    For a link to another chapter, return the address of the chapter's page.
     """
     notebook = NOTEBOOK.fullmatch(url)
     return f"{notebook['name']}.html{notebook['anchor'] or ''}" if notebook else url
@@ -108,11 +109,11 @@ def mathml(formula: str, display: Literal["inline", "block"]) -> str:
 
     Raises SiteError for an invalid formula.
     """
-    from latex2mathml.converter import convert  # imported here, because few pages have a formula
+    from latex2mathml.converter import convert  # The import is here, because few pages have a formula.
 
     try:
         return str(convert(formula.strip(), display=display))
-    except Exception as error:  # latex2mathml's exceptions have no common base class
+    except Exception as error:  # The exceptions of latex2mathml have no common base class.
         raise SiteError(f"The formula ${formula}$ cannot be read: {type(error).__name__} {error}") from error
 
 

@@ -1,14 +1,14 @@
 """Records panels while a notebook runs, so that the site can show real responses without a kernel.
 
-A chapter's file `recordings.json` contains plans for some cells; each key is the id of a cell. The keys of a
-plan:
+A chapter's file `recordings.json` contains plans for some cells; each key is the id of a cell. A plan has
+these keys:
 
-- `record`: the requests that a service panel sends, or the cases of BreakIt with the tools to use in each
-  case. The page answers with the recorded responses.
+- `record`: the requests that a service panel sends, or the cases of BreakIt with their tools. The
+  page answers with the recorded responses.
 - `pick`: the name of the service, if the code of the cell does not name a service.
 - `watch`: the seconds for which the panel works as if a page showed it.
-- `calls`: the calls that the notebook's own node makes during this time. Each has the name of a service, its
-  type, and the fields of the request.
+- `calls`: the calls that the notebook's own node makes during these seconds. Each call has the name of a
+  service, its type, and the fields of the request.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Plan(TypedDict, total=False):
 
 
 class Panel(Protocol):
-    """The methods of a panel that a plan may call; a panel has only the methods that its plan needs."""
+    """The methods of a panel that a plan may call; a panel needs only the methods that its plan uses."""
 
     def received(self, kind: str, content: Mapping[str, Plain]) -> None:
         """Handle a message in the same way as a message from the front end."""
@@ -48,10 +48,10 @@ class Panel(Protocol):
         """Send the requests to the service, and record the responses."""
 
     def shown(self) -> None:
-        """Start the work that the panel does while a page shows it."""
+        """Start the work that the panel does only while a page shows it."""
 
     def hidden(self) -> None:
-        """Stop the work that `shown` has started."""
+        """Stop the work that `shown` started."""
 
 
 def plans(name: str) -> dict[str, Plan]:
@@ -62,7 +62,7 @@ def plans(name: str) -> dict[str, Plan]:
 
 
 def with_recordings(name: str, notebook: Notebook) -> Notebook:
-    """Return a copy of `notebook` with one more cell for each plan, below the cell that shows the panel."""
+    """Return a copy of `notebook` with a recording cell for each plan, below the panel's cell."""
     planned = plans(name)
     cells: list[Cell] = []
     for cell in notebook["cells"]:
@@ -78,14 +78,14 @@ def without_recordings(notebook: Notebook) -> Notebook:
 
 
 def record_panel(panel: Panel, plan: Plan) -> None:
-    """Record a panel as `plan` says; this runs in the notebook's kernel.
+    """Record a panel according to `plan`; this function runs in the notebook's kernel.
 
-    If a service has no server, its call is not recorded.
+    A call to a service without a server is not recorded.
     """
     if "pick" in plan:
         panel.received("pick", {"service": plan["pick"]})
     if "record" in plan:
-        with suppress(CourseError):  # in a student's notebook, the server is often not written yet
+        with suppress(CourseError):  # In a student's notebook, the server is often not written yet.
             panel.record(plan["record"])
     if "watch" in plan:
         panel.shown()
@@ -95,21 +95,22 @@ def record_panel(panel: Panel, plan: Plan) -> None:
 
 def _call_during(seconds: float, calls: Sequence[tuple[str, str, Mapping[str, float]]]) -> None:
     """Make the calls at equal intervals during `seconds` s."""
-    from course_pkg.ros import this_node  # imported here, because only a recording with calls needs rospy
+    # The import is here, because only a recording with calls needs rospy.
+    from course_pkg.ros import this_node
 
     for name, kind, fields in calls:
         time.sleep(seconds / (len(calls) + 1))
         if node := this_node():
-            with suppress(CourseError):  # in a student's notebook, the server is often not written yet
+            with suppress(CourseError):  # In a student's notebook, the server is often not written yet.
                 node.call(name, kind, **fields)
     time.sleep(seconds / (len(calls) + 1))
 
 
 def _recording(shown: Cell, plan: Plan) -> Cell:
-    """Return a cell that records the panel of the cell above; it defines no variable.
+    """Return a cell that records the panel of the cell above; the new cell defines no variable.
 
-    The new cell reads the panel from `_oh`, IPython's list of results. It cannot use `_`, because a notebook
-    may define a variable called `_`.
+    The new cell reads the panel from `_oh`, IPython's dict of results. The new cell cannot use `_`, because a
+    notebook may define a variable with this name.
     """
     added = copy.deepcopy(shown)
     added["id"] = f"recording-{shown['id']}"[:64]
@@ -121,7 +122,7 @@ def _recording(shown: Cell, plan: Plan) -> Cell:
 
 
 def embed_states(notebook: Notebook) -> None:
-    """Replace each output that shows a panel by the panel's last state; remove all other widgets."""
+    """Replace each output that shows a panel with the panel's last state; remove all other widgets."""
     panels = SavedPanels(notebook)
     notebook["metadata"].pop("widgets", None)
     for cell in code_cells(notebook):

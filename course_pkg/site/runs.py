@@ -1,7 +1,7 @@
-"""Runs notebooks for the site, and keeps their outputs.
+"""Runs notebooks for the site, and stores their outputs.
 
-A notebook runs again only if its code has changed, or a file that its code uses. The site cannot use the
-outputs of the stored notebooks: they do not contain the states of panels, which differ in each run.
+A notebook runs again only if its code, or a file that its code uses, has changed. The site cannot use the
+stored notebooks' outputs, because these outputs do not contain the states of panels.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from course_pkg.setup import CATKIN_FOLDERS, Places
 from course_pkg.setup.stamps import digest
 from course_pkg.site.recordings import embed_states, plans, with_recordings, without_recordings
 
-# No notebook runs the modules in these folders, so no notebook has to run again if they change.
+# Notebooks do not use the modules in these folders, so a change of these modules causes no new run.
 IDLE = ("chapters", "site", "grading", "lab", "authoring", "setup")
 RUN_BY = ("course_pkg/authoring/execute.py", "course_pkg/setup/locks/course.txt")
 
@@ -41,12 +41,13 @@ class Runs:
         self._shared = digest(self._package())
 
     def update(self, paths: Sequence[Path]) -> dict[Path, AuthoringError]:
-        """Run the notebooks whose code, or a file that the code uses, has changed, and keep the outputs.
+        """Run the notebooks whose code, or a file that the code uses, has changed, and store the outputs.
 
-        Several notebooks run at the same time. Returns the errors of the notebooks that did not run to their
-        end.
+        Several notebooks run at the same time. Returns the errors of the notebooks that stopped before their
+        last cell.
         """
-        from course_pkg.authoring.execute import run_all  # imported here, because only a run needs nbclient
+        # The import is here, because only a run needs nbclient.
+        from course_pkg.authoring.execute import run_all
         from course_pkg.authoring.normalise import tidy
 
         new = {path.stem: path for path in paths if self._kept(path, "key", self._key(path)) is None}
@@ -67,9 +68,9 @@ class Runs:
     def latest(self, path: Path) -> Notebook | None:
         """Return the notebook with the outputs of its last run.
 
-        If there is no run with the present code, return None.
+        If there is no run with the current code, return None.
 
-        The package may have changed after this run.
+        The package may have changed after the last run.
         """
         notebook = read(path)
         shown = self._kept(path, "code", _code(notebook))
@@ -94,7 +95,7 @@ class Runs:
     def _package(self) -> Iterator[str | bytes]:
         """Yield the contents of all files that a notebook can run, read or import.
 
-        The checks of the chapters are excluded: `_key` adds the checks of a notebook's own chapter.
+        The checks of the chapters are left out: `_key` adds only the checks of the notebook's own chapter.
         """
         root = self._places.checkout
         yield sys.version
@@ -112,9 +113,9 @@ def _contents(files: Iterable[Path]) -> Iterator[str | bytes]:
 
 
 def _code(notebook: Notebook) -> str:
-    """Return a digest of the code cells, because a change of prose needs no new run.
+    """Return a digest of the code cells.
 
-    A change of prose does not change it, and needs no new run.
+    A change of prose does not change the digest, so it causes no new run.
     """
     return digest(cell["source"] for cell in code_cells(notebook))
 

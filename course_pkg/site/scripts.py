@@ -19,10 +19,10 @@ JSDOC = re.compile(r"^[ \t]*/\*\*(?:[^*]|\*(?!/))*\*/[ \t]*\n", re.MULTILINE)
 
 
 def panels_script(folder: Path = PANELS) -> str:
-    """Return a script that sets `coursePanels`, an object that maps the name of each panel to `{ render }`.
+    """Return a script that sets `coursePanels`: an object that maps the name of each panel to `{ render }`.
 
-    Each module of the panels becomes the body of one function. The function comes after the functions of the
-    modules that it imports.
+    Each module becomes the body of a function. The function comes after the functions of the modules that it
+    imports.
     """
     modules = _Modules(folder)
     found = _fronts(folder)
@@ -32,7 +32,7 @@ def panels_script(folder: Path = PANELS) -> str:
 
 
 def panels_sheet(folder: Path = PANELS) -> str:
-    """Return the style sheets of all panels; the style sheet that all panels share comes first."""
+    """Return the style sheets of all panels; the shared style sheet comes first."""
     return "\n".join(_text(path) for path in (folder / "look.css", *sorted(folder.glob("*/*.css"))))
 
 
@@ -46,7 +46,7 @@ def _fronts(folder: Path) -> dict[str, Path]:
 
 
 class _Modules:
-    """The modules of a folder. Each module is returned only once."""
+    """The modules of a folder."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder.resolve()
@@ -57,7 +57,7 @@ class _Modules:
         return "_" + re.sub(r"\W", "_", str(path.resolve().relative_to(self._folder).with_suffix("")))
 
     def needed(self, path: Path) -> Iterator[str]:
-        """Yield the modules that the module at `path` imports, and then this module.
+        """Yield the modules that the module at `path` imports, and then the module itself.
 
         Each module is yielded only once.
         """

@@ -15,7 +15,7 @@ LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
 MARKS = re.compile(r"[`*|#>]+|^\s*-{3,}\s*$|:?-{3,}:?", re.MULTILINE)
 
 
-Heading = tuple[int, str, str]  # level, anchor, text
+Heading = tuple[int, str, str]  # The tuple contains the level, the anchor and the text.
 
 
 class Section(NamedTuple):
@@ -30,7 +30,7 @@ class Section(NamedTuple):
 def sections(page: str, url: str, notebook: Notebook, headings: Sequence[Heading]) -> Iterator[Section]:
     """Yield the sections of a chapter, with their prose and code.
 
-    `headings` are the chapter's headings, in their order.
+    `headings` contains the chapter's headings in order.
     """
     coming = iter(headings)
     anchor, title, words = "", page, ""
@@ -47,12 +47,12 @@ def sections(page: str, url: str, notebook: Notebook, headings: Sequence[Heading
 
 
 def script(found: Iterable[Section]) -> str:
-    """Return the script that gives the texts to the search."""
+    """Return the script that contains the texts for the search."""
     return f"courseTexts({json.dumps(list(found), ensure_ascii=False, separators=(',', ':'))});\n"
 
 
 def plain(markdown: str) -> str:
-    """Return Markdown or code as one line, without marks such as `#`, `*` and links."""
+    """Return Markdown or code as one line without Markdown syntax such as `#`, `*` and links."""
     return " ".join(MARKS.sub(" ", LINK.sub(r"\1", markdown)).split())
 
 

@@ -7,9 +7,9 @@ import math
 Colour = tuple[int, int, int]
 Point = tuple[float, float]
 
-SIDE = 500  # px
-DEPTH = 3  # number of bytes of a pixel: red, green, blue
-EMPTY = (1.0, 0.0)  # an empty range, for a row that does not touch the line
+SIDE = 500  # The canvas has this width and height in px.
+DEPTH = 3  # A pixel has three bytes: red, green, blue.
+EMPTY = (1.0, 0.0)  # The range is empty if a row does not touch the line.
 
 
 class Canvas:
@@ -27,17 +27,14 @@ class Canvas:
         self._pixels[:] = bytes(colour) * (SIDE * SIDE)
 
     def colour_at(self, point: Point) -> Colour:
-        """Return the colour of the pixel nearest to `point` (px); the point may be outside the canvas."""
+        """Return the colour of the pixel nearest to `point` (px), which may be outside the canvas."""
         column, row = (min(max(math.floor(each + 0.5), 0), SIDE - 1) for each in point)
         start = (row * SIDE + column) * DEPTH
         red, green, blue = self._pixels[start : start + DEPTH]
         return red, green, blue
 
     def line(self, start: Point, end: Point, colour: Colour, width: int) -> None:
-        """Draw a straight line that is `width` px wide.
-
-        The line extends by half this width beyond each end.
-        """
+        """Draw a straight line with this width in px; both ends extend by half the width."""
         half = max(width, 1) / 2
         reach = half * math.sqrt(2)
         top = max(math.floor(min(start[1], end[1]) - reach), 0)
@@ -53,22 +50,19 @@ class Canvas:
 
 
 class _Rectangle:
-    """The rectangle that is covered by a line with a width and square ends."""
+    """The rectangle of a wide line with square ends."""
 
     def __init__(self, start: Point, end: Point, half: float) -> None:
         along = (end[0] - start[0], end[1] - start[1])
         length = math.hypot(*along)
         ux, uy = (along[0] / length, along[1] / length) if length else (1.0, 0.0)
         # A rectangle has two pairs of parallel edges. Each entry is (ux, uy, low, high): the unit vector at a
-        # right angle to two edges, and the positions of these edges along this vector.
+        # right angle to two edges, and the positions of these edges along the vector.
         self._pairs = ((ux, uy, -half, length + half), (-uy, ux, -half, half))
         self._start = start
 
     def across(self, y: float) -> tuple[float, float]:
-        """Return the range of x in which the row at `y` is inside the rectangle.
-
-        Return EMPTY if the row is outside.
-        """
+        """Return the range of x in which the row at `y` is inside the rectangle, or EMPTY."""
         x, dy = self._start[0], y - self._start[1]
         left, right = -math.inf, math.inf
         for ux, uy, low, high in self._pairs:

@@ -1,4 +1,4 @@
-"""The node `draw_square`: drives turtle1 along a square, and uses the turtle's pose to steer."""
+"""The node `draw_square`: drives turtle1 along a square by feedback from its pose."""
 
 from __future__ import annotations
 
@@ -13,20 +13,19 @@ from turtlesim.msg import Pose
 from course_pkg.ros import prepare_node
 from course_pkg.turtlesim.world import normalized
 
-SIDE = 2.0  # m
-CORNER = math.pi / 2  # rad
-SPEED = 1.0  # m/s; the maximum velocity
-TURN = 0.8  # rad/s; the maximum angular velocity
-TOLERANCE = 0.01  # m or rad
-SLOW = 4.0  # 1/s; velocity per remaining m (or rad): the turtle slows down at the end of a side or corner
+SIDE = 2.0  # A side of the square has this length in m.
+CORNER = math.pi / 2  # The turtle turns by this angle in rad at each corner.
+SPEED = 1.0  # This is the maximum velocity in m/s.
+TURN = 0.8  # This is the maximum angular velocity in rad/s.
+TOLERANCE = 0.01  # A side or corner may end with this error in m or rad.
+# This is the velocity in 1/s per remaining m or rad: the turtle slows down before the end of a side or
+# corner.
+SLOW = 4.0
 
 
 @dataclass(frozen=True)
 class Walker:
-    """The pose at the beginning of the current side or corner.
-
-    `turning` is true while the turtle turns at a corner.
-    """
+    """The pose at the beginning of the current side or corner; `turning` is true at a corner."""
 
     x: float
     y: float
@@ -36,7 +35,7 @@ class Walker:
     def steer(self, x: float, y: float, theta: float) -> tuple[float, float]:
         """Return the velocity (m/s) and the angular velocity (rad/s) for a pose of the turtle.
 
-        Both are 0 at the end of the side or corner.
+        At the end of the side or corner, the velocity and the angular velocity are 0.
         """
         if self.turning:
             rest = normalized(self.theta + CORNER - theta)
@@ -46,7 +45,7 @@ class Walker:
     def after(self, x: float, y: float) -> Walker:
         """Return the walker for the next side or corner, which begins at (x, y)."""
         if self.turning:
-            # the planned angle, because small errors would otherwise add up
+            # The planned angle is used, because small errors of the real angle would add up.
             return Walker(x, y, self.theta + CORNER)
         return replace(self, turning=True)
 

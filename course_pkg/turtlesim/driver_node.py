@@ -1,4 +1,4 @@
-"""The node that drives turtle1. Its services change the speed, the rate and the direction."""
+"""The node that drives turtle1, with services that change the speed, the rate and the direction."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from course_pkg.srv import (
 )
 from course_pkg.turtlesim.driving import SPEED, Toggling, keep_driving
 
-MAX_RATE = 100.0  # messages per second
+MAX_RATE = 100.0  # A driver publishes at most this number of velocity messages per second.
 
 
 class AdjustableDriver(Toggling):
@@ -31,7 +31,7 @@ class AdjustableDriver(Toggling):
         self.moving = True
 
     def velocity(self) -> tuple[float, float]:
-        """Return the present velocity in m/s, and the angular velocity in rad/s."""
+        """Return the current velocity in m/s, and the angular velocity in rad/s."""
         forward, turn = super().velocity()
         return (forward and self.speed, turn) if self.moving else (0.0, 0.0)
 
@@ -57,7 +57,7 @@ class DriverServices:
         return ChangeSpeedResponse(before)
 
     def start_stop(self, request: SetBoolRequest) -> SetBoolResponse:
-        """Start the turtle if `data` of the request is true, and stop it otherwise."""
+        """Start the turtle if the request's `data` is true, else stop it."""
         word = "moving" if request.data else "standing"
         already = self.driver.moving == request.data
         self.driver.moving = request.data
@@ -65,7 +65,7 @@ class DriverServices:
 
 
 def serve(services: DriverServices, *names: str) -> None:
-    """Provide the services `names`; they change the driver."""
+    """Offer the services `names`, which change the driver."""
     available = {
         "toggle_forward": (Empty, services.driver.handle_toggle),
         "change_rate": (ChangeRate, services.change_rate),
@@ -78,7 +78,7 @@ def serve(services: DriverServices, *names: str) -> None:
 
 
 def run(node: str, *services: str) -> None:
-    """Run a node called `node` that drives turtle1 and provides `services`, until it is shut down."""
+    """Run a node called `node` that drives turtle1 and offers `services`, until it is shut down."""
     rospy.init_node(node)
     prepare_node()
     driver = AdjustableDriver(_rate())
@@ -89,7 +89,7 @@ def run(node: str, *services: str) -> None:
 
 
 def _rate() -> float:
-    """Return the parameter ~rate, or 2 if it is not a valid rate."""
+    """Return the parameter ~rate, or 2 if the parameter is not a valid rate."""
     rate = rospy.get_param("~rate", 2.0)
     if isinstance(rate, (int, float)) and 0 < rate <= MAX_RATE:
         return float(rate)

@@ -1,4 +1,4 @@
-"""Drives a turtle: a driver returns velocities, and `keep_driving` publishes them at the driver's rate."""
+"""A driver returns velocities for a turtle, and `keep_driving` publishes them at the driver's rate."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Protocol
 from geometry_msgs.msg import Twist
 from std_srvs.srv import EmptyRequest, EmptyResponse
 
-SPEED = 1.0  # m/s
-TURN = 1.0  # rad/s
-SLICE = 0.02  # time in s between two checks of the clock; a new rate takes effect within this time
+SPEED = 1.0  # This is the default speed in m/s.
+TURN = 1.0  # This is the default angular velocity in rad/s.
+SLICE = 0.02  # The clock is checked once in this time (s), so a new rate takes effect within this time.
 
 Publish = Callable[[Twist], None]
 
@@ -22,22 +22,22 @@ class Driver(Protocol):
     rate: float
 
     def velocity(self) -> tuple[float, float]:
-        """Return the present velocity in m/s, and the angular velocity in rad/s."""
+        """Return the current velocity in m/s, and the angular velocity in rad/s."""
 
 
 class Toggling:
-    """A driver that goes straight or turns, as in pubvel_toggle. It is a base class for other drivers."""
+    """A base class for drivers that go straight or turn, as in pubvel_toggle."""
 
     def __init__(self, rate: float = 2.0) -> None:
         self.rate = rate
         self.forward = True
 
     def velocity(self) -> tuple[float, float]:
-        """Return the present velocity in m/s, and the angular velocity in rad/s."""
+        """Return the current velocity in m/s, and the angular velocity in rad/s."""
         return (SPEED, 0.0) if self.forward else (0.0, TURN)
 
     def handle_toggle(self, _request: EmptyRequest) -> EmptyResponse:
-        """Change between going straight and turning. This is the handler of toggle_forward."""
+        """Change between going straight and turning, as the handler of toggle_forward."""
         self.forward = not self.forward
         return EmptyResponse()
 
@@ -52,13 +52,13 @@ def to_twist(velocity: tuple[float, float]) -> Twist:
 def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> None:
     """Publish the driver's velocity `driver.rate` times per second, until `over()` is true.
 
-    The rate may change during this time.
+    The rate may change meanwhile.
     """
     last = -float("inf")
     while not over():
         now, period = time.monotonic(), 1.0 / driver.rate
         if now - last >= period:
             publish(to_twist(driver.velocity()))
-            # After a delay, the velocities that were not published in time are skipped.
+            # After a delay, late velocities are skipped.
             last = max(last + period, now - SLICE)
         time.sleep(min(max(last + period - time.monotonic(), 0.0), SLICE))

@@ -1,9 +1,8 @@
-"""Services and names that behave like those of a roscpp node.
+"""Services and names with the behaviour of a roscpp node.
 
-rospy adds "service cannot process request: …" to an error message, and its connection header does not name
-the types of request and response. A roscpp server sends only the error message of its callback; this message
-may be empty. The connection header of a roscpp server names these types. The protocol:
-http://wiki.ros.org/ROS/TCPROS.
+rospy adds "service cannot process request: …" to an error message; a roscpp server sends only the error
+message of its callback, which may be empty. The connection header of a roscpp server contains the types of
+request and response; rospy's header does not. The protocol: http://wiki.ros.org/ROS/TCPROS.
 """
 
 from __future__ import annotations
@@ -30,11 +29,11 @@ FURTHER = re.compile(r"[A-Za-z0-9_/]")
 
 
 class Refused(rospy.ServiceException):
-    """Refuses a request. The client receives the error message, which may be empty."""
+    """Refuses a request with an error message, which may be empty."""
 
 
 def refuse_like_roscpp() -> None:
-    """Make this process refuse connections with roscpp's error messages. Call this after init_node()."""
+    """Make this process refuse connections with roscpp's error messages; call this after init_node()."""
     tcpros_base.start_tcpros_server()
     server = tcpros_base._tcpros_server
     assert server is not None
@@ -60,7 +59,7 @@ class _Protocol(TCPService):
 
 
 class RoscppService(ServiceImpl):
-    """A service that is registered immediately. Its handler returns a response, or raises Refused."""
+    """A service that is registered immediately; its handler returns a response, or raises Refused."""
 
     def __init__(self, name: str, kind: ServiceClass, handler: Callable[[Request], genpy.Message]) -> None:
         ServiceImpl.__init__(self, name, kind, handler)
@@ -75,7 +74,7 @@ class RoscppService(ServiceImpl):
 
 
 def _accept(sock: socket.socket, address: tuple[str, int], header: dict[str, str]) -> str | None:
-    """Accept a connection and return None, or return the error message if the connection is refused."""
+    """Accept a connection and return None, or return the error message for the client."""
     if any(field not in header for field in ("md5sum", "service", "callerid")):
         return "bogus tcpros header. did not have required elements: md5sum, service, callerid"
     name, requested = header["service"], header["md5sum"]

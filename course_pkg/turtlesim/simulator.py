@@ -1,4 +1,4 @@
-"""The simulator as a node. One thread moves the world, and other threads queue jobs for this thread."""
+"""The simulator as a node. One thread moves the world; all other threads queue jobs for this thread."""
 
 from __future__ import annotations
 
@@ -19,10 +19,11 @@ from course_pkg.turtlesim.roscpp_services import Refused, RoscppService, name_er
 from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
-FIRST = "turtle1"  # the turtle that exists after a reset
-# maximum time in s for requests in a tick; even many requests do not delay a pose by more than this time
+FIRST = "turtle1"  # This turtle exists after a reset.
+# Requests take at most this time in s in one tick. Even many requests therefore do not delay a pose for
+# longer.
 BUDGET = 0.008
-MAX_DELAY = 0.25  # s; ticks that are later than this are skipped, for example after the machine has slept
+MAX_DELAY = 0.25  # Ticks with a longer delay (s) are skipped, for example after the machine was suspended.
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
 
 Result = TypeVar("Result")
@@ -33,12 +34,12 @@ class Simulator:
 
     def __init__(self) -> None:
         self._jobs: SimpleQueue[Callable[[], None]] = SimpleQueue()
-        self._changes = threading.RLock()  # a thread holds this lock while it adds or removes turtles
+        self._changes = threading.RLock()  # A thread acquires this lock before it adds or removes turtles.
         for name, value in DEFAULTS.items():
             if not rospy.has_param(f"~{name}"):
                 rospy.set_param(f"~{name}", value)
         self._world = World(self._background())
-        # This dict is never changed, only replaced, because run() iterates over it on another thread.
+        # run() iterates over this dict on another thread, so the dict is never changed, only replaced.
         self._interfaces: dict[str, TurtleInterface] = {}
         turtle = self._world.turtles[FIRST]
         self._announce(turtle)
@@ -130,14 +131,14 @@ class Simulator:
         with self._changes:
             removed = self._remove_others()
             done = self._in_next_tick(lambda: self._reset_world(background))
-            # Closing an interface takes six calls to the master. This thread makes these calls while the job
+            # Closing an interface takes six calls to the master. This thread makes the calls while the job
             # waits for the next tick.
             for interface in removed:
                 interface.close()
             done.result()
             turtle = self._world.turtles[FIRST]
             self._announce(turtle)
-            if turtle.name not in self._interfaces:  # turtle1 had been killed before the reset
+            if turtle.name not in self._interfaces:  # turtle1 was killed before the reset.
                 self._add(TurtleInterface(turtle, self._world.canvas, self.in_tick))
         return EmptyResponse()
 
@@ -147,7 +148,7 @@ class Simulator:
         return removed
 
     def _remove_others(self) -> list[TurtleInterface]:
-        """Remove and return all interfaces except the interface of turtle1, which keeps its subscribers."""
+        """Remove and return all interfaces except the interface of turtle1."""
         removed = [each for name, each in self._interfaces.items() if name != FIRST]
         self._interfaces = {name: each for name, each in self._interfaces.items() if name == FIRST}
         return removed
@@ -166,11 +167,8 @@ class Simulator:
         rospy.loginfo(f"Spawning turtle [{turtle.name}] at {place}")
 
     def _background(self) -> Colour:
-        """Return the background colour from the node's parameters.
-
-        If a parameter is not an integer, its default is used.
-        """
-        own = rospy.get_param(rospy.get_name(), {})  # reads all parameters with one call to the master
+        """Return the background colour from the node's parameters; invalid parameters have the default."""
+        own = rospy.get_param(rospy.get_name(), {})  # One call to the master reads all parameters.
         given = {**DEFAULTS, **own} if isinstance(own, dict) else DEFAULTS
         red, green, blue = (
             given[name] % 256 if isinstance(given[name], int) else default

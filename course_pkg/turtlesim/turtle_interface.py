@@ -1,10 +1,11 @@
 """The topics and services of a turtle.
 
-With a queue, rospy starts a thread for each subscriber of a topic, and each message wakes this thread. At
-1,500 messages per second, this would take most of the processor time. Without a queue, rospy writes each
-message directly, and a subscriber that does not read blocks the publisher. Therefore a turtle writes a
-message directly if the connection's buffer has space. Otherwise, the message is dropped, as in a queue for
-one message.
+With a queue, rospy starts a thread for each subscriber of a topic. This thread wakes up for each message, and
+1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
+directly, and a subscriber that does not read blocks the publisher.
+
+A turtle therefore writes a message directly if the connection's buffer has space. If the buffer has no space,
+the turtle drops the message.
 """
 
 from __future__ import annotations
@@ -39,9 +40,9 @@ InTick = Callable[[Callable[[], None]], None]
 
 
 class TurtleInterface:
-    """The topics and services of one turtle. The topics and services exist until close() is called.
+    """The topics and services of one turtle, until close() is called.
 
-    `in_tick` runs a function between two ticks, and returns when this function has ended.
+    `in_tick` runs a function between two ticks, and waits until the function has ended.
     """
 
     def __init__(self, turtle: Turtle, canvas: Canvas, in_tick: InTick) -> None:
@@ -125,7 +126,7 @@ def publish_without_waiting(publisher: rospy.Publisher) -> None:
 
 
 class _Writer:
-    """Writes to the connection of one subscriber, if the connection has room."""
+    """Writes to the connection of one subscriber, if the send buffer has space."""
 
     def __init__(self, connection: TCPROSTransport) -> None:
         assert connection.socket is not None
@@ -134,7 +135,7 @@ class _Writer:
         self._room.register(connection.socket, select.POLLOUT)
 
     def __call__(self, data: bytes) -> bool:
-        """Write `data`, or drop `data` if the connection has no room.
+        """Write `data`; if the send buffer has no space, drop `data`.
 
         Raises the error of a broken connection.
         """

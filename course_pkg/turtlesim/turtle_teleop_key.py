@@ -21,9 +21,10 @@ Drive turtle1 with the arrow keys of this terminal.
   left, right  turn
   q            quit
 """
-STEP = 2.0  # m/s and rad/s; the default of ~scale_linear and ~scale_angular
-POLL = 0.2  # time in s between two checks whether the node has been shut down
-KEYS = {"A": (1, 0), "B": (-1, 0), "D": (0, 1), "C": (0, -1)}  # the last letter of an arrow's escape code
+STEP = 2.0  # This is the default of ~scale_linear in m/s and of ~scale_angular in rad/s.
+POLL = 0.2  # This is the time in s between two checks whether the node has been shut down.
+# The keys of this dict are the last letters of the arrow keys' escape codes.
+KEYS = {"A": (1, 0), "B": (-1, 0), "D": (0, 1), "C": (0, -1)}
 
 
 def main() -> None:
@@ -64,7 +65,7 @@ def _command(code: str) -> list[tuple[int, int]]:
 
 @contextmanager
 def _single_keys(terminal: int) -> Iterator[None]:
-    """Make the terminal send each key at once and without echo, and restore its settings afterwards."""
+    """Make the terminal send each key at once and without echo; restore its settings after the block."""
     before = termios.tcgetattr(terminal)
     try:
         tty.setcbreak(terminal)

@@ -1,4 +1,4 @@
-"""The node `turtlesim`: a world of turtles that are driven through topics and services."""
+"""The node `turtlesim`: a world of turtles with topics and services."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""The world of the turtles: their positions, their motion, and the lines of their pens.
-
-This module does not need ROS.
+"""The world of the turtles: their positions, their motion, and the lines of their pens; without ROS.
 
 Lengths are in metres. The world is 11.088889 m wide and high, and its origin is at the bottom left. Angles
 are in radians, counter-clockwise from the x-axis. One tick is 16 ms.
@@ -14,11 +12,12 @@ from itertools import count
 
 from course_pkg.turtlesim.canvas import SIDE, Canvas, Colour, Point
 
-TICK = 0.016  # s
-PIXELS = 45.0  # px per metre; in turtlesim of ROS, this is the height of a turtle's picture
-WIDTH = (SIDE - 1) / PIXELS  # m
-HOME = WIDTH / 2  # m; x and y of the middle of the world
-COMMAND_TIMEOUT = 1.0  # s; the time for which a velocity command is valid
+TICK = 0.016  # A tick has this length in s.
+# A metre has this number of pixels; in turtlesim of ROS, the picture of a turtle has this height.
+PIXELS = 45.0
+WIDTH = (SIDE - 1) / PIXELS  # The world has this width and height in m.
+HOME = WIDTH / 2  # The middle of the world has this x and y in m.
+COMMAND_TIMEOUT = 1.0  # A velocity command is valid for this time in s.
 BACKGROUND: Colour = (69, 86, 255)
 
 
@@ -43,7 +42,7 @@ class Pen:
 class Velocity:
     """A velocity command: m/s forwards and sideways, and rad/s.
 
-    `since` is the time (s) at which the command arrived, on the clock that World.tick() advances.
+    `since` is the time in s at which the command arrived, on the same clock as in World.tick().
     """
 
     forward: float = 0.0
@@ -54,7 +53,10 @@ class Velocity:
 
 @dataclass
 class Turtle:
-    """One turtle. Any thread may set `velocity`. Only the world's thread sets the other attributes."""
+    """One turtle.
+
+    Any thread may set `velocity`. All other attributes are set only by the world's thread.
+    """
 
     name: str
     x: float = HOME
@@ -62,7 +64,7 @@ class Turtle:
     theta: float = 0.0
     pen: Pen = field(default_factory=Pen)
     velocity: Velocity = field(default_factory=Velocity)
-    colour: Colour = BACKGROUND  # the colour of the canvas under the turtle
+    colour: Colour = BACKGROUND  # This is the colour of the canvas under the turtle.
 
     @property
     def speed(self) -> float:
@@ -71,13 +73,13 @@ class Turtle:
 
     @property
     def point(self) -> Point:
-        """The turtle's point on the canvas in px."""
+        """The turtle's position on the canvas in px."""
         return self.x * PIXELS, (WIDTH - self.y) * PIXELS
 
     def teleport(self, canvas: Canvas, x: float, y: float, theta: float) -> None:
         """Move to (x, y) at once, and draw a line if the pen is down.
 
-        If y is above the world, the upper edge of the world is used instead.
+        A position above the world is moved to the upper edge.
         """
         before = self.point
         self.x, self.y, self.theta = x, min(y, WIDTH), theta
@@ -92,7 +94,7 @@ class Turtle:
         self._draw(canvas, before)
 
     def tick(self, canvas: Canvas, now: float) -> str:
-        """Move for 16 ms; return a warning if the turtle hits the wall, otherwise ""."""
+        """Move for 16 ms; return a warning if the turtle hits the wall, else ""."""
         if now - self.velocity.since > COMMAND_TIMEOUT:
             self.velocity = replace(self.velocity, forward=0.0, sideways=0.0, turn=0.0)
         before, velocity = self.point, self.velocity
@@ -130,7 +132,7 @@ class World:
     def spawn(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
         """Add a turtle, and return it. Raises NameTaken if a turtle with this name exists.
 
-        Without `name`, the turtle gets the first free name of the series turtle1, turtle2, ….
+        Without `name`, the turtle gets the first free name of turtle1, turtle2, ….
         """
         return self.add(self.make(x, y, theta, name))
 
@@ -160,14 +162,14 @@ class World:
         self.canvas.fill(background)
 
     def reset(self, background: Colour) -> None:
-        """Reset the world: it then contains only turtle1 in the middle, and an empty canvas."""
+        """Reset the world to turtle1 in the middle and an empty canvas."""
         self.turtles.clear()
         self._numbers = count(1)
         self.spawn(HOME, HOME, 0.0)
         self.clear(background)
 
     def tick(self, now: float) -> list[str]:
-        """Move every turtle for 16 ms, and return the warnings. `now` is the current time in s."""
+        """Move every turtle for 16 ms, and return the warnings; `now` is the current time in s."""
         warnings = [self.turtles[name].tick(self.canvas, now) for name in sorted(self.turtles)]
         return [warning for warning in warnings if warning]
 
@@ -178,7 +180,7 @@ class World:
 
 
 def all_finite(*numbers: float) -> bool:
-    """Return whether all numbers are finite. The position and the velocity of a turtle must be finite."""
+    """Return whether all numbers are finite."""
     return all(map(math.isfinite, numbers))
 
 
@@ -188,6 +190,6 @@ def normalized(angle: float) -> float:
 
 
 def _near_canvas(point: Point) -> Point:
-    """If a point is far from the canvas, return a nearer point instead. This limits the drawing time."""
+    """Return a point near the canvas instead of a distant point, to limit the drawing time."""
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

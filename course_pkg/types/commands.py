@@ -22,7 +22,7 @@ def rosservice_line(service: str, kind: ServiceType, values: Mapping[str, Plain]
     duration, the whole request is one YAML dict. Raises FieldError.
     """
     plain = kind.request.check(values)
-    # rosservice also reads an empty argument as an empty string, so one pair of quotes is enough.
+    # rosservice also reads an empty argument as an empty string, so two pairs of quotes are not necessary.
     given = ["" if each == '""' else each for each in _arguments(kind.request.fields, plain)]
     return _shell_line("rosservice", "call", service, *_end_of_options(given), *given)
 
@@ -52,7 +52,7 @@ def rostopic_line(
 ) -> str:
     """Return the `rostopic pub` line for bash that publishes these values, once or `rate` times per second.
 
-    With `latch` and no rate, rostopic keeps the message for later subscribers until Ctrl-C.
+    If `latch` is true and `rate` is None, rostopic sends the message to later subscribers until Ctrl-C.
     Raises FieldError.
     """
     given = _arguments(kind.fields, kind.check(values))
@@ -114,7 +114,7 @@ def _definitions(kind: ServiceType | MessageType, folder: str, writer: _PythonWr
 class _PythonWriter:
     """Writes plain values as Python expressions, and stores the message classes that these expressions need.
 
-    `taken` contains the names that the lines already use for other objects.
+    `taken` contains the names that the program already uses for other objects.
     """
 
     def __init__(self, fields: tuple[Field, ...], taken: Iterable[str]) -> None:
@@ -201,7 +201,7 @@ def _arguments(fields: tuple[Field, ...], values: Mapping[str, Plain]) -> list[s
 
 
 def _end_of_options(given: list[str]) -> list[str]:
-    """Return ["--"] if an option parser could read an argument such as -1.0 as an option, or else []."""
+    """Return ["--"] if an argument such as -1.0 looks like an option, or else []."""
     return ["--"] if any(each.startswith("-") for each in given) else []
 
 
@@ -232,11 +232,11 @@ def _yaml_float(number: float) -> str:
 
 
 def _yaml_string(text: str) -> str:
-    """Return a string as YAML text; YAML reads this text as the same string."""
+    """Return a string as YAML text."""
     if text.isprintable() and ":=" not in text and _is_plain(text):
         return text
     quoted: str = yaml.safe_dump(text, default_style='"', allow_unicode=True, width=math.inf)
-    # The tools of ROS treat an argument with := as a remapping and remove it.
+    # The tools of ROS remove an argument with :=, because they treat it as a remapping.
     return quoted.rstrip("\n").replace(":=", r":\x3D")
 
 

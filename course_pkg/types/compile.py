@@ -1,7 +1,7 @@
-"""Makes classes for rospy from the text of a definition, without a build, files or changes to sys.modules.
+"""Create classes for rospy from the text of a definition, without a build, files or changes to sys.modules.
 
-The module genpy.dynamic can compile only messages, and it does not remove the module and the folder that it
-creates for each message. Here, genpy's generator writes the code, and the code runs in a separate namespace.
+genpy.dynamic can compile only messages, and it does not delete the module and the folder of each message.
+This module runs the code from genpy's generator in a separate namespace.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from course_pkg.types.search_path import (
     split_type_name,
 )
 
-# genpy's generator stores its state in global variables of its module
+# genpy's generator stores its state in global variables.
 _GENERATOR = Lock()
 _IMPORT = re.compile(r"import \w+\.msg")
 
@@ -49,7 +49,8 @@ def compiled_service(name: str, text: str, source: str, strict: bool = False) ->
         "_response_class": generation.message(spec.response, source),
         "_dependencies": generation.classes,
     }
-    made: Any = type(short, (), attributes)  # mypy cannot know the attributes of such a class
+    # mypy does not know the attributes of a class that type() creates.
+    made: Any = type(short, (), attributes)
     checked: ServiceClass = made
     return checked
 
@@ -97,7 +98,7 @@ class _Generation:
     ) -> MsgSpec:
         """Return the specification of a message.
 
-        `within` lists the types that contain it, outermost first.
+        `within` lists the types that contain the message, the outermost type first.
         """
         text = self._validated(name, text, source, "msg", strict)
         try:
@@ -122,7 +123,7 @@ class _Generation:
             exec(compile(self._code(spec), f"<{spec.full_name}>", "exec"), namespace)  # noqa: S102 - genpy's code
         except (SyntaxError, MsgGenerationException) as error:
             raise _refused(source, spec.text, error) from error
-        cls: Any = namespace[spec.short_name]  # the generated class has no static type
+        cls: Any = namespace[spec.short_name]  # The generated class has no static type.
         cls._full_text = full_text
         cls._dependencies = self.classes
         for constant in make_python_safe(spec).constants:
@@ -133,7 +134,7 @@ class _Generation:
     def _code(self, spec: MsgSpec) -> str:
         """Return genpy's code for a message.
 
-        The imports, and the texts that genpy does not escape, are removed.
+        Imports, and texts that genpy does not escape, are removed.
         """
         with _GENERATOR:
             pieces = list(msg_generator(self.context, spec, {}))

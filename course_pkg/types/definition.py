@@ -1,7 +1,7 @@
 """The lines of a .srv or .msg text: the declaration in each line, and its comments.
 
-The rules are the rules of genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The functions expect a text that
-genmsg accepts; the module `diagnosis` explains the mistakes in any other text.
+The rules are from genmsg (wiki.ros.org/msg, wiki.ros.org/srv). The text must be valid; the module `diagnosis`
+explains the mistakes in an invalid text.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ class Line:
 
     @property
     def code(self) -> str:
-        """The part before the comment."""
-        # The value of a string constant is everything after its equals sign, including a #.
+        """The text before the comment."""
+        # The value of a string constant is all text after its equals sign, including a #.
         if self.text.lstrip().startswith("string ") and "=" in self.text.split("#")[0]:
             return self.text
         return self.text.split("#")[0]
 
     @property
     def comment(self) -> str:
-        """The part after the #."""
+        """The text after the #."""
         return self.text[len(self.code) + 1 :].strip()
 
     @property
@@ -49,7 +49,7 @@ class Line:
 
     @property
     def is_separator(self) -> bool:
-        """Whether genmsg treats the line as the separator of request and response."""
+        """Whether genmsg treats the line as the separator between request and response."""
         return self.text.startswith(SEPARATOR)
 
     def words(self) -> list[Word]:
@@ -82,7 +82,7 @@ class Comments:
 
 
 def comments(text: str) -> Comments:
-    """Return the comment at the top, and for each field the comment after it or directly above it."""
+    """Return the comment at the top, and each field's comment after the field or directly above it."""
     entries = list(lines(text))
     start = next((index for index, line in enumerate(entries) if line.text.strip()), 0)
     top = _leading_comment(entries[start:])
@@ -100,7 +100,7 @@ def comments(text: str) -> Comments:
 
 
 def _leading_comment(entries: list[Line]) -> list[Line]:
-    """Return the lines at the beginning that contain only a comment."""
+    """Return the comment lines at the beginning."""
     block = []
     for line in entries:
         if not line.text.lstrip().startswith("#"):

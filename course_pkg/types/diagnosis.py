@@ -1,7 +1,7 @@
-"""Finds the first mistake in the text of a definition, its place, and a correction.
+"""Find the first mistake in the text of a definition, its line, and a correction.
 
-genmsg stops at the first line that it cannot read, and its message often does not show this line. This module
-therefore first checks each line for common mistakes.
+genmsg stops at the first line that it cannot read, and its error message often does not show this line. This
+module therefore checks each line for common mistakes first.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ _FROM_ELSEWHERE = {
 }
 _TYPE = re.compile(r"([A-Za-z]\w*(?:/[A-Za-z]\w*)?)((?:\[\d*\])?)", re.ASCII)
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
-# the methods of every class that genpy generates
+# Every class that genpy generates has these methods.
 _METHODS = frozenset({"serialize", "deserialize", "serialize_numpy", "deserialize_numpy"})
 
 
@@ -51,8 +51,8 @@ def validate(
 ) -> None:
     """Raise BrokenDefinition for the first mistake in a .srv or .msg text.
 
-    The function `exists` returns whether there is a message type with the given full name. If `strict` is
-    true, mistakes that genmsg accepts are also refused.
+    `exists` returns whether there is a message type with the given full name. If `strict` is true, mistakes
+    that genmsg accepts are also refused.
     """
     _Diagnosis(source, package, kind, exists, strict).read(text)
 
@@ -156,7 +156,7 @@ class _Diagnosis:
                 line, word.column, f"{word.text!r} cannot be a type", self._type_advice(word.text, name.text)
             )
         base = found[1]
-        # genmsg takes Header for std_msgs/Header only if it is not an array
+        # genmsg replaces Header with std_msgs/Header, but not in an array.
         if base in _BUILTIN or word.text == "Header":
             return
         full = base if "/" in base else f"{self.package}/{base}"
@@ -274,10 +274,7 @@ class _Diagnosis:
 
 
 def _unreadable(type_name: str, text: str) -> tuple[str, str] | None:
-    """Return the kind of value that a constant needs, and a correction.
-
-    If genmsg can read the value, return None.
-    """
+    """Return the kind of value that a constant needs, and a correction; return None for a valid value."""
     reader: Callable[[str], object]
     if type_name == "bool":
         reader, wanted, advice = ast.literal_eval, "a bool", "True or False"
@@ -293,7 +290,7 @@ def _unreadable(type_name: str, text: str) -> tuple[str, str] | None:
 
 
 def _finite(text: str) -> float:
-    # genpy copies inf and nan into its Python code, where these names are not defined
+    # genpy copies inf and nan into its Python code, and these names are not defined there.
     if not math.isfinite(float(text)):
         raise ValueError(text)
     return float(text)

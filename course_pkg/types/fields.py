@@ -1,4 +1,4 @@
-"""The fields of a message: the kind, the range and the parts of each field."""
+"""The fields of a message, with the kind and the range of each field."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 if TYPE_CHECKING:
     import genpy
 
-# The values that JSON can contain. An array is a sequence of plain values, and a message is a mapping from
-# field names to plain values.
+# The values of JSON: an array is a sequence of plain values, and a message is a mapping from field names to
+# plain values.
 Plain: TypeAlias = "bool | int | float | str | Sequence[Plain] | Mapping[str, Plain] | None"
-# A tree of the same structure, but with a string in place of each number and bool.
+# A tree with the structure of a plain value, but with a string instead of each number and bool.
 StringTree: TypeAlias = "str | Sequence[StringTree] | Mapping[str, StringTree]"
 
 FLOAT32_MAX: float = struct.unpack("<f", b"\xff\xff\x7f\x7f")[0]
@@ -53,7 +53,7 @@ class ServiceClass(Protocol):
 
 
 class Kind(str, Enum):
-    """The kind of input that a field needs; the value of the enum is the name of the kind in a schema."""
+    """The kind of input that a field needs; the enum's value is the name of the kind in a schema."""
 
     INTEGER = "integer"
     FLOAT = "float"
@@ -83,9 +83,9 @@ class Constant:
 class Field:
     """A field of a message, or (with an empty name) an element of an array.
 
-    `low` and `high` are the range of a number. `length` is the length of an array, or None if it may vary;
-    `item` describes an array's element. `fields` are the fields of a message, or `secs` and `nsecs` of a
-    time or duration. `cls` is the class of a message. `help` is the comment on the field in its definition.
+    `low` and `high` are the limits of a number. `length` is the length of an array, or None if it may vary;
+    `item` describes an array's element. `fields` are the fields of a message, or `secs` and `nsecs` of a time
+    or duration. `cls` is the class of a message. `help` is the comment on the field in its definition.
     """
 
     name: str
@@ -119,8 +119,7 @@ def members(value: Plain) -> Mapping[str, Plain]:
 
 def integer_range(type_name: str) -> tuple[int, int] | None:
     """Return the smallest and the largest value of an integer type, or None for another type."""
-    # ROS 1 has two old names whose meaning is the opposite of their meaning in C: byte is signed, and char is
-    # unsigned.
+    # In ROS 1, unlike in C, the old type byte is signed, and the old type char is unsigned.
     name = {"byte": "int8", "char": "uint8"}.get(type_name, type_name)
     unsigned, _, bits = name.rpartition("int")
     if unsigned not in ("", "u") or bits not in ("8", "16", "32", "64"):
@@ -144,10 +143,7 @@ def builtin_field(name: str, type_name: str, help_text: str = "") -> Field | Non
 
 
 def _clock_fields(type_name: str) -> tuple[Field, ...]:
-    """Return the fields secs and nsecs.
-
-    In a time, secs is unsigned; in a duration, secs is signed. In both, nsecs is never negative.
-    """
+    """Return the fields secs and nsecs; secs is signed only in a duration, and nsecs is never negative."""
     integer = "uint32" if type_name == "time" else "int32"
     limits = integer_range(integer)
     assert limits is not None

@@ -1,4 +1,4 @@
-"""The description of a type as plain data, for a form that is not written in Python."""
+"""The description of a type as plain data, for a form in JavaScript."""
 
 from __future__ import annotations
 
@@ -28,10 +28,11 @@ class _FieldSchema(TypedDict):
 
 
 class FieldSchema(_FieldSchema, total=False):
-    """A field: `kind` is a value of Kind, `default` is a string tree. `allowed` describes the valid values.
+    """A field: `kind` is a value of Kind, and `default` is a string tree.
 
-    A number has `low` and `high`, as strings, because JavaScript rounds an int64. An array has `length` (None
-    if it may vary) and `item`. A message, a time or a duration has `fields`.
+    `allowed` describes the valid values. A number has `low` and `high` as strings, because JavaScript rounds
+    an int64. An array has `length` (None if it may vary) and `item`. A message, a time or a duration has
+    `fields`.
     """
 
     low: str
@@ -65,7 +66,7 @@ def schema(kind: ServiceType) -> ServiceSchema: ...
 @overload
 def schema(kind: MessageType) -> MessageSchema: ...
 def schema(kind: ServiceType | MessageType) -> ServiceSchema | MessageSchema:
-    """Return the data that a form needs about a type, ready for JSON."""
+    """Return the data for a form of this type, ready for JSON."""
     if isinstance(kind, ServiceType):
         return {
             "name": kind.name,

@@ -1,4 +1,4 @@
-"""Converts numbers to the shortest strings with the same values, and corrects mistyped numbers."""
+"""Convert numbers to the shortest strings with the same values, and correct mistyped numbers."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ def float32(number: float) -> float:
         return math.nan
     packed = _FLOAT32.pack(number)
     exact: float = _FLOAT32.unpack(packed)[0]
-    # A number with up to 6 digits can be recovered from its float32 value, so the search begins at 6 digits.
-    # For subnormal numbers, one digit can be enough.
+    # The format with 6 digits also finds every shorter number, so the search begins at 6 digits. For
+    # subnormal numbers, one digit can be enough.
     fewest = 6 if abs(exact) >= _SMALLEST_NORMAL_FLOAT32 else 1
     for digits in range(fewest, 9):
         short = float(f"{exact:.{digits}g}")
-        # near the largest float32, the shorter number can be out of range
+        # Near the largest float32, the shorter number can be out of range.
         if math.isfinite(short) and _fits(short) and _FLOAT32.pack(short) == packed:
             return short
     return float(f"{exact:.9g}")
@@ -45,7 +45,7 @@ def _fits(number: float) -> bool:
 def parse_float(text: str) -> float:
     """Return the number in a string; `inf` and `nan` are also numbers. Raises ValueError."""
     if _NAN.fullmatch(text):
-        # Always return the same nan object: lists or dicts that contain the same nan object are equal.
+        # Lists or dicts with the same nan object are equal, so the function always returns the same object.
         return math.nan
     if infinite := _INFINITE.fullmatch(text):
         return float(f"{infinite[1]}inf")

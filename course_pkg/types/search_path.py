@@ -1,4 +1,4 @@
-"""Finds types: the definitions on ROS_PACKAGE_PATH and the classes on Python's path."""
+"""Find types: the definitions on ROS_PACKAGE_PATH and the classes on Python's path."""
 
 from __future__ import annotations
 
@@ -43,8 +43,8 @@ def _built_module(name: str, kind: DefinitionKind) -> ModuleType | None:
     package, short = split_type_name(name)
     if not short.isidentifier() or not package.isidentifier():
         return None
-    # This line imports the module of the type, not the package of the type. Python therefore also finds a
-    # type that was built after its package was imported; genpy.message would not find such a type.
+    # This line imports the module of a type, not its package. An import of the package, as in genpy.message,
+    # would not find a type that was built later.
     module = f"{package}.{kind}._{short}"
     return sys.modules.get(module) or _import(module)
 
@@ -63,8 +63,7 @@ def definition_file(name: str, kind: DefinitionKind, finder: rospkg.RosPack | No
     """Return the .srv or .msg file of a type, or None if it is not on ROS_PACKAGE_PATH."""
     package, short = split_type_name(name)
     for _, folder in _each_folder(kind, [package], finder):
-        # The names in the folder are compared, because some file systems do not distinguish upper and lower
-        # case.
+        # Some file systems ignore the case of names, so the names in the folder are compared.
         for file in folder.iterdir():
             if file.name == f"{short}.{kind}":
                 return file
@@ -72,7 +71,7 @@ def definition_file(name: str, kind: DefinitionKind, finder: rospkg.RosPack | No
 
 
 def read_definition(file: Path) -> str:
-    """Return the text of a definition; bytes that are not valid UTF-8 (as in old comments) are replaced."""
+    """Return the text of a definition; invalid UTF-8 (as in old comments) is replaced."""
     return file.read_text(encoding="utf-8", errors="replace")
 
 
@@ -121,7 +120,7 @@ def unknown_type(name: str, kind: DefinitionKind) -> UnknownType:
 
 
 def closest(name: str, known: Iterable[str], count: int = 2) -> list[str]:
-    """Return the names most similar to `name`: the same name in another package, or a similar spelling."""
+    """Return the names most similar to `name`: the same short name, or a similar spelling."""
     names = list(known)
     short = name.rpartition("/")[2].lower()
     for similar in (
@@ -131,8 +130,8 @@ def closest(name: str, known: Iterable[str], count: int = 2) -> list[str]:
         if similar:
             return sorted(similar)[:count]
     lower = {each.lower(): each for each in names}
-    # If two types have the same long package name, their full names are always similar. Therefore only the
-    # short names are compared.
+    # Only the short names are compared, because full names with the same long package name are always
+    # similar.
     similar = [each for each in lower if _similarity(short, each.rpartition("/")[2]) >= 0.65]
     if "/" not in name:
         shorts = {each.rpartition("/")[2]: lower[each] for each in similar}
@@ -147,8 +146,8 @@ def _similarity(one: str, other: str) -> float:
 def _each_folder(
     kind: DefinitionKind, packages: Iterable[str], finder: rospkg.RosPack | None = None
 ) -> Iterator[tuple[str, Path]]:
-    # A RosPack object caches the paths of packages, so each search creates a new object. Creating the object
-    # takes a few milliseconds.
+    # A RosPack object caches the paths of packages, so each search creates a new object, which takes a few
+    # milliseconds.
     finder = finder or rospkg.RosPack()
     for package in packages:
         try:

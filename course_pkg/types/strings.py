@@ -1,6 +1,6 @@
-"""Converts values to strings that people can read and type, and converts such strings to values.
+"""Convert values to strings that people can read and type, and convert such strings to values.
 
-A string tree has the structure of a message, but a string in place of each number, string or bool. An array
+A string tree has the structure of a message, with a string instead of each number, string or bool. An array
 may also be one string (`[1, 2, 3]` or `1, 2, 3`), and a message may be one string (`{x: 1, y: 2}`), both in
 YAML's flow style. A time or duration may be a number of seconds (`1.5`).
 """
@@ -27,7 +27,8 @@ def format_value(field: Field, value: Plain) -> StringTree:
     """Return a plain value as a string tree: nested dicts and lists of strings."""
     if field.kind is Kind.ARRAY:
         assert field.item is not None
-        if field.item.kind is Kind.INTEGER:  # this has to be fast, because an image has a million elements
+        # This code has to be fast, because an image has a million elements.
+        if field.item.kind is Kind.INTEGER:
             return list(map(str, elements(value)))
         return [format_value(field.item, each) for each in elements(value)]
     if field.kind is Kind.MESSAGE or field.fields:
@@ -49,7 +50,7 @@ def parse_value(field: Field, text: StringTree, path: str) -> Plain:
     if field.kind is Kind.MESSAGE or field.fields:
         return parse_fields(field.fields, text, path, allowed(field))
     if not isinstance(text, str):
-        # A plain value is also allowed here.
+        # The text may also be a plain value.
         return check(field, text, path)
     if field.kind is Kind.STRING:
         return check(field, text, path)
@@ -78,7 +79,7 @@ def _parse_array(field: Field, tree: StringTree, path: str) -> Sequence[Plain]:
 
 
 def _parse_flow(text: str, opening: str, closing: str, path: str, expected: str) -> StringTree:
-    """Return the strings in a YAML flow list or dict; the outer brackets in `text` are optional."""
+    """Return the strings in a YAML flow list or dict; `text` may omit the outer brackets."""
     whole = text.strip()
     if not whole.startswith(opening):
         whole = f"{opening}{whole}{closing}"

@@ -68,7 +68,7 @@ class MessageType:
         return parse_fields(self.fields, tree, "", self._shape)
 
     def format(self, plain: Mapping[str, Plain]) -> dict[str, StringTree]:
-        """Return plain values as a string tree; `parse` converts it back to the values."""
+        """Return plain values as a string tree, which `parse` can read."""
         return {each.name: format_value(each, plain[each.name]) for each in self.fields}
 
     def to_message(self, plain: Mapping[str, Plain]) -> genpy.Message:
@@ -100,8 +100,8 @@ class MessageType:
 class ServiceType:
     """A service type; `cls` is the class for rospy's Service and ServiceProxy.
 
-    `built` is True if Python can import the class from its package. Otherwise, the class was generated from
-    the definition.
+    `built` is True if Python can import the class from its package. If `built` is False, the class was
+    generated from the definition.
     """
 
     name: str
@@ -134,7 +134,7 @@ def service_type(type_or_name: str | ServiceType | ServiceClass) -> ServiceType:
 def message_type(type_or_name: str | MessageType | MessageClass) -> MessageType:
     """Return the message type for a full name (`geometry_msgs/Point`) or for a generated class.
 
-    The rules for types that are not built, and the errors, are the same as for `service_type`.
+    Types that are not built, and the errors, are handled as in `service_type`.
     """
     if isinstance(type_or_name, MessageType):
         return type_or_name
@@ -164,24 +164,24 @@ def type_in_file(name: str, kind: DefinitionKind) -> ServiceType | MessageType:
 
 
 def compile_service(name: str, text: str) -> ServiceType:
-    """Return the service type for a .srv text, as if it were built with the name `name`.
+    """Return the service type for a .srv text, with the name `name`.
 
-    This function is stricter than genmsg, which accepts some mistakes (no `---` line, two `---` lines, a
-    name that is a keyword of Python). Raises BrokenDefinition.
+    This function is stricter than genmsg, which accepts some mistakes (no `---` line, two `---` lines, a name
+    that is a keyword of Python). Raises BrokenDefinition.
     """
     return _service(compiled_service(name, text, f"{name}.srv", strict=True))
 
 
 def compile_message(name: str, text: str) -> MessageType:
-    """Return the message type for a .msg text, as if it were built with the name `name`.
+    """Return the message type for a .msg text, with the name `name`.
 
-    The rules and the errors are the same as for `compile_service`.
+    The mistakes and the errors are the same as for `compile_service`.
     """
     return _message(compiled_message(name, text, f"{name}.msg", strict=True))
 
 
 def _require_class(cls: MessageClass | ServiceClass, attribute: str, what: str) -> None:
-    """Raise UnknownType unless genpy generated the class, and the class is of the expected kind."""
+    """Raise UnknownType unless `cls` is a generated class of the expected kind."""
     if hasattr(cls, attribute):
         return
     shown = getattr(cls, "__name__", repr(cls))
@@ -193,7 +193,7 @@ def _require_class(cls: MessageClass | ServiceClass, attribute: str, what: str) 
 
 def _service(cls: ServiceClass) -> ServiceType:
     request, response = _message(cls._request_class), _message(cls._response_class)
-    # genmsg adds a newline at the end of the request and of the response
+    # genmsg adds a newline after the request and after the response.
     text = f"{request.text}---\n{response.text.removesuffix(chr(10))}"
     return ServiceType(
         cls._type, cls._md5sum, text, request, response, cls, not hasattr(cls, "_dependencies")

@@ -15,7 +15,7 @@ from course_pkg.errors import FieldError
 from course_pkg.types.fields import Field, Kind, MessageClass, Plain, elements, members
 from course_pkg.types.numbers import float32
 
-# A value in the form in which genpy stores it.
+# This is a value in the representation that genpy uses.
 Genpy: TypeAlias = "Plain | genpy.Message | TVal | Sequence[Genpy]"
 
 
@@ -33,7 +33,7 @@ def default(field: Field) -> Plain:
 def check(field: Field, value: object, path: str) -> Plain:
     """Convert any value to a plain value of the field, and return it.
 
-    Raises FieldError if the value does not fit.
+    Raises FieldError if the value is not valid for the field.
     """
     if field.kind is Kind.ARRAY:
         return _check_array(field, value, path)
@@ -58,7 +58,7 @@ def check_fields(fields: tuple[Field, ...], values: object, path: str, expected:
 
 
 def require_names(fields: tuple[Field, ...], values: object, path: str, expected: str) -> None:
-    """Raise FieldError unless `values` is a mapping with exactly the fields' names."""
+    """Raise FieldError unless `values` is a mapping with exactly the names of the fields."""
     if not isinstance(values, Mapping):
         raise FieldError(path, values, expected, f"{brief(values)} is not a set of named fields")
     names = [field.name for field in fields]
@@ -74,7 +74,7 @@ def require_names(fields: tuple[Field, ...], values: object, path: str, expected
 
 
 def to_genpy(field: Field, value: Plain) -> Genpy:
-    """Return a checked value in the form in which genpy stores it."""
+    """Return a checked value in the representation that genpy uses."""
     if field.kind is Kind.ARRAY:
         assert field.item is not None
         if field.is_bytes:
@@ -124,7 +124,7 @@ def member_path(path: str, name: str) -> str:
 
 
 def brief(value: object) -> str:
-    """Return a value as a short text for an error message."""
+    """Return a short text of a value for an error message."""
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}…"
 
@@ -134,7 +134,7 @@ def _check_array(field: Field, value: object, path: str) -> list[Plain]:
     if field.is_bytes and isinstance(value, (bytes, bytearray)):
         value = list(value)
     if hasattr(value, "tolist"):
-        # tolist() is much faster than a separate conversion of each NumPy number.
+        # tolist() is much faster than converting each NumPy number separately.
         value = value.tolist()
     if isinstance(value, (str, bytes, Mapping)) or not isinstance(value, Collection):
         raise FieldError(path, value, allowed(field), f"{brief(value)} is not a list")
@@ -152,10 +152,7 @@ def require_length(field: Field, items: Sequence[object], path: str) -> None:
 
 
 def _all_valid(item: Field, items: list[float]) -> bool:
-    """Return whether all elements are valid numbers.
-
-    This check is fast even for large arrays, such as an image.
-    """
+    """Return whether all elements are valid numbers; fast even for large arrays, such as an image."""
     if item.kind is Kind.INTEGER and items and set(map(type, items)) == {int}:
         assert item.low is not None
         assert item.high is not None
@@ -211,7 +208,7 @@ def _check_string(field: Field, value: object, path: str) -> str:
 
 
 def _article(word: str) -> str:
-    # "an int8", but "a uint8"
+    # The articles are "an int8" and "a uint8".
     return "an" if word[0] in "aeiAEI" else "a"
 
 

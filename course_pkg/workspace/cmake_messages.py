@@ -1,8 +1,8 @@
 """The messages of CMake in the output of a build, their meaning, and the commands in a CMakeLists.txt.
 
-CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error.
-The student's line that caused the error is in the call stack below the message. A row of a table is (pattern,
-file, problem, remedy). In a row, the file is empty if the fault is in the file that the message names.
+CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error;
+the student's line is in the call stack below the message. A row of a table is (pattern, file, problem,
+remedy); an empty file means the file that the message names.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ _HEAD = re.compile(
     r"CMake (?P<kind>Error|Warning)(?: \(dev\))?"
     r"(?: at (?P<file>.+?):(?P<line>\d+)(?: \(\w+\))?)?:(?P<rest>.*)"
 )
-# CMake writes the name of catkin's top-level file without a folder, and paths outside of src as absolute
-# paths.
+# For catkin's top-level file, CMake prints the name without a folder; for files outside of src, it prints
+# absolute paths.
 _OURS = re.compile(r"(?P<file>[\w.+-]+(?:/[\w.+-]+)*/CMakeLists\.txt):(?P<line>\d+)")
 _STACK = "Call Stack (most recent call first):"
 _COMMAND = re.compile(r"(?P<comment>#\s*)?(?P<name>[A-Za-z_]\w*)[ \t]*\(")
@@ -32,7 +32,7 @@ _COMMAND = re.compile(r"(?P<comment>#\s*)?(?P<name>[A-Za-z_]\w*)[ \t]*\(")
 
 @dataclass(frozen=True)
 class Message:
-    """One message: its text in one line, and the line of a package's CMakeLists.txt that caused it."""
+    """One message in one line of text, with the line of a package's CMakeLists.txt that caused it."""
 
     text: str
     file: str
@@ -87,7 +87,7 @@ def cmake_commands(text: str) -> Iterator[Command]:
 def unknown_command(name: str, message: Message) -> Fault:
     """Return the fault for an unknown command.
 
-    The package of the command was not found earlier, or the name is misspelt.
+    The package of the command was not found, or the name is misspelt.
     """
     if name.lower() in GENERATION:
         problem = (

@@ -8,15 +8,12 @@ from pathlib import Path
 
 HEADER = "include/ros/ros.h"
 LIBRARIES = ("roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "boost_thread")
-# without this option, a handler without a return statement builds, but may crash
+# Without this option, a handler without a return statement can be built, but may crash.
 WARNINGS = ("-Werror=return-type",)
 
 
 def missing_for_cpp() -> str:
-    """Return a sentence about a missing tool for C++ programs, and how to install it.
-
-    If no tool is missing, return an empty string.
-    """
+    """Return a sentence about a missing tool for C++ programs and how to install it, or ""."""
     if not _compiler_here():
         return _advice(f"No C++ compiler is installed ({compiler()}).", "g++", "compilers")
     if not any((prefix / HEADER).exists() for prefix in prefixes()):
@@ -30,10 +27,7 @@ def compiler() -> str:
 
 
 def prefixes() -> list[Path]:
-    """Return the installation prefixes of headers and libraries.
-
-    These are catkin workspaces, conda's environment, and the system.
-    """
+    """Return the installation prefixes of headers and libraries: catkin workspaces, conda, and the system."""
     named = os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep)
     return [
         Path(each) for each in dict.fromkeys([*named, os.environ.get("CONDA_PREFIX", ""), "/usr"]) if each
@@ -41,10 +35,10 @@ def prefixes() -> list[Path]:
 
 
 def compile_command(source: str, program: str) -> list[str]:
-    """Return the command that builds `program` from one file, as catkin does; CMake would take too long."""
+    """Return a command that builds `program` from one file with the options of catkin, without CMake."""
     folders: list[str] = []
     for prefix in prefixes():
-        if prefix == Path("/usr"):  # the compiler searches /usr by itself
+        if prefix == Path("/usr"):  # The compiler searches /usr without an option.
             continue
         folders += [f"-I{prefix}/include", f"-L{prefix}/lib", f"-Wl,-rpath,{prefix}/lib"]
     libraries = [f"-l{name}" for name in LIBRARIES]

@@ -1,8 +1,8 @@
-"""Explains the errors of catkin_make, rosrun and other tools: what is wrong with a package, and what to do.
+"""Explain the errors of catkin_make, rosrun and other tools: the fault in a package, and its remedy.
 
-The pattern of a row matches the part of a message that is probably the same in every release. The messages
-come from catkin 0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The first row that matches is
-used. In the texts of a row, names in braces are replaced by the groups of the pattern.
+A pattern matches words that are probably the same in every release of the tool. The messages come from catkin
+0.8.10, CMake 3.25, genmsg 0.6 and the rosbash of Debian 12. The first row that matches is used. In the texts
+of a row, names in braces are replaced by the groups of the pattern.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _PATH = re.compile(r"/\S*/src/(?=[\w.+-]+/)")
 def explain(output: str) -> Fault | None:
     """Return the first fault in the output of a tool, or None if the output contains no known error.
 
-    If a message of CMake is in no table, the fault contains the message itself and its line.
+    If no table contains a message of CMake, the fault contains the message and its line.
     """
     text = _COLOUR.sub("", output).replace("\r\n", "\n")
     return next(_faults(text), None)

@@ -1,4 +1,4 @@
-"""A fault in a package. Its line in a package.xml is found even if the file is not well-formed XML."""
+"""A fault in a package; its line in a package.xml is found even if the file is not valid XML."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ _TAG = re.compile(r"<(?P<name>[A-Za-z_]\w*)(?:\s[^<>]*)?>(?P<text>[^<]*)")
 
 @dataclass(frozen=True)
 class Fault:
-    """A fault in a package, its place, and its remedy.
+    """A fault in a package, its location, and its remedy.
 
-    `problem` and `remedy` are whole sentences. `file` is relative to the workspace's src. `line` counts from
-    1; it is 0 if the line is not known.
+    `problem` and `remedy` are complete sentences. `file` is relative to the workspace's src. `line` counts
+    from 1, and is 0 if the line is unknown.
     """
 
     problem: str
@@ -25,7 +25,7 @@ class Fault:
 
     @property
     def place(self) -> str:
-        """Return the place, such as "my_services/CMakeLists.txt, line 6", or "" if it is not known."""
+        """Return the file and line, such as "my_services/CMakeLists.txt, line 6", or "" if it is unknown."""
         return f"{self.file}, line {self.line}" if self.line else self.file
 
     def __str__(self) -> str:
@@ -43,7 +43,7 @@ class Tag:
 
 
 def without_comments(text: str) -> str:
-    """Return a package.xml without its comments; all other text stays in its line."""
+    """Return a package.xml without its comments; line numbers do not change."""
     return _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), text)
 
 
@@ -57,10 +57,10 @@ def manifest_tags(text: str) -> Iterator[Tag]:
 def dependencies(text: str, purpose: str) -> set[str]:
     """Return the packages that a package.xml names for `purpose`: "build" or "run".
 
-    A dependency with a condition does not count, because it does not hold always. `text` has to be valid for
-    catkin.
+    Dependencies with a condition are ignored. `text` has to be valid for catkin.
     """
-    from catkin_pkg.package import parse_package_string  # imported here because it takes 50 ms
+    # The import takes 50 ms, so it is inside the function.
+    from catkin_pkg.package import parse_package_string
 
     package = parse_package_string(text)
     named = package.build_depends if purpose == "build" else package.exec_depends

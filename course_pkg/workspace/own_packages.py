@@ -1,7 +1,4 @@
-"""Makes the student's own packages available to a kernel.
-
-They are in the folder `workspace` next to `notebooks`.
-"""
+"""Make the student's own packages, in the folder `workspace` next to `notebooks`, available to a kernel."""
 
 from __future__ import annotations
 
@@ -25,19 +22,19 @@ if TYPE_CHECKING:
 NAME = "workspace"
 REMEDY = "Move the course to a folder in which you can write, and whose path contains no space."
 MANIFEST = "package.xml"
-# default folders for generated modules; used if the course's devel folder contains no such folder
+# These folders for generated modules are used if the course's devel folder contains no such folder.
 MODULES = ("lib/python3/dist-packages",)
-# The MD5 sum in a module that genpy has written.
+# The pattern matches the MD5 sum in a module that genpy has generated.
 MD5 = re.compile(r"""^  _md5sum *= *["']([0-9a-f]{32})["']""", re.MULTILINE)
-KINDS = (".srv", ".msg")  # Python packages with these name endings contain only generated modules
+KINDS = (".srv", ".msg")  # Python packages with these endings contain only generated modules.
 
 
 def own_workspace() -> Path:
     """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` in the checkout.
 
-    When notebooks are validated or graded, COURSE_WORKSPACE or COURSE_STATE is set. If only COURSE_STATE is
-    set, the workspace is the folder `workspace` in that folder. A run therefore does not find the packages of
-    another run.
+    A run that validates or grades notebooks sets COURSE_WORKSPACE or COURSE_STATE, so that it does not find
+    the packages of another run. If only COURSE_STATE is set, the workspace is the folder `workspace` in that
+    folder.
     """
     if given := os.environ.get("COURSE_WORKSPACE"):
         return Path(given).expanduser().resolve()
@@ -45,9 +42,9 @@ def own_workspace() -> Path:
 
 
 def make_own_workspace() -> Path:
-    """Return the student's workspace; if its folder `src` is missing, create this folder first.
+    """Return the student's workspace; create its folder `src` if it is missing.
 
-    Raises SetupError before it changes a file if the tools of ROS do not work in this folder.
+    Raises SetupError if the tools of ROS do not work in this folder; then no file has changed.
     """
     root = own_workspace()
     problem = _unfit(root)
@@ -62,7 +59,7 @@ def make_own_workspace() -> Path:
 
 
 def _unfit(root: Path) -> str:
-    """Return the reason why the tools of ROS do not work in a folder, or an empty string if they work."""
+    """Return the reason why the tools of ROS do not work in a folder, or ""."""
     if any(letter.isspace() for letter in str(root)):
         return "its path contains a space, and catkin cannot build there"
     if root.exists() and not (root / "src").is_dir() and any(root.iterdir()):
@@ -81,22 +78,23 @@ class OwnPackages:
             "LD_LIBRARY_PATH": [self._devel / "lib"],
             "PYTHONPATH": [self._devel / folder for folder in _module_folders()],
         }
-        # for each generated file (by path): the time in ns at which the file was written
+        # The dict maps the path of each generated file to the time of its last change in ns.
         self._seen: dict[str, int] = {}
-        self._unreadable: set[str] = set()  # the messages of the last refresh() about package.xml files
+        # These are the messages of the last refresh() about package.xml files.
+        self._unreadable: set[str] = set()
 
     def follow_cells(self, shell: InteractiveShell | None) -> None:
-        """Call refresh() now and, in a notebook's kernel, before each cell; print its message, if any."""
+        """Call refresh() now and, in a notebook, before each cell; print its message, if any."""
         self._refresh_and_print()
         if shell is not None:
             shell.events.register("pre_run_cell", lambda _info: self._refresh_and_print())
 
     def refresh(self) -> str:
-        """Make all built packages available to this process and to the programs that it starts.
+        """Make all built packages available to this process and to its child processes.
 
-        The folders come last on each search path, so a package of the student cannot replace a package of the
-        course. Return a message if the definition of an imported type has changed, or if a package.xml cannot
-        be read; else "".
+        The folders are at the end of each search path, so a student's package cannot replace a package of the
+        course. The method returns a message if the definition of an imported type has changed, or if a
+        package.xml cannot be read; else "".
         """
         for name, folders in self._paths.items():
             _append(name, folders)
@@ -122,7 +120,7 @@ class OwnPackages:
         for module in list(sys.modules.values()):
             file = getattr(module, "__file__", None) or ""
             if file.startswith(inside):
-                with suppress(OSError):  # the file was removed, for example with `rm -r devel`
+                with suppress(OSError):  # The file was deleted, for example with `rm -r devel`.
                     written = os.stat(file).st_mtime_ns
                     if self._seen.get(file) != written:
                         self._seen[file] = written
@@ -139,8 +137,8 @@ def _module_folders() -> list[str]:
 def _find_packages(source: Path) -> tuple[list[Path], list[str]]:
     """Return the folders of the packages in `source`, and a message for each package.xml that is unreadable.
 
-    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and stop with an error if one of these files
-    is not XML.
+    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and one invalid file stops them with an
+    error.
     """
     found, messages, visited = [], [], set()
     for folder, inside, files in os.walk(source, followlinks=True):
@@ -175,9 +173,9 @@ def _append(name: str, folders: list[Path]) -> None:
 
 
 def _follow(module: ModuleType) -> list[str]:
-    """Import the types that were added to a package; return the type in `module` if it was changed."""
+    """Import the types that were added to a package; if the type in `module` has changed, return it."""
     if module.__name__.endswith(KINDS):
-        # If a build is running or has failed, ignore the error here: the student's own import will show it.
+        # If a build is running or has failed, the student's own import shows the error.
         with suppress(Exception):
             importlib.reload(module)
         return []

@@ -1,4 +1,4 @@
-"""Tests of the three rules that remove the answer, and nothing else, from an exercise cell."""
+"""Tests of `blank`, which removes the answer from an exercise cell."""
 
 # ruff: noqa: E501 -- each source stands above its result, so that a reader can compare the two lines
 

@@ -55,10 +55,7 @@ def test_an_executed_solution_is_stable_and_valid(tmp_path: Path, monkeypatch: p
 
 
 def test_a_figure_is_a_stable_svg_that_nbval_does_not_compare(tmp_path: Path) -> None:
-    """The SVG contains its labels as text, and is the same in every run.
-
-    nbval compares only the plain text.
-    """
+    """In every run, the SVG is the same, and nbval compares only the plain text."""
     set_up = code('from course_pkg import join\nnode = join("chapter_05")', id="set-up")
     path = solution(tmp_path, code(PLOT, id="early"), set_up, code(PLOT, id="plot"))
     execute(["05"], tmp_path)

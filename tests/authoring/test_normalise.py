@@ -57,7 +57,7 @@ def test_only_parts_that_differ_between_runs_are_removed() -> None:
 
 
 def test_a_readable_traceback_stays() -> None:
-    """`tidy` does not remove a traceback of the course, because this traceback contains no file paths."""
+    """A traceback of the course contains no file paths, and `tidy` does not remove it."""
     lines = [HEADER, "  This cell, line 1", "    fail()", "E: v"]
     cell = code("fail()", outputs=[{"output_type": "error", "ename": "E", "evalue": "v", "traceback": lines}])
     tidy(book(cell))
@@ -73,7 +73,7 @@ def test_another_traceback_is_reduced_to_its_last_line() -> None:
 
 
 def test_every_cell_gets_a_unique_id() -> None:
-    """`tidy` gives each cell without a valid id a new id, and makes duplicate ids unique."""
+    """`tidy` gives each cell a unique and valid id."""
     notebook = book(text("a", "same"), text("b", "same"), text("c", "not valid!"), exercise(), check())
     notebook["cells"][3]["id"] = "whatever"
     tidy(notebook)

@@ -1,4 +1,4 @@
-"""`course sync` derives the students' notebooks from the solutions, and reports problems."""
+"""Tests of `course sync`, which creates the students' notebooks from the solutions."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) ->
 
 
 def test_an_edit_by_hand_is_found_and_undone(root: Path) -> None:
-    """`check` reports an edited notebook, and a sync restores it."""
+    """`check` reports an edited notebook, and a sync restores the notebook."""
     sync(root=root)
     path = root / "notebooks" / "05_write_a_server.ipynb"
     path.write_text(path.read_text() + "\n")

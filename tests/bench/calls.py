@@ -32,8 +32,8 @@ from course_pkg.ros import BoundedProxy, NodeProcess, PrivateMaster, join, look,
 from course_pkg.ros.trace.recorder import Recorder
 
 # bounded: compares the duration of a call through BoundedProxy with that of a call through
-# rospy.ServiceProxy. Both call the same server; they alternate in blocks of 20 calls. It prints the medians
-# and their ratio.
+# rospy.ServiceProxy. The two calls use the same server and alternate in blocks of 20 calls. The benchmark
+# prints the medians and their ratio.
 
 
 def bounded_main() -> None:
@@ -80,10 +80,9 @@ def looks(count: int) -> None:
         process.stop()
 
 
-# panel: compares the duration of a call through the service panel with that of a call through a rospy proxy,
-# both on new connections. The panel converts the strings of the form to values, makes the call, and converts
-# the response to rows of a table. The client and the server use one core each; calls of the panel and of the
-# proxy alternate.
+# panel: compares a call through the service panel with a call through a rospy proxy. A call of the panel
+# includes the conversion of the strings in the form and of the response. The client and the server use one
+# core each; calls of the panel and of the proxy alternate.
 
 PANEL_BAR = 1.15
 
@@ -128,13 +127,13 @@ def panel_main() -> int:
 
 
 # robust: makes 200 payments with the solution of 12.3, and counts the errors. The till causes a fault at
-# every third payment. The till is a separate process; the benchmark stops, kills and restarts it. It writes
-# each payment to a file before it sends its response. These count as errors: a receipt without an entry in
-# the file, a payment that is missing or was made twice, a refusal that pay() does not report, and a missing
-# receipt. A payment that has not ended 2 s after its time limit counts as a hang.
+# every third payment. The till is a separate process; the benchmark stops, kills and restarts it. The till
+# writes each payment to a file before it sends its response. An error is a payment that is missing or was
+# made twice, a receipt without a payment, a missing receipt, or a refusal that pay() does not report. A
+# payment that has not ended 2 s after its time limit counts as a hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
-DEADLINE = 15.0  # A payment may take this many seconds; a restart of a killed till needs about 1 s.
+DEADLINE = 15.0  # A payment may take this many seconds. The restart of a killed till needs about 1 s.
 GRACE = 2.0  # A payment that takes this many seconds more than DEADLINE counts as a hang.
 IN_THE_TILL = (
     "dies before it charges",
@@ -194,7 +193,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """A till in a separate process that is restarted whenever it exits."""
+    """A till in a separate process that is restarted after each exit."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -241,7 +240,7 @@ class Street:
         elif fault == "is shut down":
             self._till.interrupt()
         elif fault == "is killed while it is asked":
-            # A call takes about 3 ms, so this delay places the fault at a random moment of the call.
+            # A call takes about 3 ms. A delay of 0 to 4 ms places the fault at a random moment of the call.
             delay = dice.uniform(0.0, 0.004)
             threading.Timer(delay, self._signal, [self._till.pid, signal.SIGKILL]).start()
 
@@ -250,7 +249,7 @@ class Street:
             os.kill(pid, number)
 
     def _recover(self) -> None:
-        """Wait until the till works again and no fault is planned."""
+        """Wait until the till is running and has no planned fault."""
         (self._folder / "plan").write_text("")
         deadline = time.monotonic() + 30
         while time.monotonic() < deadline:
@@ -288,7 +287,7 @@ def books(folder: Path) -> list[dict[str, Any]]:
 
 
 class Till:
-    """The node of the till. The node writes each request to a file before it sends the response."""
+    """The ROS node of the till. The node writes each request to a file before it sends the response."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -334,10 +333,10 @@ def serve(folder: Path) -> None:
     rospy.spin()
 
 
-# recorder: measures the cost of the recorder. It measures a call on a new connection, a call on a persistent
-# connection, and a published message, each with and without recording in both nodes. It also measures a
-# single event. The result of a run is the lower quartile of its durations. The benchmark prints the fastest
-# run, because other programs on the machine can only make a run slower.
+# recorder: measures the cost of the recorder.
+# The benchmark measures calls on new and on persistent connections, published messages, and single events,
+# with and without recording. The result of a run is the lower quartile of its durations. The benchmark prints
+# the fastest run, because other programs on the machine can only make a run slower.
 
 # The first number limits the duration ratio for a call on a new connection. The second number limits the
 # duration of an event in µs.
@@ -436,7 +435,7 @@ def shown(runs: list[tuple[Figures, Figures]]) -> float:
 
 
 def event() -> float:
-    """Return the duration in µs of recording the beginning and the end of an event."""
+    """Return the duration in µs that the recorder needs for an event."""
     recorder = Recorder()
     rounds = []
     for _ in range(50):

@@ -1,10 +1,8 @@
 """Counts objects, names, parts, lines of errors and words in the chapters.
 
-It compares each count with its bar.
-
 usage: ./course run python tests/bench/content.py objects|names|parts|errors|prose|all
 
-It reads the notebooks in `solutions/` with their stored outputs.
+The benchmark reads the notebooks in `solutions/` with their stored outputs.
 """
 
 from __future__ import annotations
@@ -98,7 +96,7 @@ def errors_main() -> bool:
 
 
 def prose_main() -> bool:
-    """Print the number of words of prose in each chapter; return whether the sum is too high."""
+    """Print the number of words in each chapter; return whether the sum is too high."""
     words = Counter[str]()
     for path, _, cell in cells("markdown"):
         words[path.stem[:2]] += len(re.findall(r"[^\W_]+", cell.source))
@@ -113,7 +111,7 @@ def all_main() -> bool:
 
 
 def cells(kind: str) -> Iterator[tuple[Path, int, nbformat.NotebookNode]]:
-    """Yield each cell of this kind, with the path of its notebook and its number."""
+    """Yield each cell of this kind, with the notebook's path and the cell's number."""
     for path in sorted((ROOT / "solutions").glob("[0-9][0-9]_*.ipynb")):
         for number, cell in enumerate(nbformat.read(path, as_version=4).cells):
             if cell.cell_type == kind:

@@ -1,9 +1,9 @@
 """Measures how well the flags find copies in a class of 300 students.
 
-`grading.py copies [SEED …]` writes a class of chapter 05: for each exercise, each of 280 students takes one
-of the independently written answers (from independent_05.txt and from the chapter's example answers) and
-changes its style. The 20 other students copy answers of a student and disguise the copies with other names,
-another order and other comments. Ten of them copy all exercises, and ten copy only two of four exercises.
+`grading.py copies [SEED …]` writes a class of chapter 05. Each of 280 students gets independently written
+answers in a random style. The 20 other students copy a student's answers, and disguise the copies with other
+names, another order and other comments. Ten of them copy all exercises, and ten copy only two of four
+exercises.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ def independent_answers() -> dict[str, list[str]]:
 def a_class(
     written: dict[str, list[str]], draw: random.Random
 ) -> tuple[list[Answers], list[tuple[int, int]]]:
-    """Return the answers of all students, and the numbers of the students in each pair (original, copy)."""
+    """Return the answers of all students, and the pairs of student numbers (original, copy)."""
     students: list[Answers] = []
     for _ in range(STUDENTS - COPIES):
         style = a_style(draw)
@@ -108,12 +108,12 @@ def a_class(
 
 
 def styled(source: str, style: list[Rule], draw: random.Random) -> str:
-    """Return a submission that contains these answers."""
+    """Return an answer in the style of a student."""
     return in_style(source, style, draw)
 
 
 def handed_in(number: int, answers: Answers) -> Submission:
-    """Return a submission: the handed-out notebook with these answers."""
+    """Return the handed-out notebook with these answers as a submission."""
     notebook = json.loads(json.dumps(derived(read(NotebookStore().solutions([CHAPTER])[0]))))
     for cell in code_cells(notebook):
         cell["source"] = answers.get(exercise_of(cell), cell["source"])

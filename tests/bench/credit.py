@@ -3,10 +3,10 @@
 usage: ./course run python tests/bench/credit.py [few] [PART …]
 
 PART is the beginning of a part's id, such as 05 or 05.3. The first right answer has to earn full points, and
-all wrong example answers less. An answer that does nothing is made from the first right answer: all of its
-functions return the same value or raise an exception, or the answer cannot be run. It has to earn nothing.
-The exit status is the number of answers with wrong points. With `few`, only two wrong answers of each part
-run. Parts without goals are left out, because only a pass earns points.
+all wrong example answers less. An answer that does nothing is made from the first right answer: all functions
+return the same value or raise an exception, or the answer cannot be run. An answer that does nothing must
+earn no points. The exit status is the number of answers with wrong points. With `few`, only two wrong answers
+of each part run. Parts without goals are left out, because only a pass earns points.
 """
 
 from __future__ import annotations

@@ -146,7 +146,7 @@ def _members(module: ast.Module) -> set[str]:
 
 
 def _reordered(module: ast.Module, draw: random.Random) -> None:
-    """Shuffle methods, adjacent functions and classes, and adjacent independent assignments."""
+    """Change the order of methods, adjacent functions and classes, and adjacent assignments."""
     for node in ast.walk(module):
         body = getattr(node, "body", None)
         if not isinstance(body, list):
@@ -214,7 +214,7 @@ def _statement(text: str) -> ast.stmt:
 
 
 def name_results(module: ast.Module, draw: random.Random) -> None:
-    """Assign each returned response to a variable; in some cases, assign its fields one by one."""
+    """Assign each returned response, or each of its fields, to a variable."""
     name, one_by_one = draw.choice(RESULTS), draw.random() < 0.5
     for body in _blocks(module):
         for place in range(len(body) - 1, -1, -1):

@@ -1,6 +1,6 @@
-"""Measures grading.
+"""Measures the grading of submissions.
 
-It measures the speed, the effect of a kill, the grades of solutions and of other answers, and the flags for
+The benchmarks measure the speed, the effect of a kill, the grades of different answers, and the flags for
 copies.
 
 usage: ./course run python tests/bench/grading.py speed|kill|reference|answers|copies [OPTION …]
@@ -43,9 +43,9 @@ from tests.grading.submitted import WRONG, hand_in
 # speed: compares `course grade` with nbgrader. Arguments: `[SUBMISSIONS] [plain] [many[:COUNT]]`. SUBMISSIONS
 # students (default 30) hand in the notebook of chapter 05. Every third student has one wrong answer. Three
 # commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and `nbgrader
-# autograde` with a notebook that has the same cells. The ratio is that of the durations per notebook. With
+# autograde` with a notebook that has the same cells. The ratio compares the durations per notebook. With
 # `plain`, only the first command runs. With `many`, `course grade` also grades 1,000 (or COUNT) submissions,
-# and the memory of all its processes is measured. nbgrader is installed into a folder of the cache.
+# and the benchmark measures the memory. nbgrader is installed into a folder of the cache.
 
 NBGRADER = "nbgrader==0.9.6"
 CHAPTER = "05"
@@ -220,7 +220,7 @@ COURSE = Places.of().checkout / "course"
 
 
 def kill_main() -> None:
-    """Kill and continue runs. Print how often the grades were equal and no process remained."""
+    """Kill runs and continue them. Print how often the grades were equal and no process remained."""
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         here = Path(folder)
@@ -237,7 +237,7 @@ def kill_main() -> None:
 
 
 def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bool:
-    """Kill a run and continue it. Return whether its grades are `expected` and no process remains."""
+    """Kill a run, and continue the run. Return whether its grades are `expected` and no process remains."""
     moment = random.uniform(0.2, whole)  # noqa: S311 -- not a secret
     process = start(submissions, out)
     time.sleep(moment)

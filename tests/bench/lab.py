@@ -8,8 +8,8 @@ usage: ./course run python tests/bench/lab.py start [RUNS [NOTEBOOK]]
 - `click` prints the time from a click to Python and back to the page.
 - `kill` kills `course lab`, its master or its kernel by SIGKILL, and prints how many processes were left.
 
-`start` and `click` alternate between the two servers, so that other load on the machine affects both.
-`./course test` installs the browser.
+The measurements of `start` and `click` alternate between the two servers. `./course test` installs the
+browser.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ Server = Callable[[Path, Path], AbstractContextManager[str]]
 
 
 def start(runs: int = 5, notebook: str = "notebooks/00_start_the_graph.ipynb") -> bool:
-    """Measure the start of each server, first with an empty browser cache and then with a full cache."""
+    """Measure the start of each server with an empty browser cache and with a full cache."""
     rows: dict[str, list[list[float]]] = {name: [] for name in SERVERS}
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         for _ in range(runs + 1):
@@ -97,7 +97,7 @@ def start(runs: int = 5, notebook: str = "notebooks/00_start_the_graph.ipynb") -
 
 
 def times_of_start(context: BrowserContext, server: Server, notebook: Path, state: Path) -> list[float]:
-    """Return the time from the command to each of STEPS, in s."""
+    """Return the time in s from the command to each step in STEPS."""
     began = time.perf_counter()
     with server(notebook, state) as address:
         marks = [time.perf_counter()]
@@ -213,7 +213,7 @@ def killed(port: int, pattern: bytes) -> tuple[float, int]:
     """Kill the process whose command line contains `pattern`, and then stop the command.
 
     An empty `pattern` kills the command itself. Return the time in s until all processes have exited, and the
-    numbers of processes and of ports that remain.
+    numbers of remaining processes and ports.
     """
     with lab("--port", str(port), str(next((ROOT / "solutions").glob("*.ipynb")))) as (process, address):
         assert urlsplit(address).port == port
@@ -233,7 +233,7 @@ def killed(port: int, pattern: bytes) -> tuple[float, int]:
 
 
 def complete_family(process: subprocess.Popen[str]) -> list[int]:
-    """Return the child processes of `process`, or an empty list while the master or the kernel is missing."""
+    """Return the child processes of `process`. The list is empty if the master or the kernel is missing."""
     family = below(process)
     return family if having(b"ipykernel_launcher", family) and having(b"rosmaster\0--core", family) else []
 

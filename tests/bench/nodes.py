@@ -1,6 +1,4 @@
-"""Measures nodes.
-
-It measures the rates of the turtle simulator, its behaviour under random calls, and the faults of BreakIt.
+"""Measures the turtle simulator and the faults of BreakIt.
 
 usage: ./course run python tests/bench/nodes.py rates|fuzz|faults [OPTION …]
 """
@@ -30,10 +28,10 @@ from course_pkg.ros import NodeProcess, PrivateMaster, join, look
 from tests.faults.surroundings import Surroundings
 from tests.turtlesim.fuzz import Fuzzer, resident, sane
 
-# rates: the CPU time of the simulator, and the regularity of its ticks. It needs an idle machine. Bars, with
-# 1 and with 12 turtles that move and have subscribers:
+# rates: the CPU time of the simulator, and the regularity of its ticks.
+# The benchmark needs an idle machine. The limits are for moving turtles with subscribers:
 # - a rate of 62.5 Hz with an error of at most 1 %, and 99 % of the gaps at most 24 ms (in 20 s)
-# - at most 4 % of a core with one turtle, and 15 % with 12
+# - at most 4 % of a core with one turtle, and at most 15 % with 12 turtles
 # - responses of spawn, teleport and reset within 18 ms
 
 TURTLES = 12
@@ -140,8 +138,8 @@ def processor_time(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-# fuzz: makes 10,000 random calls to the simulator, or publishes random messages. It prints whether the node
-# still runs, whether its state is consistent, and its memory.
+# fuzz: makes 10,000 random calls to the simulator, or publishes random messages. The benchmark prints whether
+# the node still runs, whether its state is consistent, and its memory.
 
 BLOCKS = 10
 
@@ -170,11 +168,11 @@ def fuzz_main() -> None:
     print("the node still ran, and its world was consistent, after each block")
 
 
-# faults: measures how long it takes to cause and undo each fault of BreakIt, and if the graph is restored.
+# faults: measures the time to cause and undo each fault of BreakIt, and checks whether the graph is restored.
 # usage: nodes.py faults [ROUNDS] [FAULT …]
-# For each fault, it prints the median and the maximum duration (s). It also prints how often something was
-# left behind: a node, topic, service, process, listening port or environment variable. It also measures the
-# start and the end of a plain node, because a fault with a server cannot be faster than this.
+# For each fault, the benchmark prints the median and the maximum duration (s), and how often a node, topic,
+# service, process, listening port or environment variable remained. The benchmark also measures the start and
+# the end of a plain node, because the fastest fault with a server needs this time.
 
 BOUND = 3.0  # The benchmark counts the rounds that take longer than this many seconds.
 BARE = """

@@ -46,8 +46,8 @@ from tests.browser.chromium import FLAGS
 from tests.browser.jupyter import running_lab, running_notebook
 from tests.browser.pages import new_page, panel
 
-# graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time while the graph
-# does not change.
+# graph: measures an update of the graph panel with 20 nodes and 40 topics, and the CPU time for an unchanged
+# graph.
 
 UPDATE_BAR = 150.0  # ms
 IDLE_BAR = 2.0  # The panel may use at most this percentage of a core.
@@ -76,7 +76,7 @@ while not rospy.is_shutdown():
 
 
 def graph(turn: int) -> Snapshot:
-    """Return a graph that contains one topic with a different name for each `turn`."""
+    """Return a graph in which the name of one topic depends on `turn`."""
     names = [f"/robot_{number}" for number in range(NODES)]
     topics = [
         TopicSeen(f"/topic_{number}_{turn if not number else 0}", "std_msgs/String", (names[number % NODES],),
@@ -140,7 +140,7 @@ def idle() -> float:
 
 
 def busy() -> tuple[float, Counter[str]]:
-    """Return the percentage of a core and the trait updates while 20 nodes use 40 topics."""
+    """Return the percentage of a core and the number of updates while 20 nodes use 40 topics."""
     topics = [f"/topic_{number}" for number in range(TOPICS)]
     commands = [
         [f"robot_{number}", ",".join(topics[number::NODES]), ",".join(topics[(number + 7) % NODES :: NODES])]
@@ -170,8 +170,8 @@ def graph_main() -> int:
     return int(updated > UPDATE_BAR or max(resting, talking) > IDLE_BAR or sent["drawing"] > 0)
 
 
-# timeline: measures how long the timeline panel needs in a browser for the first drawing of 2,000 events, and
-# for moving the view. `./course test` installs the browser.
+# timeline: measures the time until a browser has drawn 2,000 events, and the frame rate while the view moves.
+# `./course test` installs the browser.
 
 EVENTS, LENGTH = 2000, 10.0  # s
 # The first drawing may take at most this many ms. Moving the view must reach at least this many frames per
@@ -287,8 +287,8 @@ def call(number: int, at: float) -> list[Event]:
     return [*mine, Event(HANDLER, whom, "/detect", at + 2.2e-3, at + 0.0999, who, key, f"Thread-{number}")]
 
 
-# topic: measures the CPU time of a topic panel, the number of its updates, and the accuracy of its rate. The
-# panel is shown by a real kernel. In place of a page, a client reads the kernel's messages.
+# topic: measures the CPU time of a topic panel, the number of its updates, and the accuracy of its rate. A
+# real kernel runs the panel. Instead of a page, a client reads the kernel's messages.
 
 TOPIC_WATCH = 10.0  # s
 TOPIC_BAR = 5.0  # The panel may use at most this percentage of a core at 100 Hz.
@@ -412,8 +412,8 @@ def topic_main() -> int:
     return int(missed > 0)
 
 
-# types: measures how long the type browser needs to open, with the types of this machine, and with hundreds
-# of additional types. It is compared with `rossrv list`, which lists the same service types in a terminal.
+# types: measures the time until the type browser is open, with the types of this machine and with additional
+# types. The benchmark compares the time with `rossrv list`, which lists the same service types in a terminal.
 
 TYPES_BAR = 100.0  # The type browser may need at most this many ms to open, after the import.
 PACKAGES, TYPES = 60, 10
@@ -461,9 +461,9 @@ def types_main() -> int:
     return int(first > TYPES_BAR)
 
 
-# turtles: measures the cost of a turtle panel with five moving turtles. It needs an idle machine. `./course
-# test` installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the websocket, and at
-# most 3 % of a core for the kernel.
+# turtles: measures the cost of a turtle panel with five moving turtles. The benchmark `turtles` needs an idle
+# machine. `./course test` installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the
+# websocket, and at most 3 % of a core for the kernel.
 
 SETUP = """
 from course_pkg import TurtlePanel, join
@@ -510,7 +510,7 @@ def turtles_main() -> None:
 
 
 def counted(page: Page) -> list[int]:
-    """Return a list whose only element is the number of bytes that the page's websockets have received."""
+    """Return a list with one number: how many bytes the page's websockets have received."""
     received = [0]
 
     def count(socket: WebSocket) -> None:

@@ -1,4 +1,4 @@
-"""Measures how fast the review page shows the next of 300 answers, in a browser.
+"""Measures the time that the review page needs to show the next answer, in a browser.
 
 usage: ./course run python tests/bench/review.py next
 """

@@ -1,6 +1,4 @@
-"""Measures the set-up.
-
-It measures the first start on a new machine, the import of the package, and the builds of chapter 13.
+"""Measures the duration of the set-up, of imports, and of builds.
 
 usage: ./course run python tests/bench/setup.py fresh|imports|cpp [OPTION …]
 """
@@ -112,7 +110,7 @@ def inside(system: Path, script: str) -> None:
 
 
 def mirror(codename: str) -> str:
-    """Return the mirror from which apt installs `codename`, or the release of this machine."""
+    """Return the apt mirror for the Debian release `codename`, or for the release of this machine."""
     targets = [
         "apt-get",
         "indextargets",
@@ -139,7 +137,7 @@ def tell_surroundings(system: Path) -> None:
             shutil.copy(source, target)
 
 
-# imports: measures how much longer `import course_pkg` and the imports of a notebook take than the import of
+# imports: compares the import times of `course_pkg` and of a notebook's imports with the import time of
 # rospy.
 
 ROUNDS = 21
@@ -164,7 +162,7 @@ def import_time(statement: str) -> float:
 
 
 def imports_main() -> None:
-    """Measure the imports alternately, and print the median difference to the import of rospy."""
+    """Print the median difference between each import and the import of rospy."""
     taken: dict[str, list[float]] = {name: [] for name in STATEMENTS}
     for _ in range(ROUNDS):
         peer = import_time(PEER)
@@ -175,8 +173,8 @@ def imports_main() -> None:
     print(f"bar for course_pkg: {IMPORTS_BAR:.0f} ms")
 
 
-# cpp: prints how long the builds of chapter 13 take in a new workspace, and how long the compilation of one
-# file takes. The files and the commands come from the cells of the solution.
+# cpp: prints the duration of the builds of chapter 13 in a new workspace, and of the compilation of one file.
+# The files and the commands come from the cells of the solution.
 
 SOLUTION = next((Path(__file__).parents[2] / "solutions").glob("13_*.ipynb"))
 CPP_BAR = 15.0  # s

@@ -31,10 +31,10 @@ from course_pkg.site.runs import Runs
 from tests.browser.chromium import chromium
 from tests.site.test_pages import AXE, COLOURS, WIDTHS, look_for, open_page, pages, reader, violations
 
-# pages: measures the duration of a build of the site, the size of its pages, and the time until the first
-# panel is drawn. Before this, `./course site` must have run every chapter. The build is compared with
-# `jupyter nbconvert --to html` of the same 14 executed notebooks; the two alternate. If the course has fewer
-# chapters, some of them are used twice.
+# pages: measures the duration of a build of the site, the size of the pages, and the time until the first
+# panel is drawn. Run `./course site` with every chapter before this benchmark. The benchmark compares the
+# build with `jupyter nbconvert --to html` of the same 14 executed notebooks. If the course has fewer
+# chapters, some chapters are used twice.
 
 PAGES = 14
 ROUNDS = 5
@@ -134,7 +134,7 @@ def first_panels(site: Path) -> None:
 
 
 # axe: checks the accessibility of a whole site with all rules of axe-core. Arguments: `[SITE]`. SITE is the
-# folder of a site; the default is the last site that `./course site` wrote. Each page is checked in a wide
+# folder of a site. The default is the last site that `./course site` wrote. Each page is checked in a wide
 # and a narrow window, in the light and dark themes, and with the search open and closed. The tests leave out
 # combinations that give the same result.
 
@@ -158,8 +158,8 @@ def axe_main() -> None:
     print(f"{count} violations on {len(pages(site))} pages, {len(WIDTHS) * len(COLOURS)} ways each")
 
 
-# nbval: prints how long nbval needs for all solutions, one after another and several at a time. Arguments:
-# `[WORKERS …]`. By default, it uses the number of workers that `course` uses on this machine.
+# nbval: prints how long nbval needs for all solutions, serially and in parallel.
+# Arguments: `[WORKERS …]`. The default is the number of workers that `course` uses on this machine.
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
 BAR = 0.45  # A parallel run may take at most this fraction of the serial run.
@@ -200,8 +200,7 @@ def _spent() -> float:
     return usage.ru_utime + usage.ru_stime
 
 
-# listeners: prints how many sockets listen while each chapter runs, and how many of them listen on addresses
-# other than 127.0.0.1.
+# listeners: prints how many listening sockets each chapter opens, and which of them are not on 127.0.0.1.
 
 LISTEN = "0A"
 LOOPBACK = ("0100007F", "00000000000000000000000001000000", "0000000000000000FFFF00000100007F")

@@ -1,4 +1,4 @@
-"""Helpers for pages in the browser."""
+"""Functions for pages in the browser."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from course_pkg.panels.panel import Panel
 HERE = Path(__file__).parent
 # JupyterLab's own scripts have these addresses in a stack trace; the course's scripts have blob: addresses.
 JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
-READY = 60_000  # A browser, a server and a kernel start within this many ms, even on a busy machine.
+READY = 60_000  # On a busy machine, a browser, a server and a kernel need at most this many ms to start.
 HOST = (HERE / "host.html").read_text()
 
 # This function runs in the page and returns the texts with too little contrast.

@@ -81,7 +81,7 @@ def widget(master: PrivateMaster) -> GraphPanel:
 
 
 def shape(graph: Locator, key: str) -> Locator:
-    """Return a shape, or the title of a frame, by its kind and name."""
+    """Return the element of a node, a topic, a service or a frame by its key."""
     return graph.locator(f'[role="button"][data-key="{key}"]')
 
 
@@ -114,7 +114,7 @@ def test_a_saved_namespace_lists_its_shapes(widget: GraphPanel, page: Page, tmp_
     graph = panel(page, "Graph panel")
     box = shape(graph, "namespace /robot_1/")
     expect(box).to_have_attribute("aria-expanded", "false")
-    # With live=False, the panel does not show this text.
+    # With live=False, the panel does not show the sentence "this picture was saved".
     expect(graph.get_by_text("this picture was saved")).not_to_be_attached()
     box.click()
     expect(graph.locator(".ros-details")).to_contain_text("/robot_1/topic_1 10 Hz")
@@ -154,7 +154,7 @@ def seek(graph: Locator, seconds: float) -> None:
 def test_a_recording_of_the_graph_is_played_without_a_kernel(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str
 ) -> None:
-    """The slider and the keys select a time of the recording, and Play plays it again."""
+    """The slider selects a time of the recording, and the button Play starts the recording."""
     page.set_viewport_size({"width": 560, "height": 900})
     page.goto(save(played(widget), tmp_path / "page.html", theme))
     graph = panel(page, "Graph panel")
@@ -186,7 +186,7 @@ def test_a_recording_of_the_graph_is_played_without_a_kernel(
 
 
 def test_a_recording_does_not_play_out_of_sight(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """A recording pauses while it is not visible on the page.
+    """The recording pauses while the panel is not visible on the page.
 
     With reduced motion, the page shows one picture per second.
     """

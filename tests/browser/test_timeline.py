@@ -19,7 +19,7 @@ COLOURS = """(canvas, [x, y]) => {
     return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
 }"""
 LENGTH = 1.0  # s
-EDGE = 0.02  # The drawing shows this fraction of the recording's length before and after the recording.
+EDGE = 0.02  # The drawing is longer than the recording by this fraction, before and after the recording.
 
 
 def recording(*more: Event, open_end: bool = False) -> Recording:
@@ -63,14 +63,14 @@ def drawing(timeline: Locator) -> Locator:
 
 
 def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
-    """Return the position in the drawing of the time `time` in s in the first row of a node."""
+    """Return the position in the drawing of a time in s and a node's first row."""
     box = drawing(timeline).bounding_box()
     assert box is not None
     return box["width"] * (time / LENGTH + EDGE) / (1 + 2 * EDGE), 4 + 22 + 10 + lane * (22 + 23 + 12)
 
 
 def click(page: Page, timeline: Locator, time: float, lane: int) -> None:
-    """Click at the time `time` in s in the row of a node."""
+    """Click at the position of a time in s in the row of a node."""
     x, y = spot(timeline, time, lane)
     drawing(timeline).click(position={"x": x, "y": y})
 
@@ -86,7 +86,7 @@ def drawn(page: Page) -> None:
 
 
 def test_a_click_describes_the_event(page: Page, tmp_path: Path) -> None:
-    """A click on an event shows its description, and a click next to the event hides the description."""
+    """A click on an event shows its description, and a click on an empty position hides the description."""
     timeline = show(page, tmp_path, recording())
     details = timeline.locator(".ros-details")
     expect(details).to_contain_text("Click an event")
@@ -168,7 +168,7 @@ def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
 
 
 def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
-    """Ctrl and the mouse wheel zoom, and a drag moves the view."""
+    """Ctrl with the mouse wheel zooms, and a drag moves the visible time range."""
     timeline = show(page, tmp_path, recording())
     whole = ticks(timeline)
     drawing(timeline).hover(position={"x": 300, "y": 60})

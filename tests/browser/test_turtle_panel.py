@@ -32,7 +32,7 @@ threading.Timer(1, later).start()
 
 
 def seek(turtles: Locator, part: float) -> None:
-    """Move the slider to `part` of the recording, from 0 (start) to 1 (end)."""
+    """Move the slider to the fraction `part` of the recording."""
     turtles.get_by_label("Moment of the recording").evaluate(
         "(handle, part) => { handle.value = handle.max * part; handle.dispatchEvent(new Event('input')) }",
         part,
@@ -45,7 +45,10 @@ def cells(turtles: Locator, name: str) -> list[str]:
 
 
 def recorded() -> TurtleRecording:
-    """Return a recording of 5 s with a turtle that moves in a circle, and a turtle that appears after 3 s."""
+    """Return a recording of 5 s.
+
+    The first turtle moves in a circle, and the second turtle appears after 3 s.
+    """
     recording = TurtleRecording()
     for number in range(100):
         angle = number / 100 * 2 * math.pi
@@ -86,10 +89,7 @@ def test_without_a_simulator(lab: Lab, lab_page: Page) -> None:
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """A saved recording first shows its last moment.
-
-    The reader can select any time, and play the recording.
-    """
+    """A saved recording first shows its last moment, and the reader can play the recording."""
     widget = TurtlePanel()
     widget.publish(recorded=recorded().state())
     page.set_viewport_size({"width": 390, "height": 900})

@@ -150,7 +150,7 @@ def test_number_of_waiting_calls_is_limited() -> None:
 def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: NodeProcess) -> None:
     """Calls fail after the camera is killed, and succeed again with a new camera.
 
-    The customers of the new camera have higher numbers, so waiting clients find them.
+    The customers of the new camera have higher numbers than the earlier customers.
     """
     first = let_in(0.0).first
     assert detect(patience=10.0).number == first
@@ -315,7 +315,7 @@ def test_an_end_that_comes_during_the_start(name: str, master: PrivateMaster) ->
     """After Ctrl-C during the start, a node exits and is not registered."""
     client = MasterClient(master.uri)
     with NodeProcess(["rosrun", "course_pkg", name, f"__name:=new_{name}"]) as process:
-        # The condition becomes true during init_node().
+        # The next condition becomes true during init_node().
         eventually(partial(client.lookup_node, f"/new_{name}"), interval=0.001)
         os.kill(process.pid, signal.SIGINT)
         assert process.wait(20) == 0

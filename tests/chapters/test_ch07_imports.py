@@ -30,14 +30,14 @@ class Replying:
         self.reply = reply
 
     def command(self, *_argv: str, within: float, worded: str) -> Finished:
-        """Return the result of a command; a time in `reply` is a fraction of `within`."""
+        """Return the result of a command. A time in `reply` is a fraction of the time limit `within`."""
         times = {name: value * within for name, value in self.reply.items() if isinstance(value, float)}
         assert worded == "import server.py"
         return Finished({**self.reply, **times, "took": within})
 
 
 def imported(**reply: float | int | str | None) -> CheckContext:
-    """Return the context of a check in which the command for the import returned `reply`."""
+    """Return the context of a check whose import command returned `reply`."""
     context = CheckContext("07.4", cast("Channel", None), cast("Node", None), 1)
     folder = cast("Folder", Replying(dict(reply)))
     can_be_imported(context, BuiltPackage(folder, Package("my_geometry", {})), SCRIPT)

@@ -74,7 +74,7 @@ def test_client_of_another_definition_is_refused(adder: NodeProcess) -> None:
 
 
 def test_client_of_another_definition_with_wrong_arguments() -> None:
-    """For wrong arguments, this client prints its own usage."""
+    """For wrong arguments, the client with another service definition prints its own usage."""
     done = program("add_two_floats_client", "one", "2")
     assert done.returncode == 2
     assert done.stderr.startswith("usage: add_two_floats_client A B")
@@ -180,7 +180,7 @@ def test_set_to_the_present_position_does_not_move() -> None:
 
 @pytest.mark.usefixtures("switch")
 def test_toggle_moves_the_switch_each_time() -> None:
-    """Two toggles restore the first position."""
+    """After two toggles, the switch has its first position again."""
     assert [trigger("toggle") for _ in range(3)] == [(True, "opened"), (True, "closed"), (True, "opened")]
 
 

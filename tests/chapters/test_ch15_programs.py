@@ -110,7 +110,7 @@ def test_impossible_patience_is_refused(patience: float) -> None:
 
 @pytest.mark.usefixtures("detector")
 def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
-    """One second after the camera's last frame, the detector refuses calls."""
+    """One second after the camera's last picture, the detector refuses calls."""
     let_in(0.0)
     eventually(detect)
     camera.kill()

@@ -30,7 +30,7 @@ def geometry() -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def bridge() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg bridge _port:=0` until it accepts connections."""
+    """Run the websocket bridge until the bridge accepts connections."""
     with NodeProcess(["rosrun", "course_pkg", "bridge", "_port:=0"]) as process:
         process.wait_for_output("ws://", timeout=20)
         yield process
@@ -174,7 +174,7 @@ def test_goal_succeeds_with_feedback(asking: Kernel) -> None:
 
 
 def test_cancelled_goal_returns_the_number_so_far(asking: Kernel) -> None:
-    """After a cancellation, the result is the number of things that the robot has fetched."""
+    """After a cancellation, the result is the number of fetched things."""
     fetched, preempted = asking.run("""
         client.send_goal(FetchGoal(things=500, seconds=0.05), feedback_cb=tell)
         assert third.wait(20)

@@ -20,16 +20,16 @@ SENTENCE = re.compile(r"[^\n]* [^\n]*\S[.?]( [^\n]*)?")
 
 @dataclass(frozen=True)
 class Hint:
-    """A hint; an f-string is stored as a list of its fixed texts."""
+    """A hint of a check. An f-string is stored as a list of its fixed texts."""
 
-    place: str  # This string contains the file and the line for error messages.
+    place: str  # The file and the line of the hint, for error messages.
     pieces: tuple[str, ...]
 
     def __str__(self) -> str:
         return f"{self.place}: {'…'.join(self.pieces)}"
 
     def contains(self, text: str) -> bool:
-        """Return whether one of the fixed texts of this hint contains `text`."""
+        """Return whether this hint contains `text`."""
         return any(text in piece for piece in self.pieces)
 
 
@@ -40,7 +40,7 @@ def hints_in(path: Path) -> list[Hint]:
 
 
 def hints_of(chapter: str) -> list[Hint]:
-    """Return the hints in all checks of a chapter, such as "05"."""
+    """Return the hints in all checks of the chapter with the number `chapter`, such as "05"."""
     goals = {(goal.text,) for part in every_part() for goal in part.goals}
     found = [hint for path in sorted(folder_of(chapter).glob("checks/*.py")) for hint in hints_in(path)]
     return [hint for hint in found if hint.pieces not in goals]
@@ -53,9 +53,9 @@ def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the fixed texts of the only hint that contains `text`.
+    """Return the fixed texts of the hint that contains `text`.
 
-    If several hints contain `text`, return an empty set, except if `text` is a whole hint.
+    If several hints contain `text`, the result is empty, except if `text` is a whole hint.
     """
     found = {hint.pieces for hint in hints if hint.contains(text)}
     return found & {(text,)} or (found if len(found) == 1 else set())

@@ -1,4 +1,4 @@
-"""An exercise counts as blank only if the student has not changed it."""
+"""An exercise is blank only if the student has not changed it."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def test_stubs(source: str) -> None:
     ],
 )
 def test_attempts(source: str) -> None:
-    """Any other code is an attempt, even if the code does nothing."""
+    """A student's code is an attempt, even if the code does nothing."""
     assert not is_blank(made(source))
 
 

@@ -16,7 +16,7 @@ from course_pkg.errors import ChannelBroken, ChannelClosed, ChannelTimeout
 
 @pytest.fixture
 def ends() -> Iterator[tuple[Channel, socket.socket]]:
-    """Return the runner's channel and the client's socket."""
+    """Return the check runner's channel and the client's socket."""
     ours, theirs = socket.socketpair()
     channel = Channel(ours)
     yield channel, theirs
@@ -33,7 +33,7 @@ def test_an_answer_comes_back(ends: tuple[Channel, socket.socket]) -> None:
 
 
 def test_lines_arrive_in_pieces(ends: tuple[Channel, socket.socket]) -> None:
-    """A line may arrive in several packets, and one packet may contain two lines."""
+    """The channel accepts lines that arrive in several packets, and two lines in one packet."""
     channel, client = ends
     client.sendall(b'{"a": 1}\n{"b"')
     assert channel.receive(1.0) == {"a": 1}

@@ -1,4 +1,4 @@
-"""`check()` in a program that runs a node."""
+"""Tests of `check()` in a program that runs a node."""
 
 from __future__ import annotations
 

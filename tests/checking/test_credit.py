@@ -23,7 +23,7 @@ from course_pkg.checking.report import Assertion, Report, Verdict, report_from
 def test_shares_have_two_decimals_and_add_up(
     points: float, weights: list[float], shares: list[float]
 ) -> None:
-    """The points of the goals have at most two decimals, and their sum is exact."""
+    """The goals' points have at most two decimals, and their sum is the points of the part."""
     assert divided(points, weights) == shares
     assert round(sum(shares), 2) == points
 
@@ -43,7 +43,7 @@ def test_the_goals_of_each_part_have_its_points() -> None:
 
 
 def test_a_mark_counts_after_a_failure_and_a_separate_goal_does_not() -> None:
-    """A separate goal counts only with a mark or at the end of the check."""
+    """A separate goal is counted only after a mark or at the end of the check."""
     results = Results()
     results.marked.add("first")
     results.goal_ended("separate", fulfilled=True)

@@ -1,4 +1,4 @@
-"""Parts are found by their ids."""
+"""Tests of the list of parts, and of the imports between chapters."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from course_pkg.waiting import MOST
 from tests.selection import chapter_paths
 
 COMPILED = ("13.", "14.")  # In these chapters, a compiler runs before the check.
-# The deadlines are in s. A check that compiles six programs needs 25 s of CPU time. During grading, two
-# submissions run on each core, so a check may need several times this duration.
+# Both deadlines are in s. A check that compiles six programs needs 25 s of CPU time. A check needs more time
+# during grading, because two submissions run on each core.
 USUAL, BUILT = 60, 180
 
 
@@ -29,7 +29,7 @@ def test_an_unknown_id_gets_the_closest_ones() -> None:
 
 
 def test_ids_are_unique_and_belong_to_their_chapter() -> None:
-    """Each id belongs to exactly one part, and the chapter of this part declares it."""
+    """Each id belongs to exactly one part and is declared in the right chapter."""
     ids = [part.check for part in every_part()]
     assert len(ids) == len(set(ids))
     assert all(part.check.startswith("05.") for part in parts_of("05"))
@@ -96,5 +96,5 @@ def test_tests_of_a_chapter_depend_on_what_it_imports() -> None:
 
 
 def test_check_client_waits_longer_than_every_deadline() -> None:
-    """The kernel waits longer for the check than every check's deadline."""
+    """The kernel waits for the check longer than the check's deadline."""
     assert max(part.deadline for part in every_part()) * MOST < TIMEOUT

@@ -18,7 +18,7 @@ from course_pkg.checking.placed.host import CALLS, CONNECTIONS, LIMIT, PlacedObj
 from course_pkg.checking.plain_values import Value
 from course_pkg.waiting import wait_until
 
-SOON = 10.0  # A reaction may take at most this many seconds on a busy machine.
+SOON = 10.0  # On a busy machine, the reaction to an event may take this many seconds.
 
 
 class Stuck(Exception):
@@ -88,7 +88,7 @@ class Drawer:
 
 @pytest.fixture
 def placed() -> Iterator[PlacedObjects]:
-    """Return the server that executes the calls of the proxies."""
+    """Return the object that executes the calls of the proxies."""
     with PlacedObjects() as placed:
         yield placed
 

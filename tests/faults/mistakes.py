@@ -12,8 +12,8 @@ from dataclasses import dataclass
 class Shows:
     """The symptom of a fault.
 
-    The client's output contains `said`, and the server's output contains `server`. If `hangs` is true, the
-    client waits forever. The course's explanation contains `cause`; if `cause` is "", the course gives no
+    `said` is a text in the client's output, and `server` is a text in the server's output. If `hangs` is
+    true, the client waits forever. `cause` is a text in the course's explanation; "" means that there is no
     explanation.
     """
 
@@ -28,8 +28,8 @@ class Shows:
 class Builds:
     """A mistake that makes a build fail.
 
-    `slip` is the name of the mistake in the tables of test_mistakes.py. The build's output contains `said`,
-    and the explanation contains `cause`.
+    `slip` is the name of the mistake in the tables of test_mistakes.py. `said` is a text in the build's
+    output, and `cause` is a text in the explanation.
     """
 
     slip: str

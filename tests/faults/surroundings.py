@@ -22,7 +22,7 @@ class Surroundings:
     def left_behind(self) -> dict[str, object]:
         """Return the differences between this state and the current state.
 
-        New child processes of an older process are ignored.
+        The function ignores new child processes of an older process.
         """
         now = Surroundings()
         others = {pid for before in self.processes for pid in descendants(before)}

@@ -55,7 +55,7 @@ def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, show
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Create a workspace with a package that builds, and with scripts that rosrun cannot run."""
+    """Create a workspace with a correct package, and with scripts that rosrun cannot run."""
     folder = tmp_path_factory.mktemp("mistakes")
     scripts = {"scripts/plain.py": "print(1)\n", "scripts/shell.py": "import os\n"}
     write(folder, {**GOOD, **scripts})

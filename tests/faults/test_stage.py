@@ -1,4 +1,4 @@
-"""A stage causes a fault and then undoes it."""
+"""A stage causes a fault, and later undoes the fault."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_the_tools_show_the_real_state(master: PrivateMaster) -> None:
 
 
 def test_names_and_groups_are_found() -> None:
-    """Faults are selected by name or by group, and the error message for an unknown name lists all names."""
+    """Faults are selected by name or by group, and an unknown name raises an error."""
     assert select() == every_fault()
     assert [each.name for each in select("stale", "stopped")] == ["stale", "stopped"]
     assert {each.group for each in select("serving")} == {"serving"}
@@ -115,7 +115,7 @@ def test_names_and_groups_are_found() -> None:
 
 
 def test_the_texts_of_each_fault_are_unique() -> None:
-    """The names, diagnoses and reasons of all faults are unique. Each text is a sentence."""
+    """The names, diagnoses and reasons of all faults are unique. Each text ends with a full stop."""
     faults = every_fault()
     for texts in (
         [each.name for each in faults],

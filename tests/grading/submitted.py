@@ -25,7 +25,7 @@ def hand_in(
 ) -> Path:
     """Write a student's copy of a chapter's solution.
 
-    `answers` replaces the answers by part, and "" makes a blank cell.
+    `answers` contains the changed answers by part; "" makes a blank cell.
     """
     notebook = reference(chapter)
     for cell in code_cells(notebook):

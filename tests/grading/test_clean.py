@@ -33,7 +33,7 @@ def test_harmful_characters_are_removed(given: str, kept: str) -> None:
     "given", ["x" * 10_000_000, "\n" * 100_000, "\x1b[" * 100_000, "\x1b]" * 100_000 + "y"]
 )
 def test_length_is_bounded(given: str) -> None:
-    """A long text is cut, and cleaning the result again does not change it."""
+    """A long text is cut, and a second cleaning does not change the result."""
     kept = clean.text(given)
     assert len(kept) <= clean.LONG
     assert kept.count("\n") <= clean.LINES
@@ -41,7 +41,7 @@ def test_length_is_bounded(given: str) -> None:
 
 
 def test_cut_text_has_a_mark() -> None:
-    """A cut text ends with a mark."""
+    """If a text was cut, the text ends with a special character."""
     assert clean.text("x" * 5000).endswith("… (cut)")
 
 
@@ -73,7 +73,7 @@ def test_data_of_any_shape_is_cleaned() -> None:
 
 @pytest.mark.parametrize("name", ["s01", "anna.b-c_1", "0"])
 def test_a_plain_name_stays(name: str) -> None:
-    """A usual student name does not change in a file name."""
+    """A usual student name is used as the file name without a change."""
     assert clean.file_name(name) == name
 
 

@@ -27,7 +27,7 @@ COURSE = Places.of().checkout / "course"
 
 @pytest.fixture(scope="module")
 def submissions(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write four submissions: a right one, a wrong one, a copy and a damaged file."""
+    """Write four submissions: a right one, a wrong one, a copy of the right one, and a damaged file."""
     folder = tmp_path_factory.mktemp("submissions")
     hand_in(folder, "s01")
     hand_in(folder, "s02", answers={"05.1": WRONG})

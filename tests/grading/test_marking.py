@@ -45,7 +45,7 @@ BREAKERS = {
         "import os, xmlrpc.client\nhandle_geometry = 1\n"
         'xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).shutdown("/x", "")'
     ),
-}  # The keys describe what the student's process does.
+}  # The keys describe the behaviour of the student's process.
 
 
 @pytest.fixture(scope="module")
@@ -97,7 +97,7 @@ def test_each_part_has_its_own_points(worker: SandboxWorker, tmp_path: Path) -> 
 
 
 def test_a_worker_that_fails_costs_no_points(worker: SandboxWorker, tmp_path: Path) -> None:
-    """If the worker fails, the part is reported as not examined, and the next run examines the part again."""
+    """If the worker fails, the part is reported as not examined, and the grade is not stored."""
 
     def run(job: PartJob) -> PartResult:
         if job.check == "05.2":

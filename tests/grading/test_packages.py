@@ -1,4 +1,4 @@
-"""Tests of grades for packages, whose files are examined instead of the notebook's cells."""
+"""Tests of grades for submissions that contain a package."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def verdicts(grade: Grade) -> dict[str, Verdict]:
 
 
 def test_package_is_examined_instead_of_the_cells(tmp_path: Path, seven: Plan) -> None:
-    """If a part's files are in the package, no cell of this part runs."""
+    """If the files of a part are in the package, the part's cells do not run."""
     hand_in(tmp_path, "s01", "07", answers={"07.4": "import os; os._exit(1)"})
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     jobs = Jobs()
@@ -93,7 +93,7 @@ def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
-    """The parts of the package are examined, and the other reports say that there is no notebook."""
+    """The parts of the package are examined. All other reports say that there is no notebook."""
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
     assert [check for check, each in verdicts(grade).items() if each is Verdict.PASSED] == list(MINE)
@@ -111,7 +111,7 @@ def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
-    """A change of a file or of a permission changes the grade's key."""
+    """If a file or a permission changes, the key of the grade changes."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     keys = set()
     for change in (lambda: None, lambda: (package / SERVER).chmod(0o644), (package / "README.md").unlink):

@@ -1,4 +1,4 @@
-"""points.json changes the points of the parts, and no check runs again."""
+"""Tests of points.json, which changes the points of the parts."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_points_follow_the_table(
 
 
 def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
-    """After a change of the points and back, the grades are the same as before."""
+    """If the points are changed and then restored, the grades are the same as before."""
     strict = read_points(_read(tmp_path, '{"all parts": "all-or-nothing"}'))
     before = _graded(MEASURED, REFUSED)
     changed = strict.weighed(before)

@@ -72,7 +72,10 @@ def _files(out: Path) -> Iterator[Path]:
 
 
 def _two() -> list[Grade]:
-    """Return the grades of two students: one is late with all points, and one has each verdict once."""
+    """Return the grades of two students.
+
+    One student is late with all points, and one has each verdict once.
+    """
     verdicts = (Verdict.PASSED, Verdict.FAILED, Verdict.NOT_ATTEMPTED, Verdict.UNDECIDED, Verdict.PASSED)
     mixed = tuple(report(f"05.{number}", verdict) for number, verdict in enumerate(verdicts, 1))
     full = tuple(report(f"05.{number}") for number in range(1, 6))
@@ -85,10 +88,7 @@ def _two() -> list[Grade]:
 
 
 def test_the_table(tmp_path: Path) -> None:
-    """The table has a row for each student and a column for each part.
-
-    Late days reduce the totals.
-    """
+    """The table has a row for each student and a column for each part."""
     write_reports(_two(), tmp_path)
     head, first, second = _rows(tmp_path / "grades.csv")
     five = ["05.1", "05.2", "05.3", "05.4", "05.5", "05 days late", "05 total"]
@@ -284,7 +284,7 @@ def test_empty_class_and_files_without_a_student(tmp_path: Path) -> None:
 
 
 def test_students_who_need_attention() -> None:
-    """A student with a problem, an unexamined part or no points is listed, but not a late student."""
+    """The list contains a student with a problem or without points, but not a late student."""
     empty = Grade("s05", "05", (report("05.1", Verdict.FAILED),))
     book = Book([*_two(), refused("s03"), refused("s04", "06"), empty])
     assert attention(book, "s01") == []

@@ -44,7 +44,7 @@ def test_a_missing_file_is_named(checkout: Path, missing: str) -> None:
 
 
 def test_many_missing_files_are_one_message(tmp_path: Path) -> None:
-    """The error message lists three missing files and the number of the others."""
+    """The error message lists three missing files, and the number of all other missing files."""
     with pytest.raises(GradingError, match=r"00_start_the_graph\.ipynb.* and 31 more\. "):
         require_references(root=tmp_path)
 

@@ -1,4 +1,4 @@
-"""Tests from a platform's submissions to the file that the platform imports.
+"""Tests of the whole way from a platform's submissions to the file for the platform.
 
 Sources: Moodle's importgradeslib.php and locallib.php, Canvas's gradebook_importer.rb, and Gradescope's
 autograder format.
@@ -215,7 +215,10 @@ def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> N
 
 
 def _canvas_imports(rows: list[list[str]], users: Mapping[str, tuple[str, str, str]]) -> dict[str, list[str]]:
-    """Return the imported cells by Canvas user id. `users` maps these ids to (SIS user id, login, name)."""
+    """Return the imported cells by Canvas user id.
+
+    `users` maps the Canvas user id to (SIS user id, login, name).
+    """
     head, possible, *students = rows
     assert "Student" in head[0]
     assert "ID" in head[1]

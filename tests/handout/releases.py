@@ -1,4 +1,4 @@
-"""Helpers for tests: student editions, and commands that run in them."""
+"""Functions for tests that release a student edition and run commands in it."""
 
 from __future__ import annotations
 

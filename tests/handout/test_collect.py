@@ -150,7 +150,7 @@ def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> 
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
-    # The test creates this link because the file system could allow it.
+    # This link can exist on some file systems.
     os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)
     [home] = [each for each in homes_in(homes) if each.student == "ben"]
     files, problems = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
@@ -230,7 +230,7 @@ def test_a_home_that_does_not_answer_is_left_out(homes: Path, monkeypatch: pytes
 
 
 def test_a_name_that_leads_elsewhere_is_refused(homes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A path from the child process that leads out of the home is refused."""
+    """A path that leads out of the home folder is refused."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     file = WorkFile("../../ben/05_write_a_server.ipynb", b"", 0, 0)
     monkeypatch.setattr("course_pkg.handout.homes.reading.work_in", lambda *_: iter([file]))

@@ -67,7 +67,7 @@ def test_other_files_of_the_folder_stay(tmp_path: Path) -> None:
 
 
 def test_a_folder_that_no_release_made_is_refused(tmp_path: Path) -> None:
-    """A folder with files of another origin is refused and does not change."""
+    """A folder with other files is refused and does not change."""
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("")
     with pytest.raises(
@@ -161,7 +161,7 @@ def test_paths_and_chapters() -> None:
 
 
 def test_the_link_for_nbgitpuller() -> None:
-    """The link contains the repository, the branch and the notebook.
+    """The link for nbgitpuller contains the repository, the branch and the notebook.
 
     The format is described in nbgitpuller's documentation.
     """
@@ -198,7 +198,7 @@ def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
 
 
 def test_a_packed_module_is_the_same_module(tmp_path: Path) -> None:
-    """A packed module has the same names and docstring, but its source cannot be found by a text search."""
+    """A packed module has the same names, but a text search does not find its source."""
     source = '"""Text."""\n\nfrom __future__ import annotations\n\nANSWER = "lock order"\n'
     module: dict[str, object] = {"__file__": "x.py", "__name__": "x"}
     exec(compile(pack(source), "x.py", "exec"), module)  # noqa: S102 -- it is the text above

@@ -47,7 +47,7 @@ def lines_of(source: str) -> list[str]:
 
 
 def answers(edition: Path) -> dict[str, list[str]]:
-    """For each part, return the lines of the solution that are missing in the edition's cell."""
+    """For each part, return the lines of the solution that are not in the edition."""
     found = {}
     for path in NotebookStore().solutions():
         released = {cell["id"]: cell["source"] for cell in read(edition / "notebooks" / path.name)["cells"]}

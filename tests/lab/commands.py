@@ -1,4 +1,4 @@
-"""Functions that run `course` like a user, and find the processes that remain."""
+"""Functions that run `course` like a user, and find the processes that still run."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def below(process: subprocess.Popen[str]) -> list[int]:
 
 
 def all_gone(pids: list[int]) -> bool:
-    """Return whether all processes `pids` exit in time."""
+    """Wait up to 20 s, and return whether all processes `pids` have exited."""
     return eventually(lambda: not [pid for pid in pids if alive(pid)], timeout=20)
 
 

@@ -121,7 +121,7 @@ def kept(tmp_path: Path) -> CachedCheckpoints:
 
 
 def make(kept: CachedCheckpoints, path: str) -> None:
-    """Create a checkpoint like the server."""
+    """Create a checkpoint as the server does."""
     manager = SimpleNamespace(_get_os_path=lambda name: str(Path(kept.root_dir, name)))
     completed(kept.create_checkpoint(manager, path))
 
@@ -143,7 +143,7 @@ def test_no_path_leads_out_of_the_checkout(kept: CachedCheckpoints) -> None:
 
 
 def names(manager: CourseContents, path: str) -> set[str]:
-    """Return the names in a folder that the file browser lists."""
+    """Return the names that the file browser lists for a folder."""
     model = completed(manager.get(path))
     assert isinstance(model, dict)
     return {each["name"] for each in model["content"]}
@@ -157,7 +157,7 @@ def test_the_root_folder_lists_only_files_for_students(tmp_path: Path) -> None:
     manager = CourseContents(root_dir=str(tmp_path))
     assert names(manager, "") == names(manager, "/") == {"notebooks", "figures", "workspace", "my_notes.md"}
     assert names(manager, "workspace/src/my_arm") == {"tests"}
-    # The file browser does not list the folder, but a user can open its path.
+    # The file browser hides the folder, but a user can open the folder by its path.
     assert names(manager, "solutions") == set()
     manager.everything = True
     assert names(manager, "") >= set(HIDDEN)

@@ -93,7 +93,7 @@ def test_extensions_that_a_user_installs_are_loaded(served: Service) -> None:
 
 
 def test_each_start_opens_only_its_notebook(served: Service, notebook: str) -> None:
-    """The page opens only the notebook of this start."""
+    """The page opens only the notebook of the current start."""
     name = f"notebook:{Path(notebook).relative_to(ROOT)}"
     with lab(str(ROOT / "notebooks" / "00_start_the_graph.ipynb")) as (process, address):
         data = Service(process, address).get("/lab/api/workspaces/default")["data"]

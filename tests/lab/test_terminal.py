@@ -74,7 +74,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
     """Start `course lab` with a temporary workspace, and yield a terminal."""
     state = tmp_path_factory.mktemp("state")
     with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(state)  # The test starts `course lab` in another folder, because a user may do this too.
+        patch.chdir(state)  # The test starts `course lab` in another folder than the checkout.
         with lab(COURSE_STATE=str(state)) as (process, address):
             parts = urlsplit(address)
             headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
@@ -83,7 +83,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
             terminal = Terminal(shell)
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
-            assert rosout  # If another test starts a node /rosout, the node of this master exits.
+            assert rosout  # If a test starts another node /rosout, the master's own /rosout exits.
             try:
                 yield terminal
             finally:

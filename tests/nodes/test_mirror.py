@@ -1,4 +1,4 @@
-"""The robot publishes its joint states, and the simulator publishes mirrored joint states."""
+"""Tests of the robot's joint states, and of the simulator's mirrored joint states."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def connected(publisher):
 
 @pytest.fixture
 def simulator() -> Iterator[NodeProcess]:
-    """Run `rosrun course_pkg simulator` until its node is registered."""
+    """Run `rosrun course_pkg simulator`, and wait until the simulator is registered."""
     with NodeProcess(["rosrun", "course_pkg", "simulator"]) as process:
         process.wait_for_service("/simulator/get_loggers")
         yield process
@@ -52,7 +52,7 @@ def test_a_joint_state_has_matching_positions_and_velocities() -> None:
 
 
 def test_the_mirror_image_has_the_opposite_signs() -> None:
-    """The mirrored state has the same time and names, and the opposite positions and velocities."""
+    """A mirrored state has the same time and names, but opposite positions and velocities."""
     message = JointState(name=["a", "b"], position=[0.5, -1.0], velocity=[0.0, 2.0], effort=[1.0, 1.0])
     message.header.stamp.secs = 7
     shown = mirrored(message)

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.usefixtures("master")
 
 @pytest.fixture
 def camera() -> Iterator[NodeProcess]:
-    """Run only `rosrun course_pkg polled_camera`."""
+    """Run `rosrun course_pkg polled_camera` without other nodes."""
     with NodeProcess(["rosrun", "course_pkg", "polled_camera"]) as process:
         process.wait_for_service("/request_image")
         yield process
@@ -35,7 +35,7 @@ def take(width: int = 0, height: int = 0) -> PolledImageResponse:
     ("asked", "size"), [((0, 0), (320, 240)), ((64, 0), (64, 240)), ((17, 33), (17, 33))]
 )
 def test_a_picture_has_the_requested_size(asked: tuple[int, int], size: tuple[int, int]) -> None:
-    """The picture has the requested size, or the default size if the request is 0."""
+    """The picture has the requested size; for a size of 0, it has the default size."""
     taken = take(*asked)
     image = taken.image
     assert (image.width, image.height, image.step, image.encoding) == (*size, 3 * size[0], "rgb8")
@@ -57,7 +57,7 @@ def test_an_impossible_size_is_refused(asked: tuple[int, int], words: str) -> No
 
 @pytest.mark.usefixtures("camera")
 def test_a_picture_shows_the_customers_at_the_counter() -> None:
-    """While shop_camera runs, the picture shows the customers of shop_camera."""
+    """The picture shows the customers of shop_camera."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         for customers in (0, 3, 5):
@@ -67,7 +67,7 @@ def test_a_picture_shows_the_customers_at_the_counter() -> None:
 
 
 def test_even_the_first_picture_shows_the_customers() -> None:
-    """If customers are present at the start of the camera, the first picture shows them."""
+    """If customers are present when the camera starts, the first picture shows these customers."""
     with NodeProcess(["rosrun", "course_pkg", "shop_camera"]) as shop:
         shop.wait_for_service("/let_in")
         BoundedProxy("/let_in", LetIn)(after=[0.0] * 9, stay=600.0)

@@ -1,4 +1,4 @@
-"""Tests of the files that notebooks write, and of their stored check reports."""
+"""Tests of the files that notebooks write, and of the stored check reports."""
 
 from __future__ import annotations
 

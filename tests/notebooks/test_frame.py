@@ -61,7 +61,7 @@ def test_links_lead_somewhere(cells: list[Cell]) -> None:
 
 
 def test_code_is_short_and_prose_carries_it(cells: list[Cell]) -> None:
-    """A cell has at most 15 lines, and a chapter has five words of prose for each line of code."""
+    """A cell has at most 15 lines, and a chapter has at least five words of prose for each line of code."""
     lengths = [len(cell["source"].splitlines()) for cell in cells if cell["cell_type"] == "code"]
     shown = [
         len(cell["source"].splitlines())

@@ -19,7 +19,7 @@ RANGE = re.compile(r"\[(\d\d)\]\(\w+\.ipynb\) to \[(\d\d)\]")
 
 
 def needed(chapter: Chapter) -> set[str]:
-    """Return the numbers of the chapters that the requirements of a chapter contain."""
+    """Return the numbers of the chapters that a chapter requires."""
     sentence = chapter.need.split(". ")[0]
     ranges = RANGE.findall(sentence)
     between = {f"{number:02}" for first, last in ranges for number in range(int(first), int(last) + 1)}

@@ -20,11 +20,11 @@ ROOT = Path(__file__).parents[2]
 SOLUTIONS = sorted((ROOT / "solutions").glob("*.ipynb"))
 NAMES = "|".join([*panels.__all__, "predictions"])
 OF_A_PANEL = re.compile(rf"(?:{NAMES})\(.*\)|What really happened: [\s\S]*")
-LIMIT = 1_000_000  # GitHub does not show notebooks with more bytes than this limit.
+LIMIT = 1_000_000  # GitHub does not show a notebook that has more bytes than this limit.
 
 
 def outputs(path: Path) -> Iterator[tuple[str, Output]]:
-    """Yield each stored output that has a plain text, and this text."""
+    """Yield each stored output that has a plain text, together with the plain text."""
     for cell in code_cells(read(path)):
         for output in cell["outputs"]:
             if "text/plain" in output.get("data", {}):

@@ -1,4 +1,4 @@
-"""nbval runs each notebook in a kernel with its own master and compares the outputs."""
+"""Tests that run each notebook with nbval, in a kernel with its own master."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NAMES = sorted(path.name for path in (ROOT / "solutions").glob("*.ipynb"))
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("folder", ["solutions", pytest.param("notebooks", marks=pytest.mark.when_changed)])
 def test_a_notebook_runs_to_its_end(folder: str, name: str) -> None:
-    """A solution produces its stored outputs again.
+    """A solution gives its stored outputs again.
 
     In a student's notebook, only cells with the tag raises-exception fail.
     """

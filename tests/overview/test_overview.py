@@ -61,7 +61,7 @@ def test_at_the_beginning_the_first_chapter_is_next() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_fulfilled_goals_are_counted() -> None:
-    """A part that has not passed has the points of its last check."""
+    """A part that has not passed gets the points of its last check."""
     StudentRecord().store("05.3", {"check": "05.3", "verdict": "not yet", "points": 1.5})
     shown = progress("05")
     assert str(shown).startswith("Chapter 05, Write a server: 0 of 5 parts passed, 1.5 of 11 points")
@@ -72,7 +72,7 @@ def test_fulfilled_goals_are_counted() -> None:
 def test_parts_points_and_predictions_are_counted() -> None:
     """The overview counts passed parts, points and predictions.
 
-    Only predictions from before the comparison count.
+    Only predictions that the student made before the comparison count.
     """
     store("passed", "05.1", "05.2")
     store("not yet", "05.2", "05.3")
@@ -133,7 +133,7 @@ def test_an_unknown_chapter_is_refused() -> None:
 
 
 def test_damaged_records_are_reported_and_the_others_are_shown(state: Path) -> None:
-    """The overview contains a message for each damaged record, and shows all other records."""
+    """The overview reports each damaged record and shows all other records."""
     store("passed", "05.1", "05.2")
     (state / "results-2" / "05.2.json").write_text("{")
     (state / "predictions-2.json").write_text('{"05.none": {"key": 5, "question": null}}')
@@ -246,7 +246,7 @@ def test_the_table_of_predictions_works_with_damaged_records(state: Path) -> Non
 
 @pytest.mark.usefixtures("state")
 def test_without_checks_the_table_of_predictions_shows_no_progress() -> None:
-    """Without the checks, the table shows only the predictions."""
+    """If the checks are not available, the table shows only the predictions."""
     panel = predictions("77")
     assert isinstance(panel, Predictions)
     assert panel.row == {}
@@ -283,7 +283,7 @@ def test_errors_of_the_command_are_one_line(state: Path, tmp_path: Path) -> None
 
 
 def test_two_kernels_lose_no_prediction(state: Path) -> None:
-    """If two kernels each store a prediction, the file contains both."""
+    """If two kernels store one prediction each, the file contains both predictions."""
     one, other = PredictionStore(), PredictionStore()
     PredictionModel("05.a", "?", (), one).answer("yes")
     PredictionModel("05.b", "?", (), other).answer("no")

@@ -54,13 +54,13 @@ class Sheet:
     keeper: Seen = field(default_factory=lambda: Seen("the server's program\n", "", 0.0, 0))
 
     def cause(self) -> None:
-        """Record the call, or raise an error."""
+        """Record that the fault was caused, or raise an error."""
         if self.paper.fails:
             raise ConnectionRefusedError(111, "Connection refused")
         self.paper.done.append(f"cause {self.name}")
 
     def undo(self) -> None:
-        """Record the call."""
+        """Record that the fault was undone."""
         self.paper.done.append(f"undo {self.name}")
 
 
@@ -113,7 +113,7 @@ def test_numbers_of_cases_do_not_reveal_the_fault() -> None:
 
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.fault.name)
 def test_each_case_has_plausible_options(case: Case) -> None:
-    """A case has five different diagnoses, and exactly one of them is right."""
+    """A case has five different diagnoses, and exactly one diagnosis is right."""
     assert len(set(case.diagnoses)) == OPTIONS
     assert case.fault.diagnosis in case.diagnoses
     assert case.fault.remedy in case.remedies
@@ -162,7 +162,7 @@ def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
 
 
 def test_a_wrong_answer_shows_the_reason_of_the_chosen_fault(lab: Lab) -> None:
-    """After a wrong answer, the page shows the reason of the chosen fault.
+    """After a wrong answer, the page explains the chosen fault.
 
     A right answer after a wrong answer does not count as a first answer.
     """
@@ -196,7 +196,7 @@ def test_a_right_first_answer_is_counted(lab: Lab, tmp_path: Path) -> None:
 
 
 def test_an_answer_after_the_solution_is_no_first_answer(lab: Lab) -> None:
-    """A right answer after the solution does not count as a first answer."""
+    """A right answer after the solution was shown does not count as a first answer."""
     lab.begin("died")
     lab.model.reveal()
     assert lab.case["verdict"]["diagnosis"] == named("died").diagnosis
@@ -233,7 +233,7 @@ def test_undo_waits_for_the_running_tool(lab: Lab) -> None:
 
 
 def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
-    """The state for a page without a kernel contains the symptom and the outputs, but no answer."""
+    """The recorded state contains the symptom and the outputs, but not the answer."""
     lab.model.play("stale", ["services", "ping"])
     assert lab.paper.done == ["cause stale", "again stale", "services stale", "ping stale", "undo stale"]
     assert [each["tool"] for each in lab.case["looks"]] == ["again", "services", "ping"]
@@ -242,7 +242,7 @@ def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
 
 
 def test_a_case_that_cannot_be_set_up_is_explained(lab: Lab) -> None:
-    """If a case cannot start, the page shows an explanation, and all its nodes are stopped."""
+    """If a case cannot start, the page shows an explanation, and the nodes of the case are stopped."""
     lab.paper.fails = True
     lab.begin("stale")
     assert "Connection refused" in lab.state["trouble"]

@@ -23,7 +23,7 @@ SERVICES = (
 
 
 def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot:
-    """Return a snapshot of the graph in which the node `dead` does not run."""
+    """Return a snapshot of the graph. The node `dead` is registered but does not run."""
     names = ("/client", "/listener", "/server", "/talker")
     nodes = tuple(
         NodeSeen(name, "http://localhost:1/", "refused" if name == dead else "answered") for name in names
@@ -60,7 +60,7 @@ def counts(*messages: int, every: float = 2.0) -> list[Activity]:
 
 
 def test_a_rate_is_shown_for_its_topic_and_for_each_connection() -> None:
-    """The rate is below the topic's name, and the details contain the publisher and the subscriber."""
+    """The rate is below the topic's name, and the details contain the rate of each connection."""
     wall = Wall()
     for activity in counts(100, 120, 140):
         wall.model.count(activity)
@@ -96,7 +96,7 @@ def test_a_topic_without_new_messages_has_a_rate_of_zero() -> None:
 
 
 def test_nodes_that_are_not_connected() -> None:
-    """For a publisher and a subscriber of different types, the details contain this reason."""
+    """If a publisher and a subscriber have different types, the details say that the types differ."""
     wall = Wall()
     wall.model.count(Activity(0.0))
     assert wall.now["notes"]["topic /chatter"] == "unconnected"
@@ -158,7 +158,7 @@ CALLERS = {
 
 
 def test_callers_are_listed_and_ended_callers_are_marked() -> None:
-    """The latest caller of a service comes first, and a caller that has left the graph has a mark."""
+    """Callers are listed with the latest caller first, and callers that have ended are marked."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert wall.now["callers"]["service /robot/ask"] == [
@@ -172,7 +172,7 @@ def test_callers_are_listed_and_ended_callers_are_marked() -> None:
 
 
 def test_a_killed_caller_is_gone() -> None:
-    """A registered caller whose process was killed has a mark."""
+    """A caller whose process was killed is marked."""
     wall = Wall(graph(dead="/client"))
     wall.model.count(Activity(0.0, callers=CALLERS))
     assert [each["gone"] for each in wall.now["callers"]["service /robot/ask"]] == [True, True]
@@ -180,14 +180,14 @@ def test_a_killed_caller_is_gone() -> None:
 
 
 def test_a_server_that_does_not_report_callers_is_left_out() -> None:
-    """The list contains no service whose server does not report its callers."""
+    """If a server does not report its callers, the list of callers does not contain its service."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers={"/robot/tell": ()}))
     assert set(wall.now["callers"]) == {"service /robot/tell"}
 
 
 def test_the_line_of_a_call_leads_to_the_folded_box_of_its_service() -> None:
-    """A folded namespace has one line for all calls of its services."""
+    """A folded namespace has one line for the calls of all its services."""
     wall = Wall()
     later = {**CALLERS, "/robot/tell": (ServiceCaller("/client", 1, 2000.0, 1),)}
     wall.model.count(Activity(0.0, callers=later))
@@ -199,7 +199,7 @@ def test_the_line_of_a_call_leads_to_the_folded_box_of_its_service() -> None:
 
 
 def test_a_hidden_caller_is_not_gone() -> None:
-    """If the kernel's node is hidden, the panel still lists its calls."""
+    """If the kernel's own node is hidden, the panel still lists the calls of this node."""
     said: list[dict[str, Plain]] = []
     model = GraphModel(lambda **parts: said.append(parts), own="/client")
     model.see(graph())
@@ -229,7 +229,7 @@ def test_a_type_that_is_not_here(kind: str) -> None:
 
 
 def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
-    """A saved picture contains its colours, and no buttons."""
+    """A saved picture contains all colours, and no buttons."""
     wall = Wall()
     for activity in counts(100, 120, 140):
         wall.model.count(activity)
@@ -243,7 +243,10 @@ def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
 
 
 def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) -> RateMeter:
-    """Return counts of a steady rate. The count of each 2 s is read up to `late` s later."""
+    """Return a rate meter that has read the counts of a steady rate every 2 s.
+
+    Each count is read up to `late` s after the count was made.
+    """
     meter, chance = RateMeter(), random.Random(seed)  # noqa: S311 - a test's own dice
     for turn in range(int(seconds / 2) + 1):
         meter.read(2.0 * turn + chance.uniform(0, late), int(rate * 2 * turn))
@@ -252,20 +255,20 @@ def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) ->
 
 @pytest.mark.parametrize("rate", [0.2, 0.5, 1, 5, 10, 15, 62, 100, 1000])
 def test_a_steady_rate_is_found_and_does_not_change(rate: float) -> None:
-    """After 30 s, the panel shows the exact rate of the publisher."""
+    """After 30 s, the panel shows the rate of the publisher."""
     seen = {counted(rate, seconds, late=0.03).rate for seconds in range(34, 60, 2)}
     assert len(seen) == 1
     assert seen.pop() == pytest.approx(rate, rel=0.06 if rate > 1 else 0.2)
 
 
 def test_two_counts_are_enough_for_a_first_number() -> None:
-    """Two counts with 2 s between them give a rate."""
+    """The panel shows a rate after two counts."""
     assert counted(10, 0).rate is None
     assert counted(10, 2).rate == pytest.approx(10, abs=1)
 
 
 def test_the_end_of_messages_and_a_new_rate_are_noticed_soon() -> None:
-    """The panel soon shows a new rate, or 0 Hz if the publisher has stopped."""
+    """If the publisher stops or changes its rate, the panel soon shows the new rate."""
     meter = counted(10, 30)
     for at in (32.0, 34.0, 36.0):
         meter.read(at, 300)
@@ -276,7 +279,7 @@ def test_the_end_of_messages_and_a_new_rate_are_noticed_soon() -> None:
 
 
 def test_a_restarted_publisher_is_counted_from_its_start() -> None:
-    """If a count decreases, the rate is counted again from zero."""
+    """If a count decreases, earlier counts are not used any more."""
     meter = counted(10, 30)
     meter.read(32.0, 4)
     assert meter.rate is not None
@@ -303,7 +306,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The panel shows the fewest digits that are within the uncertainty."""
+    """The panel shows as many digits as the counts can determine."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 

@@ -55,12 +55,12 @@ def many(count: int) -> Snapshot:
 
 
 def names(shown: Picture) -> set[str]:
-    """Return the names of the visible shapes."""
+    """Return the names of the visible elements."""
     return {each.name for each in shown.shapes}
 
 
 def test_a_namespace_has_two_or_more_shapes() -> None:
-    """A namespace has at least two shapes."""
+    """A namespace contains at least two elements."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}
@@ -68,14 +68,14 @@ def test_a_namespace_has_two_or_more_shapes() -> None:
 
 
 def test_a_small_graph_is_framed_and_not_folded() -> None:
-    """In a small graph, each namespace has a frame, and all shapes are drawn."""
+    """In a small graph, each namespace is drawn with a frame and is not folded."""
     shown = folded(picture(TURTLE), {})
     assert names(shown) == names(picture(TURTLE))
     assert {frame.name: len(frame.members) for frame in shown.frames} == {"/turtle1/": 3}
 
 
 def test_a_folded_namespace_is_one_box_with_all_lines() -> None:
-    """All lines to the shapes of a folded namespace end at its box."""
+    """A folded namespace is one box, and all lines of its elements lead to the box."""
     shown = folded(picture(TURTLE), {"/turtle1/": True})
     assert names(shown) == {"/sim", "/monitor", "/teleop", "/clear", "/turtle1/"}
     box = "namespace /turtle1/"
@@ -124,7 +124,7 @@ def test_a_large_graph_is_folded_unless_the_student_chose() -> None:
 
 
 def test_a_namespace_with_most_shapes_is_not_folded() -> None:
-    """A namespace with most shapes of the graph is not folded."""
+    """A namespace that contains most of the graph is not folded."""
     parts = (("/all/sim", f"/all/turtle{n}/{kind}", "/all/watch") for n in range(12) for kind in "abc")
     shown = folded(picture(graph(*parts)), {})
     assert [frame.name for frame in shown.frames] == ["/all/"]
@@ -142,7 +142,7 @@ def test_a_box_shows_that_a_node_does_not_answer() -> None:
 
 
 def test_a_frame_contains_exactly_its_shapes() -> None:
-    """A frame contains exactly the shapes of its namespace."""
+    """A frame contains exactly the elements of its namespace."""
     layout = laid_out(folded(picture(NESTED), {}))
     assert [framed.frame.name for framed in layout.frames] == ["/robot/", "/robot/arm/", "/robot/base/"]
     for framed in layout.frames:
@@ -199,7 +199,7 @@ def test_a_folded_namespace_stays_folded_when_the_graph_changes() -> None:
 
 
 def test_the_list_contains_folded_shapes() -> None:
-    """The list below the drawing contains all shapes, even those in folded namespaces."""
+    """The list below the drawing contains the elements of folded namespaces."""
     model, heard = said()
     model.see(TURTLE)
     before = heard[-1]["facts"]

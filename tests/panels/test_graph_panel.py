@@ -86,7 +86,7 @@ def test_the_graph_as_text_contains_no_port() -> None:
 
 
 def test_shapes_do_not_overlap_and_lie_inside() -> None:
-    """The shapes in a drawing do not overlap."""
+    """The elements of a drawing do not overlap."""
     layout = laid_out(picture(WHOLE, noise=True))
     boxes = []
     for placed in layout.shapes:
@@ -103,7 +103,7 @@ def test_shapes_do_not_overlap_and_lie_inside() -> None:
 
 
 def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
-    """The drawing shows the beginning and the end of a long name."""
+    """In the drawing, the middle of a long name is left out."""
     name = "/robot/" + "x" * 60 + "/pose"
     shown = picture(snapshot(topics=(TopicSeen(name, "a/B", ("/n",), ()),)))
     placed = next(each for each in laid_out(shown).shapes if each.shape.kind is Kind.TOPIC)
@@ -113,7 +113,7 @@ def test_a_long_name_is_shortened_in_the_drawing_only() -> None:
 
 
 def test_each_shape_has_an_accessible_name() -> None:
-    """Each shape is a button with an accessible name."""
+    """Each element is a button with an accessible name."""
     root = ElementTree.fromstring(svg(laid_out(picture(WHOLE)), description="five shapes"))  # noqa: S314 - it is our own
     buttons = {group.get("aria-label") for group in root.iter(f"{SVG}g") if group.get("role") == "button"}
     assert buttons == {
@@ -126,7 +126,7 @@ def test_each_shape_has_an_accessible_name() -> None:
     assert root.findtext(f"{SVG}desc") == "five shapes"
     assert (
         len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1
-    )  # Each line has one arrow, and the service has two arrows and a shape.
+    )  # The topic has two arrows, the service has two arrows, and the service itself is a polygon.
 
 
 def test_a_name_cannot_bring_markup_into_the_page() -> None:
@@ -138,7 +138,7 @@ def test_a_name_cannot_bring_markup_into_the_page() -> None:
 
 
 class Wall:
-    """A model and the messages that it sends."""
+    """A model and the messages that the model sends."""
 
     def __init__(self, **options: str) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -155,7 +155,7 @@ def test_a_graph_that_looks_the_same_is_not_drawn_again() -> None:
 
 
 def test_a_choice_draws_again() -> None:
-    """After the student selects the option, the hidden names are drawn."""
+    """If the student shows the hidden names, the graph is drawn again."""
     wall = Wall(own="/server")
     wall.model.see(WHOLE)
     wall.model.choose(noise=True, show_own=False)
@@ -164,7 +164,7 @@ def test_a_choice_draws_again() -> None:
 
 
 def test_without_graphviz_the_list_is_shown(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Without Graphviz, the panel shows what to install, and the list of the graph."""
+    """Without Graphviz, the panel shows an installation command and a list of the graph."""
     monkeypatch.setenv("PATH", str(tmp_path))
     wall = Wall()
     wall.model.see(WHOLE)
@@ -194,7 +194,7 @@ def test_graphviz_has_a_deadline(
 
 
 def test_a_graph_that_cannot_be_read_keeps_the_old_picture() -> None:
-    """Without a master, the panel shows the reason. With a new master, it shows the graph again."""
+    """Without a master, the panel shows the reason, and the old drawing does not change."""
     wall = Wall()
     wall.model.see(WHOLE)
     wall.model.lose("No master answers.")

@@ -58,7 +58,7 @@ def test_the_repr_is_stable(panel: GraphPanel) -> None:
 
 
 def test_a_rate_appears_while_a_page_shows_the_panel(panel: GraphPanel, kernel: Kernel) -> None:
-    """A visible panel shows the rate of a topic, and a hidden panel calls no node."""
+    """Only a visible panel asks the nodes for the rate of a topic."""
     kernel.run("from course_pkg.ros import join\nnode = join('listener')")
     kernel.run("node.subscribe('/pulse', 'std_msgs/UInt32')")
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -118,7 +118,7 @@ def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
 def test_a_node_that_is_late_once_is_not_lost(
     panel: GraphPanel, pulse: NodeProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The panel reports a node only after its second failure to respond."""
+    """The panel reports a node only if the node does not respond twice."""
     seen = panel._model.snapshot
     assert seen is not None
     late = Snapshot(seen.master, tuple(replace(each, reach="silent") for each in seen.nodes), (), ())
@@ -177,7 +177,7 @@ def test_the_number_of_moments_is_limited() -> None:
 
 
 def test_the_size_of_a_recording_is_limited() -> None:
-    """If the drawings are too large, the oldest drawings are removed."""
+    """If the drawings of a recording are too large together, the oldest drawings are removed."""
     kept = filled(*(shown(f"{turn:020000}") for turn in range(40)))
     state = kept.state(BEGAN + 40)
     assert len(json.dumps(state)) < 1.1 * BYTES

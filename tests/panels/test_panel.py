@@ -45,7 +45,7 @@ def nowhere(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("kind", [GraphPanel, ServicePanel, TypeBrowser], ids=lambda kind: kind.__name__)
 def test_a_graph_that_cannot_be_read_is_explained(nowhere: None, kind: type[Panel]) -> None:
-    """The panel shows the error message with its cause, a next step and a chapter."""
+    """The panel shows the error message and an explanation."""
     panel = kind()
     assert "No ROS master" in panel.trouble
     assert panel.explained["cause"].startswith("No master answers")
@@ -79,7 +79,7 @@ def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaste
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda path: path.stem)
 def test_each_panel_is_framed(entry: Path) -> None:
-    """The script of each panel uses the common frame, and declares no name twice."""
+    """The script of each panel calls the common function for frames, and declares no name twice."""
     joined = module(entry, PANELS / "explained.js")
     assert joined.count("export default { render: framed(render) };") == 1
     assert joined.count("export ") == 1
@@ -107,7 +107,7 @@ class Polled:
         return self.now
 
     def read_again(self) -> bool:
-        """Return whether the poller reads the value again in time."""
+        """Return whether the value is read again in time."""
         before = self.reads
         return eventually(lambda: self.reads > before + 2)
 
@@ -202,7 +202,7 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
 
 
 def test_there_are_panels_to_join() -> None:
-    """At least one panel script exists for the test of each panel."""
+    """The list of panel scripts contains all panels."""
     panels = {"choices", "graph", "prediction", "service", "timeline", "topic", "turtles"}
     assert panels <= {entry.stem for entry in ENTRIES}
 
@@ -226,7 +226,7 @@ def test_a_model_needs_no_kernel_and_no_ros_node(model: str) -> None:
 
 
 def test_no_name_of_the_course_imports_matplotlib() -> None:
-    """The course imports Matplotlib only to draw a plot."""
+    """Importing all names of the course does not import Matplotlib."""
     names = "[getattr(course_pkg, name) for name in course_pkg.__all__]"
     code = f"import sys, course_pkg; {names}; print('matplotlib' in sys.modules)"
     done = subprocess.run(

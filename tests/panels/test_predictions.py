@@ -37,7 +37,7 @@ def model(store: PredictionStore) -> PredictionModel:
 
 
 def test_an_answer_outlives_the_kernel(model: PredictionModel, store: PredictionStore) -> None:
-    """A new model reads the stored answer."""
+    """A new model of the same prediction reads the stored answer."""
     model.answer("an error")
     again = PredictionModel(model.key, model.question, CHOICES, PredictionStore(store.path))
     assert again.record.answer == "an error"
@@ -73,7 +73,7 @@ def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
 def test_numbers_and_texts_are_compared_by_value(
     model: PredictionModel, predicted: str, actual: object, stretch: str
 ) -> None:
-    """2.50 is equal to 2.5, and upper case is equal to lower case."""
+    """2.50 counts as equal to 2.5, and upper case counts as equal to lower case."""
     model.answer(predicted)
     assert stretch in model.compare(actual).verdict
 
@@ -183,7 +183,7 @@ def decide(choices_model: ChoicesModel, *options: str) -> None:
 
 
 def test_a_choice_outlives_the_kernel(choices_model: ChoicesModel, choice_store: ChoiceStore) -> None:
-    """A new model reads the stored choice, and the student can change it."""
+    """A new model reads the stored choice, and the student can change the choice."""
     decide(choices_model, "a topic", "a topic")
     again = ChoicesModel("03.cases", "Which fits?", OPTIONS, CASES, ChoiceStore(choice_store.path))
     assert again.chosen == ["a topic", "a topic", ""]

@@ -17,7 +17,7 @@ EMPTY = "---\n"
 
 
 class Caller:
-    """A fake proxy that returns a geometry response or raises the error of the test."""
+    """A fake proxy that returns a geometry response or raises an error."""
 
     def __init__(self) -> None:
         self.requests: list[Message] = []
@@ -64,7 +64,7 @@ def find_type(name: str) -> ServiceType:
 
 
 class Harness:
-    """A model and the messages that it sent."""
+    """A model and the messages that the model sent."""
 
     def __init__(self) -> None:
         self.caller = Caller()
@@ -206,7 +206,7 @@ def test_a_call_from_python_raises_what_the_call_raises(harness: Harness) -> Non
 
 
 def test_a_lost_service_is_reported_and_typed_values_stay(harness: Harness) -> None:
-    """If the service disappears, the panel shows a message and the typed values."""
+    """If the service disappears, the panel shows a message and does not delete the typed values."""
     harness.model.edit(GOOD)
     harness.model.offer([])
     assert "is on the graph now" in harness.state["form"]["problem"]
@@ -238,13 +238,13 @@ def test_a_type_that_is_not_known_here_leaves_no_form() -> None:
 
 
 def test_a_call_without_a_service_names_the_next_step() -> None:
-    """A call without a selected service raises an error that contains the next step."""
+    """If no service is selected, a call raises an error that contains the next step."""
     with pytest.raises(NoServiceSelected, match=r"ServicePanel\('/getGeometry'\)"):
         Harness().model.call("5")
 
 
 def test_logger_services_come_last() -> None:
-    """The student's services come before the logger services."""
+    """The list shows the student's services before the logger services."""
     harness = Harness()
     harness.model.offer([Offer("/a/get_loggers", "roscpp/GetLoggers", "/a"), Offer("/z", "a/Empty", "/a")])
     assert [(each["name"], each["tool"]) for each in harness.state["services"]] == [
@@ -254,7 +254,7 @@ def test_logger_services_come_last() -> None:
 
 
 def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness: Harness) -> None:
-    """The response of the previous service is not shown for the new service."""
+    """If the student selects another service during a call, the response of the call is not shown."""
     harness.caller.release.clear()
     harness.model.start(GOOD, "5")
     eventually(lambda: harness.caller.requests)

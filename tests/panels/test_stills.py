@@ -87,7 +87,7 @@ def types_state() -> State:
 
 
 def wire_state() -> State:
-    """Return the state of a wire view of a failed call with a random port."""
+    """Return the state of a wire view of a failed call. The port of the server is random."""
     piece = {
         "role": "ok",
         "at": 0,
@@ -175,7 +175,7 @@ def _own_records(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_each_kind_of_panel_has_a_picture() -> None:
-    """Each kind of panel has a picture, and the tests use all of them."""
+    """The list of pictures in this file contains every kind of panel."""
     folders = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(STILLS) == folders == {panel for panel, _ in STATES.values()}
 

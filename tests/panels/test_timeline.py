@@ -49,7 +49,7 @@ def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | di
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """Return the kinds of the two events that each arrow connects."""
+    """Return the kinds of the two events at the ends of each arrow."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
@@ -59,7 +59,7 @@ def test_a_call_has_two_arrows() -> None:
 
 
 def test_what_was_not_recorded_is_not_drawn() -> None:
-    """If only the sender or only the receiver was recorded, there is no arrow."""
+    """If one of two connected events was not recorded, no arrow is drawn."""
     handler = [event for event in call() if event.kind == "handler"]
     caller = [event for event in call() if event.kind != "handler"]
     callback = message(1, 1.0, "/simulator")[1:]
@@ -68,7 +68,7 @@ def test_what_was_not_recorded_is_not_drawn() -> None:
 
 
 def test_a_call_that_timed_out_has_no_response() -> None:
-    """A call that timed out has no response arrow, but an error message has one."""
+    """A call that timed out has no arrow for the response."""
     *asked, handler, _ = call()
     gave_up = Event("error", "/customer", "/x", 0.5, 0.5, "", "call 1", "MainThread", "CallTimeout")
     refused = Event("error", "/customer", "/x", 1.0, 1.0, "/cashier", "call 1", "MainThread", "no")
@@ -151,7 +151,7 @@ def test_too_many_calls() -> None:
 
 
 def test_nothing_recorded() -> None:
-    """An empty recording lists the nodes without events and the nodes that were not recorded."""
+    """For an empty recording, the panel lists the nodes without events."""
     empty = state(Recording(nodes=("/a",), unrecorded={"/b": "its process is gone"}, length=1.0))
     assert (empty["lanes"], empty["arrows"], empty["idle"]) == ([], [], ["/a"])
     assert empty["unrecorded"] == [["/b", "its process is gone"]]
@@ -203,7 +203,7 @@ def test_in_plain_sentences() -> None:
 
 
 def test_messages_without_a_subscriber() -> None:
-    """The description says if no subscriber was connected."""
+    """The description says whether a message had no subscriber."""
     (sent,) = message(1, 1.0)
     assert timeline_text(recording(sent)).endswith("nobody on record heard it.")
     lost = replace(sent, note="nobody was connected")

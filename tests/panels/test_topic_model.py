@@ -46,7 +46,7 @@ def test_a_form_and_its_commands_are_there_at_once() -> None:
 
 
 def test_a_measurement_is_drawn_first() -> None:
-    """By default, the panel does not plot `header.seq`."""
+    """By default, the panel plots a measured value instead of `header.seq`."""
     process = FakeProcess(message_type("sensor_msgs/JointState"), "/joint_states")
     assert process.state["about"]["numbers"][0] == "header.seq"
     assert process.state["settings"]["path"] == "position[0]"
@@ -55,7 +55,7 @@ def test_a_measurement_is_drawn_first() -> None:
 
 @pytest.mark.parametrize("name", ["speed", "/", "/a//b", "/my speed", "~speed", "/1", "/a\nb", ""])
 def test_an_invalid_name_is_refused(name: str) -> None:
-    """The error message for an invalid topic name describes valid names."""
+    """For an invalid topic name, the error message describes valid names."""
     with pytest.raises(NotATopic, match="Give a full name"):
         FakeProcess(topic=name)
 
@@ -81,7 +81,7 @@ def test_the_first_message_gives_the_type() -> None:
 
 
 def test_an_unknown_type_is_reported() -> None:
-    """If the publisher's type is not defined on this machine, the panel shows this."""
+    """If a topic's type is unknown on this machine, the panel shows a message."""
     process = FakeProcess(None)
     process.model.see({**EMPTY, "publishers": [{"node": "/talker", "type": "their_pkg/Thing"}]})
     assert "their_pkg/Thing" in process.state["about"]["problem"]
@@ -178,7 +178,7 @@ def test_a_message_without_fields_is_a_message() -> None:
 
 
 def test_reports_come_in_parts() -> None:
-    """A value that is missing in a report does not change."""
+    """If a report does not contain a value, the panel does not change this value."""
     process = FakeProcess()
     process.model.report({"count": 3, "trouble": "No master."})
     process.model.report({"statistics": {"rate": 10.0}})
@@ -240,7 +240,7 @@ def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> No
 
 
 def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connections:
-    """Return at most two nodes on the topic. With `md5`, the publisher is connected."""
+    """Return at most two nodes on the topic. If `md5` is not empty, the publisher is connected."""
     sources = [{"node": "/talker", "type": publisher, "md5": md5}] if md5 else []
     publishers = [{"node": "/talker", "type": publisher}] if publisher else []
     subscribers = [{"node": "/listener", "type": subscriber}] if subscriber else []
@@ -266,7 +266,7 @@ def test_different_types_are_reported_for_each_node() -> None:
     ],
 )
 def test_equal_types_cause_no_warning(seen: Connections) -> None:
-    """Nodes that accept any type, or that do not respond, cause no warning."""
+    """A node that accepts any type, or that does not respond, causes no warning."""
     assert mismatches(FLOAT, seen, "/panel", message_type) == []
 
 

@@ -41,7 +41,7 @@ def sent_to(panel: TopicPanel) -> set[str]:
 
 
 def test_it_is_on_the_graph_while_a_page_shows_it(panel: TopicPanel, master: PrivateMaster) -> None:
-    """A visible panel is a subscriber, and a hidden panel is not on the graph."""
+    """A visible panel is a subscriber on the graph, and a hidden panel is not on the graph."""
     panel.shown()
     topic = next(each for each in look(master.uri).topics if each.name == "/speed")
     assert topic.subscribers == (panel.connections["own"],)
@@ -51,7 +51,7 @@ def test_it_is_on_the_graph_while_a_page_shows_it(panel: TopicPanel, master: Pri
 
 
 def test_no_page_no_node(master: PrivateMaster) -> None:
-    """A panel without a page starts no process, but has a form."""
+    """If no page shows a panel, the panel starts no process, but has a form."""
     panel = TopicPanel("/speed", "std_msgs/Float64")
     assert panel.check["once"] == "rostopic pub --once /speed std_msgs/Float64 0.0"
     assert panel.trouble == ""
@@ -88,7 +88,7 @@ def test_hiding_it_ends_what_it_publishes(panel: TopicPanel, kernel: Kernel) -> 
 
 
 def test_a_panel_that_is_shown_again_keeps_its_type_and_plot(panel: TopicPanel) -> None:
-    """When a panel is shown again, its type and plot are the same."""
+    """When a panel is shown again, its type and plot have not changed."""
     click(panel, "publish", "2.5")
     first = panel.connections["own"]
     panel.hidden()
@@ -158,7 +158,7 @@ def test_without_a_master_the_panel_gives_the_reason(monkeypatch: pytest.MonkeyP
 
 
 def test_it_follows_its_kernel_to_another_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A panel that was shown before join() uses the master of join()."""
+    """After join(), a panel uses the master of join()."""
     with PrivateMaster() as master:
         monkeypatch.setenv("ROS_HOSTNAME", "localhost")
         monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")

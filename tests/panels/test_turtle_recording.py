@@ -61,14 +61,14 @@ def test_a_crossed_line_does_not_change_the_pen() -> None:
 
 
 def test_a_slow_turtle_on_plain_paper_has_its_pen_up() -> None:
-    """If the sensor of a slow turtle reads the background colour, the pen is up."""
+    """If the sensor of a slow turtle reads the background colour, the recording says that the pen is up."""
     recording = filmed(at(3.0, speed=0.0), at(3.05), at(3.1), at(3.15))
     assert [row[2] for row in recording.rows if isinstance(row[2], str)] == ["undrawn"]
     assert recording.rows[-1][5] == UP
 
 
 def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
-    """If the sensor of a fast turtle reads the background colour, the pen may still be down."""
+    """While a turtle is fast, the background colour at its sensor does not mean that the pen is up."""
     fast = [at(3.0 + 0.25 * step, speed=5.0) for step in range(8)]
     recording = filmed(*fast)
     assert recording.rows[-1][5] != UP
@@ -78,14 +78,14 @@ def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
 
 
 def test_clear_is_seen_by_a_turtle_on_its_line() -> None:
-    """If the colour under a resting turtle becomes the background colour, the lines are removed."""
+    """If the colour under a resting turtle becomes the background colour, the lines are erased."""
     resting = [at(3.1, USUAL, speed=0.0)] * 3
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), *resting, at(3.1, speed=0.0))
     assert recording.rows[-1][1:] == (UP, "cleared")
 
 
 def test_reset_is_seen_by_the_first_turtle() -> None:
-    """After a reset, the turtle is at its start position, and the lines are removed."""
+    """After a reset, the recording contains an erased drawing."""
     home = Observation(HOME, HOME, 0.0, 0.0, BACKGROUND)
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, USUAL), home, home)
     assert (UP, "cleared") in [row[1:] for row in recording.rows]

@@ -25,7 +25,7 @@ from tests.types.conftest import build, package
 
 
 class Wall:
-    """A model and the messages that it sends as keyword arguments."""
+    """A model, and the keyword arguments of its messages."""
 
     def __init__(self) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -63,7 +63,7 @@ def test_a_service_type_has_fields_comments_and_lines() -> None:
 
 
 def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
-    """Nested messages have fields, and constants are listed."""
+    """Nested messages are shown with their fields, and constants are listed."""
     [fields] = described("rosgraph_msgs/Log", "msg")["parts"]
     header = fields["fields"][0]
     assert (header["type"], [each["name"] for each in header["fields"]]) == (
@@ -77,7 +77,7 @@ def test_nested_messages_are_a_tree_and_constants_are_listed() -> None:
 
 
 def test_the_error_in_a_broken_file_has_its_line(folder: Path) -> None:
-    """For an invalid definition, the browser shows the error with its line number, and the file."""
+    """For an invalid definition, the browser shows the error, the line number, and the file."""
     package(folder, "bad_pkg", Slip_srv="float64 ok\nfloat64 side;\n---\n")
     told = described("bad_pkg/Slip", "srv")
     assert "bad_pkg/srv/Slip.srv, line 2" in told["problem"]
@@ -86,7 +86,7 @@ def test_the_error_in_a_broken_file_has_its_line(folder: Path) -> None:
 
 
 def test_a_type_that_is_not_built_says_so(folder: Path) -> None:
-    """The browser shows that a definition is not built."""
+    """If a definition is not built, the browser shows a note."""
     package(folder, "raw_types_pkg", New_srv="int8 x\n---\n")
     told = described("raw_types_pkg/New", "srv")
     assert told["warning"] == UNBUILT

@@ -81,14 +81,14 @@ def header(**fields: str) -> bytes:
 
 
 def body(kind: MessageType, values: dict[str, Plain]) -> bytes:
-    """Return the bytes of a message without its length."""
+    """Return the bytes of a message without the length at the beginning."""
     buffer = io.BytesIO()
     kind.to_message({**kind.default(), **values}).serialize(buffer)
     return buffer.getvalue()
 
 
 def values(pieces: list[PieceState]) -> dict[str, str]:
-    """Return the values of the fields by name."""
+    """Return the values of the fields by field name."""
     return {piece["name"]: piece["value"] for piece in pieces}
 
 
@@ -108,7 +108,7 @@ def gapless(pieces: list[PieceState], size: int) -> bool:
 
 
 def connection(*said: tuple[bool, bytes], closed_by: str = "client") -> RelayedConnection:
-    """Return a connection with these blocks of bytes. True means that the client sent the block."""
+    """Return a connection with these blocks of bytes. `True` means that the client sent the block."""
     chunks = [Chunk(10 + number / 1000, *each) for number, each in enumerate(said)]
     return RelayedConnection(10.0, chunks, closed_by)
 
@@ -171,7 +171,7 @@ def test_any_bytes_are_shown(seed: int) -> None:
 
 
 def test_a_wrong_count_is_read_in_no_time() -> None:
-    """A wrong element count of four billion does not slow down the view."""
+    """If a message contains a wrong element count, the view is still fast."""
     kind = compile_message("x/Empties", "std_msgs/Empty[] nothing\nuint8 last")
     pieces = request_pieces(sized(b"\xff\xff\xff\xff\x05"), kind)
     assert values(pieces)["last"] == "5"
@@ -237,7 +237,7 @@ def test_the_steps_of_a_call() -> None:
 
 
 def test_bytes_that_came_in_pieces_are_one_step() -> None:
-    """The result does not depend on the TCP segments."""
+    """The steps do not depend on how TCP splits the bytes."""
     whole = WELCOME[1] + ANSWERED[1]
     drops = [(False, whole[at : at + 1]) for at in range(len(whole))]
     assert titles(connection((True, GREETED[1] + ASKED[1]), *drops)) == titles(

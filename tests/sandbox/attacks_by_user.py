@@ -1,6 +1,6 @@
 """Runs attacks in the sandbox of other users, and prints the results as a JSON object.
 
-The arguments are a folder that no student may read, and files that no student may read or change.
+The arguments are a folder that no student may read, and files that no student may change.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ def handle_geometry(request):
 geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
 """
 WRONG = RIGHT.replace("request.width * request.length", "1.0")
-# Each line is an expression. Except for the first line, the expression must raise an error or be false.
+# Each line of PROBES is a Python expression. Except for the first line, the expression must raise an error or
+# be false.
 PROBES = """
 os.getuid() == UID
 open(SECRET[0]).read()

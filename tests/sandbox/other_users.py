@@ -1,7 +1,7 @@
-"""Runs a command in a copy of the course that is installed like an autograder.
+"""Runs a command in a copy of the course, as on an autograder without namespaces.
 
-The copy is mounted at the checkout's path, but only for this command. For this command, bubblewrap does not
-work, and all users can read the course's environment.
+Only this command sees the copy at the checkout's path. For the command, bubblewrap does not work, and all
+users can read the course's environment.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import pytest
 from course_pkg.handout.autograder.bundle import Options, write_autograder
 from course_pkg.setup import Places
 
-# The arguments are $0: the copy; $1: the checkout; $2: the cache; $3: the folder above the cache.
+# The arguments are the copy ($0), the checkout ($1), the cache ($2) and the folder above the cache ($3).
 MOUNTS = """
 set -e
 mount --make-rprivate /
@@ -36,7 +36,7 @@ exec "$@"
 
 
 def unpacked_autograder(folder: Path, **options: Path | float | tuple[str, ...] | None) -> Path:
-    """Write an autograder, unpack it like Gradescope, and return the folder `source`."""
+    """Create an autograder, unpack it as Gradescope does, and return the folder `source`."""
     write_autograder(Options(folder / "autograder.zip", **options))  # type: ignore[arg-type]
     source = folder / "autograder" / "source"
     with zipfile.ZipFile(folder / "autograder.zip") as archive:
@@ -48,7 +48,7 @@ def unpacked_autograder(folder: Path, **options: Path | float | tuple[str, ...] 
 def run_installed(
     source: Path, command: Sequence[str], *, timeout: float
 ) -> subprocess.CompletedProcess[str]:
-    """Run `command` in a copy of the course in which only root can read the checks and the solutions."""
+    """Run `command` in a copy of the course. Only root can read the checks and the solutions in the copy."""
     if os.geteuid() != 0 or not shutil.which("bwrap"):
         pytest.skip("only root can run code as other users")
     places = Places.of()

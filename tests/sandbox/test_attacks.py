@@ -46,7 +46,7 @@ def worker() -> Iterator[SandboxWorker]:
 
 @pytest.fixture(scope="module")
 def batch(worker: SandboxWorker, request: pytest.FixtureRequest) -> Iterator[str]:
-    """Yield the attacks of one kind. After the last attack, a right answer must still pass."""
+    """Yield the attacks of one kind. After the last attack, assert that a right answer still passes."""
     yield request.param
     assert points(worker.run(job(RIGHT))) == 2, f"the attacks of the kind {request.param!r} left something"
 

@@ -87,7 +87,7 @@ def test_a_build_that_never_ends_is_ended(worker: SandboxWorker, attack: str) ->
 
 
 def test_a_forged_type_earns_no_points(worker: SandboxWorker) -> None:
-    """A class with a forged MD5 sum earns no points. 07.3 uses a random definition."""
+    """A class with a forged MD5 sum earns no points."""
     from course_pkg.chapters.ch07_build_a_package.checks.packages import geometry_class
 
     forged = FORGED_TYPE.replace("MD5", geometry_class()._md5sum)

@@ -37,7 +37,7 @@ def course(*words: str, cwd: Path = ROOT, **variables: str) -> subprocess.Comple
 
 @pytest.fixture
 def nowhere(tmp_path: Path) -> dict[str, str]:
-    """Return variables for a cache folder that cannot be created."""
+    """Return environment variables with a cache folder that cannot be created."""
     (tmp_path / "file").write_text("")
     return {"XDG_CACHE_HOME": str(tmp_path / "file")}
 
@@ -60,7 +60,7 @@ def test_an_unknown_command_is_refused_at_once(words: list[str], seen: str, nowh
 
 
 def test_a_cache_that_cannot_be_made_is_one_clear_message(nowhere: dict[str, str]) -> None:
-    """If the cache cannot be created, the error message is one line and contains the environment variable."""
+    """If the cache cannot be created, the error message is one line and names the environment variable."""
     answer = course("run", "true", **nowhere)
     assert answer.returncode == 1
     assert answer.stderr.count("\n") == 1
@@ -92,7 +92,7 @@ def test_another_python_first_on_path_does_not_matter(tmp_path: Path) -> None:
 
 
 def test_it_runs_from_anywhere_and_through_a_link(tmp_path: Path) -> None:
-    """A command runs in the current folder, and a link to `course` works."""
+    """A command runs in the current folder, and also works through a link to `course`."""
     assert course("run", "pwd", cwd=tmp_path).stdout == f"{tmp_path}\n"
     link = tmp_path / "my course"
     link.symlink_to(ROOT / "course")

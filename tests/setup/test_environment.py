@@ -48,7 +48,7 @@ def test_the_users_preloaded_libraries_are_kept() -> None:
 
 
 def test_applying_the_environment_twice_changes_nothing() -> None:
-    """`course run` inside `course run bash` has the same environment."""
+    """Inside `course run bash`, `course run` uses the same environment."""
     once = environment.merged(PLACES, {"PATH": "/a:/usr/bin"})
     assert environment.merged(PLACES, once) == once
 
@@ -70,7 +70,7 @@ def test_an_editor_with_only_the_interpreter_can_import_everything() -> None:
 
 
 def test_apply_changes_nothing_without_a_workspace(tmp_path: os.PathLike[str]) -> None:
-    """For a checkout without a workspace, apply() returns False."""
+    """If a checkout has no workspace, apply() returns False."""
     before, path = dict(os.environ), list(sys.path)
     assert not environment.apply(PLACES._replace(cache=PLACES.cache / "none"))
     assert (dict(os.environ), sys.path) == (before, path)

@@ -1,4 +1,4 @@
-"""Tests of pip's settings for uv."""
+"""Tests of using pip's settings for uv."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_a_missing_folder_is_omitted() -> None:
 
 
 def test_the_users_variables_for_uv_are_kept() -> None:
-    """A uv variable of the user does not change."""
+    """If the user has set a uv variable, its value does not change."""
     assert "UV_DEFAULT_INDEX" not in as_uv_variables(
         {"index-url": ["https://a.example"]}, {"UV_DEFAULT_INDEX": "x"}
     )

@@ -42,7 +42,7 @@ def test_the_lock_is_made_from_pyproject(extra: str, heading: str) -> None:
 
 
 def test_the_tests_use_the_libraries_of_students() -> None:
-    """The tests' lock file contains every library of the course's lock file."""
+    """The lock file of the tests contains every library in the lock file of the course."""
     assert pinned("course") <= pinned("test")
 
 
@@ -73,7 +73,7 @@ def test_conda_gets_the_same_libraries() -> None:
 
 @pytest.mark.parametrize("name", LEFT_OUT)
 def test_excluded_libraries_are_in_no_lock(name: str) -> None:
-    """No lock file contains an excluded library, but a comment in each lock file lists them."""
+    """No lock file contains an excluded library, but a comment lists the excluded libraries."""
     for extra in ("course", "test"):
         assert name not in {pin for pin, _ in pinned(extra)}
         assert name in lock_file(extra).read_text().split("anyio==")[0]

@@ -12,7 +12,7 @@ from tests.support import eventually
 
 
 def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
-    """A step is done after write(), until clear()."""
+    """After write(), a step is done until clear() is called."""
     stamps = Stamps(tmp_path / "done")
     assert stamps.read("step") is None
     stamps.write("step", "key")
@@ -29,7 +29,7 @@ def test_a_digest_depends_on_the_borders_of_its_parts() -> None:
 
 
 def test_the_second_set_up_waits_for_the_lock(tmp_path: Path) -> None:
-    """If two set-ups run at the same time, the second one waits and prints a message."""
+    """If two set-ups run at the same time, the second set-up waits and prints a message."""
     waits, got = threading.Event(), threading.Event()
 
     def second() -> None:

@@ -1,4 +1,4 @@
-"""Tests of customers who come to the counter and leave."""
+"""Tests of the times at which customers come and leave."""
 
 from __future__ import annotations
 

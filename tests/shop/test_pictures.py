@@ -43,7 +43,7 @@ def test_a_picture_has_all_its_points_at_any_size(size: tuple[int, int], custome
 
 
 def test_the_same_shop_is_the_same_picture() -> None:
-    """Equal arguments give equal pictures."""
+    """If two calls have equal arguments, the pictures are equal."""
     assert shop_picture(64, 48, 3) == shop_picture(64, 48, 3)
     assert shop_picture(64, 48, 3) != shop_picture(64, 48, 2)
 

@@ -14,11 +14,11 @@ from course_pkg.shop import Customer, Eye, Watch, await_customer
 from course_pkg.shop import watch as module
 from tests.support import eventually
 
-FOR_EVER = 60.0  # These s are longer than any test.
+FOR_EVER = 60.0  # This time in s is longer than any test.
 
 
 def test_a_new_customer_is_returned_once() -> None:
-    """A customer is new only in the first message."""
+    """The same customer is not returned twice."""
     ticks = count(1)
     watch = Watch(lambda: next(ticks))
     assert watch.see([]) == []
@@ -29,7 +29,7 @@ def test_a_new_customer_is_returned_once() -> None:
 
 
 def test_a_customer_who_has_left_is_forgotten() -> None:
-    """A customer who has left and comes back is new."""
+    """A customer who leaves and comes back is a new customer."""
     watch = Watch()
     watch.see([1])
     watch.see([])
@@ -38,7 +38,7 @@ def test_a_customer_who_has_left_is_forgotten() -> None:
 
 
 def test_one_customer_replaces_another() -> None:
-    """A new customer is found even if the number of customers is the same."""
+    """A new customer is found even if another customer leaves at the same time."""
     watch = Watch()
     watch.see([1])
     watch.see([2])

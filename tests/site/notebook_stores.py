@@ -30,7 +30,7 @@ def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
 
 
 def runs(cache: Path) -> Runs:
-    """Return the runs of this checkout's package in a separate folder."""
+    """Return the stored runs of chapters in the folder `cache`."""
     return Runs(Places(Places.of().checkout, cache))
 
 

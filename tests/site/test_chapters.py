@@ -24,7 +24,7 @@ def test_a_chapter_is_read_from_its_notebook() -> None:
 
 
 def test_an_empty_chapter_has_its_name_as_title() -> None:
-    """The title of an empty chapter is its file name."""
+    """If a chapter is empty, its title is the name of its file."""
     assert chapter_of("05_ask", book()).title == "05_ask"
 
 

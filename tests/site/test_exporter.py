@@ -34,7 +34,7 @@ def test_a_script_among_the_outputs_is_left_out() -> None:
 
 
 def test_a_drawing_is_a_picture() -> None:
-    """An SVG becomes an <img>, because no script can run in an <img>."""
+    """An SVG becomes an <img>, because scripts cannot run in an <img>."""
     drawing = "<svg><script>alert(1)</script></svg>"
     output = result(text_plain="x") | {
         "data": {"image/svg+xml": drawing},
@@ -75,7 +75,7 @@ def test_an_error_looks_different_from_other_output() -> None:
 
 
 def test_a_terminals_output_is_shown_as_in_a_terminal() -> None:
-    """Text before a carriage return and control characters are removed."""
+    """The page shows terminal output without control characters."""
     assert terminal("one\r\ntwo\r\n") == "one\ntwo"
     assert terminal("10 %\r20 %\rdone\x1b[K\x07") == "done"
     assert terminal("<b>") == "&lt;b&gt;"

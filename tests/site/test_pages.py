@@ -21,7 +21,8 @@ OPTIONS = {"rules": RULES, "preload": False}  # A page may not fetch files, so a
 CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
-# Each run checks this combination. The test checks other combinations only after a change of the pages.
+# Every test run checks this window width and this theme. The test checks other widths and themes only after a
+# change of the pages.
 ALWAYS = (1200, "light")
 SWEEPS = [
     pytest.param(width, colours, marks=() if (width, colours) == ALWAYS else pytest.mark.when_changed)
@@ -98,7 +99,7 @@ def test_axe_finds_no_problem(
                 page.evaluate(AXE)
                 found[name] = violations(page, options)
                 look_for(page, "service")
-                # The search dialog covers the page, so axe-core checks only the dialog.
+                # While the search dialog is open, axe-core checks only the dialog.
                 found[f"{name}, searching"] = violations(page, options, "dialog")
         picture(page, f"site-search-{width}-{colours}")
     assert {name: what for name, what in found.items() if what} == {}
@@ -201,7 +202,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
-    """The message contains the search text, and Escape closes the search."""
+    """The message contains the searched word, and Escape closes the search."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()
@@ -266,7 +267,7 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
 
 
 def test_a_page_opens_no_connection(browser: Browser, course: Path, served: dict[Path, str]) -> None:
-    """The page's policy forbids all connections, and all scripts without the nonce."""
+    """The page's policy forbids connections, and forbids scripts without the nonce."""
     context = browser.new_context()
     page = context.new_page()
     page.goto(served[course])

@@ -29,7 +29,7 @@ from tests.site.notebook_stores import result
 class Noted:
     """A fake panel that stores the calls of its methods in `done`.
 
-    If `trouble` is not None, `record` raises it.
+    If `trouble` is not None, `record` raises this error.
     """
 
     def __init__(self, trouble: CourseError | None = None) -> None:
@@ -74,7 +74,7 @@ def test_a_panel_is_shown_for_a_while() -> None:
 
 
 def test_the_panel_is_found_even_if_a_notebook_uses_the_name_underscore() -> None:
-    """The added cell finds the panel in `_oh`, because a notebook may assign to `_`."""
+    """The added cell finds the panel in `_oh`, because a notebook may assign to the variable `_`."""
     notebook = book(code("for _ in range(2): pass"), code("GraphPanel()", id="graphpanel"))
     added = with_recordings("00_start_the_graph", notebook)["cells"][-1]
     panel, results = Noted(), {1: "earlier"}
@@ -89,7 +89,7 @@ SYSTEMS = json.loads((HERE / "systems.json").read_text("utf-8"))
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_each_plan_belongs_to_a_cell_with_a_panel(path: Path) -> None:
-    """Each plan belongs to a cell of the notebook that ends with a panel of the right kind."""
+    """Each plan belongs to a cell with a panel of the right kind."""
     for folder in ("solutions", "notebooks"):
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / path.name))}
         for cell, plan in plans(path.stem).items():

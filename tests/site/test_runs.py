@@ -1,4 +1,4 @@
-"""Tests of running a chapter again after a change of its code or of the package."""
+"""Tests that a chapter runs again after a change of its code or of the package."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, coun
 def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
     tmp_path: Path, counter: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A new file in one of the folders from `folders_for` starts a new run."""
+    """A new file in a folder that the chapter depends on starts a new run."""
     imported = tmp_path / "imported"
     imported.mkdir()
     monkeypatch.setattr("course_pkg.site.runs.folders_for", lambda number: [imported][: number == "00"])

@@ -38,7 +38,7 @@ def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> No
 def test_pages_are_small(course: Path, panels: Path) -> None:
     """The shared files of all pages have at most 170 kB (compressed).
 
-    The median page without its pictures, and the page with all panels, have at most 60 kB (compressed).
+    A page with all panels, and the median page without pictures, have at most 60 kB (compressed).
     """
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]
     shared = sum(len(compress(path.read_bytes())) for path in loaded if path.name != "texts.js")
@@ -126,7 +126,7 @@ def write(path: Path, *names: str) -> None:
 
 
 def names(path: Path) -> set[str]:
-    """Return the paths of the site's files, except its list of files."""
+    """Return the paths of all files of the site, except the list of files."""
     return {str(file.relative_to(path)) for file in path.rglob("*") if file.is_file() and file.suffix} - {""}
 
 
@@ -165,7 +165,7 @@ def test_a_site_that_fails_half_way_removes_nothing(tmp_path: Path) -> None:
 
 
 def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
-    """The error message contains the option --out."""
+    """If --out is a file, the error message contains the option --out."""
     (tmp_path / "file").write_text("")
     with pytest.raises(SiteError, match="Name another folder with --out"):
         write(tmp_path / "file", "a.html")

@@ -118,7 +118,7 @@ def test_a_name_in_a_namespace(client: Kernel) -> None:
 
 
 def test_a_killed_turtle_leaves_the_graph(client: Kernel) -> None:
-    """A killed turtle has no services, and its name can be used again."""
+    """A killed turtle has no services, and a new turtle can use its name."""
     client.run("node.call('/spawn', Spawn, 3, 3, 0, 'brief')")
     client.run("node.call('/kill', Kill, 'brief')")
     assert not look().service("/brief/set_pen")

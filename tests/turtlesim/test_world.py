@@ -81,7 +81,7 @@ def test_sideways() -> None:
 
 
 def test_the_wall() -> None:
-    """At the wall, the turtle stops moving, and each tick returns a warning."""
+    """At the wall, the turtle stops, and each tick returns a warning."""
     world, turtle = driven(forward=1000.0)
     warnings = run(world, 3)
     assert turtle.x == WIDTH
@@ -110,7 +110,7 @@ def test_spawn_outside_is_clamped() -> None:
 
 
 def test_a_turtle_without_a_name_gets_one() -> None:
-    """The automatic names are turtle2, turtle3 and so on, and a name is not used twice."""
+    """A turtle without a name is called turtle2, turtle3 and so on, and no name is used twice."""
     world = World()
     world.spawn(1, 1, 0, "turtle3")
     assert [world.spawn(1, 1, 0).name for _ in range(2)] == ["turtle2", "turtle4"]
@@ -203,7 +203,7 @@ def test_a_slanted_line_has_no_gaps(end: Point) -> None:
 
 
 def test_a_line_without_length_is_a_square() -> None:
-    """A line without a length is a square with the width of the pen."""
+    """A line from a point to the same point is a square with the width of the pen."""
     assert len(coloured((20.5, 20.5), (20.5, 20.5), 4)) == 16
 
 

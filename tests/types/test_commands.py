@@ -84,7 +84,7 @@ def test_python_is_written_as_a_person_would() -> None:
 
 
 def test_python_keeps_types_of_one_name_apart() -> None:
-    """If two types have the same short name, the Python code also contains their packages."""
+    """If two types have the same short name, the Python code also contains the packages of the types."""
     kind = compile_service("course_pkg/Point", "geometry_msgs/Point p\n---\n")
     lines = rospy_line("/x", kind, kind.request.default())
     assert "import geometry_msgs.msg\n" in lines
@@ -198,7 +198,7 @@ def test_the_publishing_line_is_the_one_to_type(
 
 
 def test_a_publisher_is_written_as_a_person_would() -> None:
-    """The Python code contains the imports, the publisher, and one message or a loop with a rate."""
+    """The Python code contains the imports and the publisher, and publishes one message or repeats it."""
     kind = message_type("std_msgs/Float64")
     once = publisher_lines("/x", kind, {"data": -1.0}, queue_size=1, latch=True)
     assert once == (

@@ -39,7 +39,7 @@ def test_md5_and_text_are_those_of_the_build(name: str) -> None:
 
 
 def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
-    """For fields of every kind, the MD5 sum and the bytes are the same as with genpy."""
+    """For fields of every kind, the MD5 sum and the encoded bytes are the same as with genpy."""
     assert packages.is_dir()
     built, again = service_type("odd_pkg/Everything"), compile_service("odd_pkg/Everything", EVERYTHING)
     assert again == built
@@ -52,14 +52,14 @@ def test_everything_at_once_is_as_genpy_builds_it(packages: Path) -> None:
 
 
 def test_a_class_gives_the_same_type_as_its_name() -> None:
-    """service_type accepts an imported class, and its own classes."""
+    """service_type accepts an imported class, and a class that service_type has made."""
     kind = service_type(std_srvs.srv.SetBool)
     assert kind == service_type("std_srvs/SetBool") == service_type(kind)
     assert service_type(compile_service("a/B", "geometry_msgs/Point p\n---\n").cls).request.fields[0].fields
 
 
 def test_a_package_that_is_not_built_is_read_from_its_text(packages: Path) -> None:
-    """A type on ROS_PACKAGE_PATH that is not built can be used."""
+    """If a type is not built, the class is made from the type's text."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     assert not kind.built
@@ -81,7 +81,7 @@ def test_changed_text_of_a_nested_message_is_used(
 def test_definitions_that_genmsg_accepts_are_accepted(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The course accepts every definition that genmsg accepts."""
+    """The course accepts all definitions that genmsg accepts."""
     text = 'string from  # "quoted\\xzz"\nstring PATH=C:\\new\\\nstring in="\n----\nint8 x\n---\nint8 y\n'
     package(tmp_path, "lax_pkg", Lax_srv=text)
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
@@ -93,7 +93,7 @@ def test_definitions_that_genmsg_accepts_are_accepted(
 
 
 def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """If messages contain each other, the error message lists these messages in order."""
+    """If messages contain each other, the error message lists these messages."""
     package(tmp_path, "round_pkg", A_msg="B b\n", B_msg="# back again\nA[] a\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(BrokenDefinition, match="round_pkg/A → round_pkg/B → round_pkg/A") as caught:
@@ -102,7 +102,7 @@ def test_a_circle_of_messages_is_refused(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_error_in_a_nested_message_names_its_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An error in a nested message contains the message's file and line."""
+    """The error message for a nested message contains the message's file and line."""
     package(tmp_path, "slip_pkg", Bad_msg="int8 x\nflaot32 y\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     with pytest.raises(BrokenDefinition) as caught:

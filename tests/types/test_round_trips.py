@@ -53,7 +53,7 @@ def test_text_and_wire_give_every_value_back(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The command rosservice makes the same request from the shell command."""
+    """The shell command makes the same request when rosservice reads it."""
     for kind, chance in drawn(seed):
         for _ in range(2):
             plain = kind.request.check(values(chance, kind.request))
@@ -80,7 +80,7 @@ def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyP
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_python_lines_make_the_same_request(seed: int) -> None:
-    """The Python code makes the same request."""
+    """The Python code makes the same request as the original values."""
     for kind, chance in drawn(seed):
         plain = kind.request.check(values(chance, kind.request))
         lines = rospy_line("/x", kind, plain)
@@ -88,7 +88,7 @@ def test_the_python_lines_make_the_same_request(seed: int) -> None:
 
 
 def request_of(lines: str) -> genpy.Message:
-    """Run the Python code without its last line, and return the request of the call in the last line."""
+    """Run the Python code without its last line, and return the request in the last line."""
     *before, last = ast.parse(lines).body
     assert isinstance(last, ast.Assign)
     assert isinstance(last.value, ast.Call)

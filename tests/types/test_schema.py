@@ -48,7 +48,7 @@ def test_nested_fields_are_described() -> None:
 
 
 def test_help_and_constants_are_described() -> None:
-    """The description contains the comment at the top and the constants."""
+    """The description contains the comment at the top of the definition, and the constants."""
     request, _ = described()
     assert request["help"] == "What to move."
     assert request["constants"] == [{"name": "SLOW", "type": "uint8", "value": "1"}]

@@ -71,7 +71,7 @@ def test_header_is_short_for_that_of_std_msgs() -> None:
 
 @pytest.fixture
 def built_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Create a built package that is on both paths."""
+    """Create a built package that is on ROS_PACKAGE_PATH and on sys.path."""
     root = package(tmp_path, "filed_pkg", Ask_srv="int8 x\n---\n", Say_msg="int8 y\n")
     build(root, tmp_path / "python")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
@@ -80,7 +80,7 @@ def built_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_file_counts_and_not_the_built_type(built_package: Path) -> None:
-    """After a change of the file, its text differs from the class until the next build."""
+    """If a file was changed, its text differs from the class until the next build."""
     assert type_in_file("filed_pkg/Ask", "srv").md5 == service_type("filed_pkg/Ask").md5
     (built_package / "srv" / "Ask.srv").write_text("int16 x\n---\n")
     now = type_in_file("filed_pkg/Ask", "srv")

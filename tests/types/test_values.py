@@ -161,7 +161,7 @@ def test_missing_and_unknown_fields_are_named(mixed: MessageType) -> None:
 
 
 def test_a_string_holds_what_utf_8_holds(mixed: MessageType, refusal: Callable[..., FieldError]) -> None:
-    """A string may contain NUL, but no half of a surrogate pair."""
+    """A string may contain NUL, but not a single surrogate."""
     assert mixed.check({**mixed.default(), "word": "a\x00ä"})["word"] == "a\x00ä"
     assert "surrogate" in str(refusal(word="\ud800"))
 

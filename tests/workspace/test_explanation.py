@@ -232,7 +232,7 @@ def test_mistake_in_a_package_is_explained(
     ids=["good", "Windows line ends", "a byte order mark", "no minimum"],
 )
 def test_successful_build_has_no_fault(workspace: Path, files: dict[str, str]) -> None:
-    """The output of a successful build contains no fault."""
+    """explain() finds no fault in the output of a successful build."""
     write(workspace, files)
     status, printed = build(workspace)
     assert (status, explain(printed)) == (0, None)
@@ -250,7 +250,7 @@ def test_another_python_is_recognised(tmp_path: Path) -> None:
     assert build(tmp_path, "-DPYTHON_EXECUTABLE=/usr/bin/python3")[0] == 0
 
 
-# Each command runs after the build, and its explanation must contain the text.
+# Each entry has a command that runs after the build, and a text that the explanation must contain.
 SAID = {
     "not sourced: Python": ("python3 -c 'import my_services.srv'", False, "Source devel/setup.bash"),
     "another Python": ("/usr/bin/python3 -S -c 'import numpy'", True, "#!/usr/bin/env python3"),
@@ -286,7 +286,7 @@ def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourc
 
 
 def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None:
-    """For a script without a shebang, the explanation works even if ImageMagick's `import` is installed."""
+    """A script without a shebang is explained even if ImageMagick's program `import` is installed."""
     fault = explain(
         "import-im6.q16: unable to open X server `' @ error/import.c/ImportImageCommand/346.\n"
         "shell.py: line 2: syntax error near unexpected token `('"
@@ -298,7 +298,7 @@ def test_a_missing_shebang_is_explained_where_imagemagick_is_installed() -> None
 
 
 def test_types_that_were_not_generated_are_explained(tmp_path: Path) -> None:
-    """If generate_messages is missing, the explanation contains this reason."""
+    """If generate_messages is missing, the explanation says how to add generate_messages."""
     write(tmp_path, spoilt(C, (GENERATE, f"# {GENERATE}")))
     status, printed = build(tmp_path)
     assert (status, explain(printed)) == (0, None)
@@ -347,7 +347,7 @@ CONDITION = MANIFEST.replace("<exec_depend", '<exec_depend condition="$A == b"')
     ],
 )
 def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None:
-    """`depend` means both build and run."""
+    """The tag `depend` means both build and run."""
     assert (dependencies(text, "build"), dependencies(text, "run")) == (build, run)
 
 
@@ -366,6 +366,6 @@ def test_a_fault_is_located(problem: str, text: str, line: int) -> None:
 
 
 def test_a_fault_of_another_file_stays_where_it_is() -> None:
-    """Only the messages about a package.xml contain tags."""
+    """If a fault is not in a package.xml, locate() does not change its position."""
     fault = Fault("The version is old.", "", "my_services/CMakeLists.txt", 9)
     assert locate(fault, MANIFEST) == fault

@@ -110,7 +110,7 @@ def test_kernel_finds_the_packages_after_join(root: Path) -> None:
 
 
 def test_the_courses_programs_are_never_the_students(root: Path) -> None:
-    """A student's package or program never replaces one of the course."""
+    """A student's program never replaces a program of the course with the same name."""
     package(root, "course_pkg", client=SERVER, mine=SERVER)
     package(root, "lab_sheet", client=SERVER)
     OwnPackages(root).refresh()

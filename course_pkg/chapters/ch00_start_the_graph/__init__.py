@@ -1,3 +1,3 @@
 """Chapter 00, start the graph: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Start the graph"  # the title of the notebook
+TITLE = "Start the graph"

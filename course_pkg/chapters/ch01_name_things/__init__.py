@@ -1,3 +1,3 @@
 """Chapter 01, name things: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Name things and find them"  # the title of the notebook
+TITLE = "Name things and find them"

@@ -1,3 +1,3 @@
 """Chapter 02, stream data: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Stream data with a topic"  # the title of the notebook
+TITLE = "Stream data with a topic"

@@ -1,3 +1,3 @@
 """Chapter 03, choose: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Choose between a topic and a service"  # the title of the notebook
+TITLE = "Choose between a topic and a service"

@@ -1,3 +1,3 @@
 """Chapter 04, define a service: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Define a service"  # the title of the notebook
+TITLE = "Define a service"

@@ -1,3 +1,3 @@
 """Chapter 05, write a server: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Write a server"  # the title of the notebook
+TITLE = "Write a server"

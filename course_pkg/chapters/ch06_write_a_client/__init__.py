@@ -1,3 +1,3 @@
 """Chapter 06, write a client: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Write a client"  # the title of the notebook
+TITLE = "Write a client"

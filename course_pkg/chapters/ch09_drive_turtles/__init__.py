@@ -1,3 +1,3 @@
 """Chapter 09, drive turtles: checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Drive turtles"  # the title of the notebook
+TITLE = "Drive turtles"

@@ -1,3 +1,3 @@
 """Chapter 10, Let a handler wait: waiting handlers, conditions, threads, locks, races and deadlocks."""
 
-TITLE = "Let a handler wait"  # the title of the notebook
+TITLE = "Let a handler wait"

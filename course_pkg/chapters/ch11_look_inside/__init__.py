@@ -1,3 +1,3 @@
-"""Chapter 11, look inside: its checks, fixtures, example answers, recordings and programs."""
+"""Chapter 11, look inside a call: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Look inside a call"  # the title of the notebook
+TITLE = "Look inside a call"

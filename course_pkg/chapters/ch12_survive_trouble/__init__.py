@@ -1,3 +1,3 @@
 """Chapter 12, survive trouble: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Survive trouble"  # the title of the notebook
+TITLE = "Survive trouble"

@@ -1,3 +1,3 @@
 """Chapter 14: the turtle programs in C++, callbacks and spinners."""
 
-TITLE = "Drive turtles in C++"  # the title of the notebook
+TITLE = "Drive turtles in C++"

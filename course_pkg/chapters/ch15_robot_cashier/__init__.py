@@ -1,3 +1,3 @@
 """Chapter 15, robot cashier: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Build the robot cashier"  # the title of the notebook
+TITLE = "Build the robot cashier"

@@ -1,3 +1,3 @@
 """Chapter 16, go further: its checks, fixtures, example answers, recordings and programs."""
 
-TITLE = "Go further"  # the title of the notebook
+TITLE = "Go further"

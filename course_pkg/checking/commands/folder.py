@@ -15,16 +15,16 @@ from course_pkg.ros.protocol.snapshot import Snapshot, look
 from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import at_this_load, wait_until
 
-SLACK = 3.0  # additional s for the kernel to reply after the time limit of the command
-ENDING = 5.0  # s for a command to end after SIGINT, or after it is killed
-LOOK = 0.1  # s between two snapshots of a graph
+SLACK = 3.0  # After the time limit of a command, the kernel has this additional time in s to reply.
+ENDING = 5.0  # A command has to end within this time in s after SIGINT or SIGKILL.
+LOOK = 0.1  # This is the time in s between two snapshots of a graph.
 COLOUR = re.compile(r"\x1b\[\d*m")
 
 
 class Folder:
-    """A folder with copies of the student's files and with the check's own files; removed after the check.
+    """A folder with copies of the student's files and with the check's own files; deleted after the check.
 
-    `doing` is a function that is called with each command before the command begins.
+    Before each command, `doing` is called with the command.
     """
 
     def __init__(
@@ -40,8 +40,8 @@ class Folder:
 
         The command "python" starts the kernel's own interpreter.
 
-        The environment is that of the course, without the student's sourced packages. A report shows the
-        command, or `worded` if it is given. Raises ChannelError if the kernel does not reply.
+        The command runs in the course's environment, without the student's sourced packages. A report shows
+        the command, or `worded` if it is given. Raises ChannelError if the kernel does not reply.
         """
         self._doing(worded or " ".join(argv))
         limit = at_this_load(within)
@@ -49,7 +49,7 @@ class Folder:
         return Finished(reply)
 
     def start(self, *argv: str, worded: str = "") -> Running:
-        """Start a command here that runs until it is stopped; a context manager."""
+        """Start a command here that runs until it is stopped; returns a context manager."""
         self._doing(worded or " ".join(argv))
         reply = self._channel.ask("start", timeout=SLACK, argv=argv, folder=self._number)
         number = reply.get("process")
@@ -68,17 +68,20 @@ class Running:
 
     @property
     def status(self) -> int | None:
-        """The exit status, or None while it runs."""
+        """The exit status, or None while the command runs."""
         status = self._channel.ask("poll", timeout=SLACK, process=self._number).get("status")
         return status if isinstance(status, int) else None
 
     def listens_at(self, uri: str) -> bool:
-        """Return whether the command, or a process that it started, listens at the port of the address."""
+        """Return whether the command, or one of its child processes, listens at the port of the address."""
         ports = self._channel.ask("ports", timeout=at_this_load(SLACK), process=self._number).get("ports")
         return isinstance(ports, list) and port_of(uri) in ports
 
     def stop(self) -> Finished:
-        """End the command. The status is None if it was still running; `out` contains both output streams."""
+        """End the command.
+
+        The status is None if the command was still running; `out` contains both output streams.
+        """
         return Finished(self._channel.ask("stop", timeout=ENDING, process=self._number))
 
     def __enter__(self) -> Running:
@@ -87,18 +90,18 @@ class Running:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        with suppress(ChannelError):  # the command ended when the kernel ended
+        with suppress(ChannelError):  # The command ended together with the kernel.
             self.stop()
 
 
 def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) -> bool:
-    """Return whether `condition` holds, within `within` s, for the graph of the master at `uri`.
+    """Wait up to `within` s until `condition` holds for the graph at `uri`; return whether it holds.
 
-    Wait until it holds, but at most this time. The master may start during the wait.
+    The master may start during the wait.
     """
 
     def holds() -> bool:
-        with suppress(GraphError):  # the master has not started yet
+        with suppress(GraphError):  # The master has not started yet.
             return bool(condition(look(uri)))
         return False
 
@@ -106,7 +109,7 @@ def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) ->
 
 
 def telling_line(printed: str) -> str:
-    """Return the last line with an error, or the last line, without colours and this folder's path."""
+    """Return the last line with an error, or else the last line, without colours and this folder's path."""
     lines = [line.strip() for line in COLOUR.sub("", printed).splitlines() if line.strip()]
     telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]
     return (telling or lines or ["nothing"])[-1].replace(f"{os.getcwd().rstrip('/')}/", "/")

@@ -1,7 +1,7 @@
 """A check's folders on the kernel's computer, and the commands that run in them.
 
-A check never works on the student's own files: it works on copies, together with its own files. The commands
-get the course's environment, not the kernel's. So a package that a student has built and sourced cannot
+A check never changes the student's own files: it uses copies, together with its own files. The commands get
+the course's environment, not the kernel's environment. A package that a student has sourced therefore cannot
 replace a package that the check builds.
 """
 
@@ -24,15 +24,15 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.setup import Places, environment
 
-PRINTED = 65536  # maximum characters of output that are kept
-GRACE = 2.0  # time limit in s for a node to end and unregister after SIGINT; rospy takes 0.6 s
+PRINTED = 65536  # At most this number of characters of the output is stored.
+GRACE = 2.0  # A node has to end within this time in s after SIGINT; a node with rospy takes 0.6 s.
 
 
 class CommandFolders:
-    """Folders and running commands, which have numbers; close() ends and removes all of them."""
+    """Folders and running commands with ID numbers; close() ends the commands and deletes the folders."""
 
     def __init__(self, find: Callable[[str], Path]) -> None:
-        self._find = find  # returns the path of a student's file
+        self._find = find  # The function returns the path of a student's file.
         self._open = ExitStack()
         self._folders: list[Path] = []
         self._running: list[_Running] = []
@@ -50,7 +50,7 @@ class CommandFolders:
         return {"folder": len(self._folders) - 1}
 
     def run(self, argv: Sequence[str], folder: int, within: float) -> Reply:
-        """Run a command to its end, but for at most `within` s."""
+        """Run a command for at most `within` s."""
         return _finished(_command(argv), self._folders[folder], within)
 
     def start(self, argv: Sequence[str], folder: int) -> Reply:
@@ -64,20 +64,20 @@ class CommandFolders:
         return {"status": self._running[process].status}
 
     def stop(self, process: int) -> Reply:
-        """End a command as Ctrl-C does; return its result, with a null status if it was still running."""
+        """End a command as Ctrl-C does; return its result, with the status null if it was still running."""
         return self._running[process].stop()
 
     def ports(self, process: int) -> Reply:
-        """Return the TCP ports on which a command that was started listens."""
+        """Return the TCP ports on which a running command listens."""
         return {"ports": self._running[process].ports}
 
     def close(self) -> None:
-        """End the running commands, and remove the folders."""
+        """End the running commands, and delete the folders."""
         self._open.close()
 
 
 class _Running:
-    """A command that continues to run, at most until the kernel ends."""
+    """A command that runs at most until the kernel ends."""
 
     def __init__(self, command: Sequence[str], folder: Path) -> None:
         self._started = time.monotonic()
@@ -97,9 +97,9 @@ class _Running:
         return [*sorted(self._process.listening_ports())]
 
     def stop(self) -> Reply:
-        """End the command as Ctrl-C does, and by force if necessary.
+        """End the command with SIGINT, or with SIGKILL if necessary; return its result.
 
-        Return its result; the status is None if it was still running.
+        The status is None if the command was still running.
         """
         if self._end is None:
             status = self.status
@@ -111,16 +111,13 @@ class _Running:
 
 
 def _place(name: str) -> str:
-    """Return the path of a copy: a relative path stays the same.
-
-    For an absolute path, only the last part is used.
-    """
+    """Return the path of a copy: a relative path does not change; an absolute path becomes a file name."""
     path = Path(os.path.normpath(name))
     return path.name if path.is_absolute() or ".." in path.parts else str(path)
 
 
 def _copy(source: Path, target: Path) -> None:
-    """Copy a file or a folder; keep permissions and links."""
+    """Copy a file or a folder with its permissions and links."""
     target.parent.mkdir(parents=True, exist_ok=True)
     if source.is_dir():
         shutil.copytree(source, target, symlinks=True, dirs_exist_ok=True)
@@ -133,10 +130,10 @@ def _command(argv: Sequence[str]) -> list[str]:
 
 
 def _environment(folder: Path) -> dict[str, str]:
-    """Return the course's environment; catkin_make uses PWD instead of the working directory."""
+    """Return the course's environment; PWD is set because catkin_make uses it as the working directory."""
     try:
         known = environment.merged(Places.of(), os.environ)
-    except (OSError, ValueError):  # the course was installed without its own set-up
+    except (OSError, ValueError):  # The course was installed without its own set-up.
         known = dict(os.environ)
     return {**known, "PWD": str(folder), "PYTHONUNBUFFERED": "1"}
 
@@ -169,10 +166,10 @@ def _finished(command: Sequence[str], folder: Path, timeout: float) -> Reply:
 
 
 def _scheduled(pid: int) -> Reply:
-    """Return how long (s) the main thread of a process has used a processor, and has waited for a processor.
+    """Return the CPU time of a process's main thread and the time that it waited for a CPU, in s.
 
-    Linux writes both times into /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). The
-    reply is empty on systems without this file.
+    Source: /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). Without this file, the reply
+    is empty.
     """
     try:
         ran, queued, _ = Path(f"/proc/{pid}/schedstat").read_text().split()
@@ -182,7 +179,7 @@ def _scheduled(pid: int) -> Reply:
 
 
 def _end_group(leader: int) -> None:
-    """End the processes that the command left in its own session."""
+    """End the processes that are still running in the command's session."""
     try:
         os.killpg(leader, signal.SIGKILL)
     except ProcessLookupError:

@@ -35,11 +35,11 @@ class PrintedText(io.TextIOBase):
         self.text = ""
 
     def writable(self) -> bool:
-        """Return True, as print() requires."""
+        """Return True."""
         return True
 
     def write(self, text: str) -> int:
-        """Store `text`, up to the limit."""
+        """Store `text` up to the limit."""
         self.text += text[: max(PRINTED - len(self.text), 0)]
         return len(text)
 
@@ -59,7 +59,7 @@ class KernelAgent:
         self._commands = CommandFolders(self._file)
         self._handler_errors = HandlerErrors()
         self._handler_errors.open()
-        # `prepare` and `place` define these names, separately from the student's names
+        # These names of `prepare` and `place` are separate from the student's names.
         self._prepared: dict[str, Value] = {}
         self._proxies: ObjectProxies | None = None
         self._handlers: dict[str, Callable[..., Reply]] = {
@@ -89,14 +89,14 @@ class KernelAgent:
         return {"answer": request.get("ask"), **reply}
 
     def close(self) -> None:
-        """End the commands that the check started here, remove its folders, and end its proxies."""
+        """End the commands that the check started here, delete its folders, and close its proxies."""
         self._handler_errors.close()
         if self._proxies is not None:
             self._proxies.close()
         self._commands.close()
 
     def _file(self, name: str) -> Path:
-        """Return the path of a student's file: in the notebook's folder, or else in the workspace."""
+        """Return the path of a student's file in the notebook's folder, or else in the workspace."""
         here, there = self._folder / name, own_workspace() / name
         return there if there.exists() and not here.exists() else here
 
@@ -153,7 +153,7 @@ class KernelAgent:
         return {"error": result.get("error")}
 
     def _place(self, name: str, port: int, key: str, item: dict[str, Json]) -> Reply:
-        """Define `name` as a proxy for an object of the check runner, next to the names of `prepare`."""
+        """Define `name` as a proxy for an object of the check runner."""
         if self._proxies is None:
             self._proxies = ObjectProxies(port, key)
         self._prepared[name] = self._proxies.proxy(item)
@@ -162,7 +162,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`, because its handler keeps the streams of its creation."""
+    """Let rospy's log print to `stream`; otherwise, its handler would print to an earlier stream."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -181,8 +181,8 @@ def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
 def _result(function: Callable[[], Value], timeout: float) -> Reply:
     """Call a function, interrupt it after `timeout` s, and return {"value": …} or {"error": …}.
 
-    The call runs in the main thread, where an alarm can interrupt it. A call in another thread could not be
-    interrupted. It would still use the graph during the next check.
+    The call runs in the main thread, because an alarm can interrupt only the main thread. A call in another
+    thread would continue to use the graph during the next check.
     """
     try:
         return {"value": TimeLimit(timeout).call(lambda: plain(function()))}
@@ -196,7 +196,8 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 def _described(error: BaseException) -> Json:
     called = traceback.walk_tb(error.__traceback__)
-    lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]  # of cells
+    # These lines are in cells.
+    lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
         "type": type(error).__name__,
         "bases": [base.__name__ for base in type(error).__mro__[1:]],
@@ -206,17 +207,16 @@ def _described(error: BaseException) -> Json:
 
 
 def _defined_here(name: str, value: Value) -> bool:
-    """Return whether the student may have defined a name: it is not imported, and not one of IPython's."""
+    """Return whether the student may have defined a name: it is not imported and not from IPython."""
     return not name.startswith("_") and (
         not isinstance(value, FunctionType | type) or value.__module__ == "__main__"
     )
 
 
 def is_blank(value: Value) -> bool:
-    """Return whether an exercise is unchanged: `...`, or a function or class with this body."""
+    """Return whether an exercise is unchanged: its value or its body is `...`."""
     if isinstance(value, type):
-        # Each method is examined, because `inspect` does not find the source of a class that a notebook
-        # defines.
+        # The methods are examined, because `inspect` does not find the source of a class in a notebook.
         methods = [inspect.unwrap(method) for method in _methods(value)]
         return bool(methods) and all(is_blank(method) for method in methods)
     if isinstance(value, FunctionType):
@@ -236,7 +236,7 @@ def _is_blank_function(function: FunctionType) -> bool:
         return _does_nothing(function.__code__)
     definition = tree.body[0] if tree.body else None
     if not isinstance(definition, ast.FunctionDef | ast.AsyncFunctionDef):
-        return False  # a lambda
+        return False  # The function is a lambda.
     return all(_is_placeholder(line) for line in definition.body)
 
 
@@ -249,7 +249,7 @@ def _is_placeholder(line: ast.stmt) -> bool:
 
 
 def _does_nothing(code: CodeType) -> bool:
-    """Return whether the compiled code of a function does nothing; used if its source is not available."""
+    """Return whether the compiled code of a function does nothing (used if there is no source)."""
     blank = _nothing.__code__
     return code.co_code == blank.co_code and not code.co_names
 
@@ -258,7 +258,7 @@ def _nothing() -> None: ...
 
 
 def _look_at_file(path: Path) -> Reply:
-    """Return the kind of a file; if the file is missing, also return the similar names in its folder."""
+    """Return the kind of a file, and for a missing file also the similar names in its folder."""
     kind = _kind_of_file(path)
     beside = [each.name for each in path.parent.glob("*")] if kind == "missing" else []
     return {"kind": kind, "alike": [*difflib.get_close_matches(path.name, beside, n=2)]}

@@ -1,4 +1,4 @@
-"""The exceptions that rospy catches in handlers; a check shows the student's lines in the last one."""
+"""The exceptions that rospy catches in handlers; a check shows the student's lines in the last exception."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from pathlib import Path
 from course_pkg.ros.notebook.tracebacks import readable_traceback, students_frames
 
 LOGGER = "rosout"
-ABOUT = "Error processing request"  # rospy's log message about such an exception begins with this text
+# rospy's log message about an exception in a handler begins with this text.
+ABOUT = "Error processing request"
 HEADER = "Traceback of the handler (most recent call last):"
 
 
@@ -30,21 +31,21 @@ class HandlerErrors(logging.Handler):
         super().close()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Store the exception that this thread is handling, if the log record is about it."""
+        """Store the exception that this thread is handling, if the log record is about this exception."""
         error = sys.exc_info()[1]
         if error is None or not record.getMessage().startswith(ABOUT):
             return
-        # this is False if the handler was called with a wrong number of arguments
+        # The value is False if the handler was called with a wrong number of arguments.
         began = any(students_frames(error.__traceback__))
         self._last = "\n".join(readable_traceback(error, _place, HEADER)) if began else ""
 
     def take(self) -> str:
-        """Return the traceback of the last exception, or "" if there is none, and delete it."""
+        """Return and delete the traceback of the last exception, or return ""."""
         last, self._last = self._last, ""
         return last
 
 
 def _place(filename: str) -> str:
-    """Return the name of a file as a traceback shows it; the code of a cell has no file name."""
+    """Return the name of a file for a traceback; the code of a cell has no file name."""
     path = Path(filename)
     return path.name if path.is_file() else "Your cell"

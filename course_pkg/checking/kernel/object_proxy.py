@@ -1,7 +1,7 @@
 """Proxies in the kernel for objects of the check runner (see checking/placed).
 
-A proxy stores no data. It sends each call of a method, and each read or write of an attribute, to the check
-runner, and waits for the reply.
+A proxy stores no data. A proxy sends each call of a method, and each read or write of an attribute, to the
+check runner, and waits for the reply.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from course_pkg.checking.plain_values import Value, plain
 from course_pkg.errors import ChannelClosed, ChannelError
 from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 
-CONNECT_TIMEOUT = 10.0  # s
+CONNECT_TIMEOUT = 10.0  # A connection to the check runner has to be open within this time in s.
 OVER = "this object belongs to a check that has ended"
 
 Ask = Callable[..., Value]
@@ -40,7 +40,7 @@ class ObjectProxies:
         self._closed = False
 
     def proxy(self, item: dict[str, Any]) -> Value:
-        """Return the proxy for the object that `item` describes; each object has exactly one proxy."""
+        """Return the proxy for the object that `item` describes; each object has only one proxy."""
         number = item["number"]
         with self._lock:
             if number not in self._made:
@@ -48,7 +48,7 @@ class ObjectProxies:
             return self._made[number]
 
     def close(self) -> None:
-        """Close all connections. After this call, each use of a proxy raises ConnectionError."""
+        """Close all connections; after this, each use of a proxy raises ConnectionError."""
         with self._lock:
             self._closed = True
             left = list(self._connections)
@@ -71,7 +71,7 @@ class ObjectProxies:
             self._drop()
             raise ConnectionError(OVER) from error
         except BaseException:
-            # after an interrupt, the reply to this call must not be read as the reply to a later call
+            # The reply to an interrupted call must not be read as the reply to a later call.
             self._drop()
             raise
         if "placed" in reply:
@@ -83,7 +83,7 @@ class ObjectProxies:
     def _connection(self) -> _Connection:
         """Return the connection of this thread; it is closed when the thread has ended."""
         connection: _Connection | None = getattr(self._own, "connection", None)
-        # a forked process must not use the connection of its parent
+        # A forked process must not use the connection of its parent.
         if connection is None or connection.process != os.getpid():
             connection = _Connection(self.port, self._key)
             with self._lock:

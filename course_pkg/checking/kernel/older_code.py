@@ -1,8 +1,7 @@
-"""Finds a student's function or class that is older than the last run of its cell.
+"""Find a student's function or class that is older than the code in its cell.
 
-Then, the code in the cell differs from the code that the check would examine. For example, this is the case
-after a syntax error in the cell. It is also the case if the cell ran again, but not the cell that creates the
-service.
+The check would then examine other code than the student sees. One cause is a syntax error in the changed
+cell. Another cause is that the cell ran again, but not the cell that creates the service.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ LaterRun = Callable[[str], CellRun | None]
 
 
 class OlderCode:
-    """Compares the code that is in use with the last runs of the cells; `later_run` is a method of Cells."""
+    """Compares the functions and classes in use with the last runs of the cells."""
 
     def __init__(self, namespace: Mapping[str, Value], later_run: LaterRun) -> None:
         self._namespace = namespace
@@ -52,10 +51,7 @@ class OlderCode:
         return f"{answers}. Run the cell that creates the service, and then run this cell again."
 
     def _run_after(self, value: Value) -> CellRun | None:
-        """Return the last run of the cell that defined `value`.
-
-        Return None if the cell's code has not changed since the definition.
-        """
+        """Return the last run of the cell that defined `value`, or None if the code is still the same."""
         for function in _functions_of(value):
             run = self._later_run(function.__code__.co_filename)
             if run is not None and not self._defined_again(function):
@@ -63,9 +59,9 @@ class OlderCode:
         return None
 
     def _defined_again(self, function: FunctionType) -> bool:
-        """Return whether the last run defined the same code again.
+        """Return whether the last run defined the function with the same code.
 
-        In this case, another part of the cell has changed.
+        In that case, only other code of the cell has changed.
         """
         first, *rest = function.__qualname__.split(".")
         current = self._namespace.get(first)

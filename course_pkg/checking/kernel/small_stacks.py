@@ -1,7 +1,7 @@
 """Code that runs in the kernel: threads with small stacks, for checks that run many handlers at a time.
 
-Fifty handlers at the same time need fifty threads. With stacks of 8 MB, they would need more memory than a
-sandbox has; but a handler needs only a small stack.
+Fifty handlers at the same time need fifty threads. With the default stack size of 8 MB, these threads need
+more memory than a sandbox has.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
-"""Runs a student's function with a time limit, even if the function catches all exceptions.
+"""Run a student's function with a time limit, even if the function catches all exceptions.
 
-A loop with a bare `except` catches every exception that is raised in its `try` block. Therefore, the
-exception is raised again at once, at the next point where Python handles signals. This point is in the
-`except` block or after it, so the loop cannot catch the exception. While a library cleans up, for example
-releases a lock, no exception is raised in it.
+A loop with a bare `except` catches every exception in its `try` block. The exception is therefore raised a
+second time when Python next handles signals. At this time, the `except` block is running or has ended, so the
+loop cannot catch the second exception.
+
+No exception is raised while a library cleans up, for example while it releases a lock.
 """
 
 from __future__ import annotations
@@ -18,16 +19,13 @@ from typing import Any, TypeVar
 
 from course_pkg.ros.notebook.tracebacks import is_students
 
-REPEAT = 0.2  # s between two attempts to end a call that is waiting in a library
+REPEAT = 0.2  # This is the time in s between two attempts to end a call that waits in a library.
 
 Value = TypeVar("Value")
 
 
 class TimesUp(BaseException):
-    """The time limit of a student's function is reached; `except Exception` does not catch this exception.
-
-    `except Exception` does not catch this exception.
-    """
+    """The time limit of a student's function is over; `except Exception` does not catch this exception."""
 
 
 class TimeLimit:
@@ -36,8 +34,8 @@ class TimeLimit:
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._error = _coming_again(TimesUp)
-        self._raised = 0.0  # the time at which an exception was last raised in a library's code
-        self._stopped = False  # whether the user pressed the Stop button
+        self._raised = 0.0  # An exception was last raised in a library's code at this time.
+        self._stopped = False  # The value is true after the user has pressed the Stop button.
 
     def call(self, function: Callable[[], Value]) -> Value:
         """Return the result of `function`.
@@ -53,11 +51,11 @@ class TimeLimit:
             signal.signal(signal.SIGINT, interrupt)
             signal.setitimer(signal.ITIMER_REAL, 0)
             signal.signal(signal.SIGALRM, alarm)
-            if self._stopped:  # checked here, because the function may have caught the exception
+            if self._stopped:  # The function may have caught the KeyboardInterrupt.
                 raise KeyboardInterrupt
 
     def _stop(self, _number: int, frame: FrameType | None) -> None:
-        """Raise KeyboardInterrupt as Python does, again and again until the function ends."""
+        """Raise KeyboardInterrupt repeatedly, until the function ends."""
         self._stopped = True
         self._error = _coming_again(KeyboardInterrupt)
         signal.setitimer(signal.ITIMER_REAL, REPEAT, REPEAT)
@@ -65,7 +63,7 @@ class TimeLimit:
             raise KeyboardInterrupt
 
     def _end(self, _number: int, frame: FrameType | None) -> None:
-        """Raise the error in the student's code, or in the library that the student's code is waiting in."""
+        """Raise the error in the student's code, or in a library that the student's code called."""
         if frame is None or not _is_called(frame):
             return
         now = time.monotonic()
@@ -73,13 +71,13 @@ class TimeLimit:
             self._raised = now
             raise self._error
         try:
-            raise self._error  # the signal becomes pending again after this, and the library can clean up
+            raise self._error  # After this line, the signal is pending again, and the library can clean up.
         except BaseException:  # noqa: BLE001
             return
 
 
 def _call(function: Callable[[], Value]) -> Value:
-    """Run `function`; while it runs, this frame is on the stack."""
+    """Run `function`; _is_called() finds this frame on the stack."""
     return function()
 
 
@@ -93,10 +91,10 @@ def _is_called(frame: FrameType | None) -> bool:
 
 
 def _coming_again(error: type[BaseException]) -> type[BaseException]:
-    """Return a subclass of `error` whose new instances make SIGALRM pending again.
+    """Return a subclass of `error` that makes SIGALRM pending again when it is raised.
 
-    The `raise` statement creates the instance. After this, Python handles no signals until the exception has
-    left the function that raises it. If a function call created the instance, Python could handle the signal
+    The `raise` statement creates an instance of this class. After this, Python handles no signals until the
+    exception has left the function. If a function call created the instance, Python could handle the signal
     too early.
     """
     again: Any = staticmethod(partial(_thread.interrupt_main, signal.SIGALRM))

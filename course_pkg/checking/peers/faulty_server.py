@@ -1,7 +1,7 @@
-"""A server of the check that fails as planned, with one fault after another, and recovers.
+"""A check's server that fails with a planned list of faults, and recovers.
 
-The client cannot distinguish a planned fault from a real one. A stopped process accepts connections but does
-not answer. A killed process leaves a registration with a closed port. A restarted process has a new address.
+A client cannot distinguish a planned fault from a real fault. A stopped process accepts connections but does
+not respond. After a kill, the registration with a closed port remains. A restarted process has a new address.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from course_pkg.checking.peers.scripted_server import Act, Late, ScriptedServer,
 from course_pkg.checking.plain_values import Message, ServiceClass, Value
 from course_pkg.errors import GraphError
 
-# a function that returns the fields of the response to a request
+# The function returns the fields of the response to a request.
 Work = Callable[[Message], Mapping[str, Value]]
 
 
@@ -33,14 +33,14 @@ class Stumble:
 
 @dataclass(frozen=True)
 class Frozen:
-    """Accept the connection, but do not respond, like a process that was stopped by SIGSTOP."""
+    """Accept the connection, but do not respond, like a process after SIGSTOP."""
 
 
 @dataclass(frozen=True)
 class Crash:
     """End without a response; after `back` s, serve again at another address.
 
-    The registration stays at the master, as after a SIGKILL. With `unregisters`, the server first
+    The registration remains at the master, as after a SIGKILL. If `unregisters` is true, the server first
     unregisters, like a process that ends normally.
     """
 
@@ -50,14 +50,14 @@ class Crash:
 
 @dataclass(frozen=True)
 class Fault:
-    """The fault of one call; with `worked`, the server does the work before the fault."""
+    """The fault of one call; if `worked` is true, the server calls `work` before the fault."""
 
     what: Act | Stumble | Frozen | Crash
     worked: bool = False
 
 
 class FaultyServer(ScriptedServer):
-    """Does its `work` for each request; each call takes the first fault from `plan`, and fails with it."""
+    """Calls `work` for each request, or fails with the next fault from `plan`."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, work: Work) -> None:
         super().__init__(node, name, kind, self._scripted)
@@ -66,7 +66,8 @@ class FaultyServer(ScriptedServer):
         self.arrivals: list[float] = []
         self._work = work
         self._plan_lock = threading.Lock()
-        self._registering = threading.RLock()  # locked while an address is registered or unregistered
+        # This lock is acquired while an address is registered or unregistered.
+        self._registering = threading.RLock()
         self._restarts: list[threading.Timer] = []
 
     def leave(self) -> None:
@@ -83,12 +84,12 @@ class FaultyServer(ScriptedServer):
             return response
         if isinstance(fault.what, Late):
             return Late(fault.what.delay, response)
-        return cast(Act, fault.what)  # the method _act handles the other faults
+        return cast(Act, fault.what)  # The method _act handles all other faults.
 
     def _arrived(self, *, frozen: bool = False) -> Fault | None:
-        """Record the time of a call, and take its fault from the plan.
+        """Record the time of a call, and remove its fault from the plan.
 
-        With `frozen`, do this only if the next fault is Frozen, because such a fault occurs before the
+        If `frozen` is true, do this only if the next fault is Frozen, because this fault occurs before the
         request.
         """
         with self._plan_lock:
@@ -98,7 +99,7 @@ class FaultyServer(ScriptedServer):
             return self.plan.popleft() if due else None
 
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
-        """Reply to the handshake, unless the next fault is Frozen; a probe takes no fault from the plan."""
+        """Reply to the handshake, unless the next fault is Frozen; ignore the plan for a probe."""
         if header.get("probe") == "1":
             with self._plan_lock:
                 frozen = bool(self.plan) and isinstance(self.plan[0].what, Frozen)

@@ -17,12 +17,12 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.protocol.probe import Probe, ask_all, service_probe
 from course_pkg.ros.protocol.registrations import registrations, withdraw, withdraw_node
 
-PROBE = 2.0  # time limit in s for a server to reply with its type
+PROBE = 2.0  # A server has to reply with its type within this time in s.
 
 
 @dataclass(frozen=True)
 class Registration:
-    """The master's entry for a service: its provider, and the addresses of service and provider."""
+    """The master's entry for a service: the node that offers it, and the addresses of service and node."""
 
     node: str
     uri: str
@@ -38,7 +38,7 @@ class Node:
     master: MasterClient
 
     def services(self) -> list[str]:
-        """Return the names of all services, without the two logger services that every node has."""
+        """Return the names of all services except the two logger services of every node."""
         names = self.master.system_state().services
         return [name for name in names if not name.endswith(("/get_loggers", "/set_logger_level"))]
 
@@ -50,14 +50,13 @@ class Node:
         return Registration(providers[0], uri, node_uri) if uri and node_uri else None
 
     def register(self, service: str, uri: str) -> None:
-        """Register this node as the provider of `service`, at the address `uri`."""
+        """Register this node as the server of `service`, at the address `uri`."""
         self.master.register_service(self.name, service, uri, self.uri)
 
     def restore(self, service: str, former: Registration | None) -> None:
-        """Register the `former` provider of `service` again, with its own node name.
+        """Register the `former` server of `service` again, with its own node name.
 
-        The master stores one provider for each service, and does not notify the former provider that it was
-        replaced.
+        The master stores one server for each service, and does not notify a server that was replaced.
         """
         if former:
             self.master.register_service(former.node, service, former.uri, former.node_uri)
@@ -65,14 +64,13 @@ class Node:
     def forget_topics(self, made: Callable[[str], bool]) -> None:
         """Unregister all publishers and subscribers of the topics for whose names `made` returns True.
 
-        This is necessary because a student's function may not unregister them, and the topic would stay on
-        the graph.
+        A student's function possibly does not unregister these topics.
         """
         entries = registrations(self.master)
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])
 
     def probe(self, service: str) -> Probe | None:
-        """Ask the server of `service` for its type; return None if no server is registered."""
+        """Request the type of `service` from its server; return None if no server is registered."""
         if not (uri := self.master.lookup_service(service)):
             return None
         probe = service_probe(service, uri)
@@ -88,8 +86,8 @@ def on_the_graph(check: str) -> Iterator[Node]:
     """
     name = f"check_runner_{check.replace('.', '_')}_{secrets.token_hex(4)}"
     master = MasterClient(master_uri(), caller=f"/{name}")
-    master.pid()  # if the master does not reply, init_node would wait forever
-    # Without this, each check would write a log file into the student's log folder.
+    master.pid()  # Without a master, init_node would wait for ever.
+    # This prevents a log file for each check in the student's log folder.
     rospy.core.configure_logging = lambda *_: None
     with held_back(signal.SIGTERM) as came:
         rospy.init_node(name, argv=[name], disable_rosout=True, disable_signals=True)
@@ -99,15 +97,15 @@ def on_the_graph(check: str) -> Iterator[Node]:
             signal.raise_signal(signal.SIGTERM)
         yield node
     finally:
-        # If the master has ended, there is nothing to unregister. A SIGTERM must not
-        # interrupt this block.
+        # If the master has ended, no registrations exist. SIGTERM is delayed until the block has ended.
         with suppress(GraphError), held_back(signal.SIGTERM):
-            withdraw_node(master, node.name, node.uri)  # rospy.signal_shutdown would sleep for 0.6 s
+            # rospy.signal_shutdown is not used, because it sleeps for 0.6 s.
+            withdraw_node(master, node.name, node.uri)
 
 
 @contextmanager
 def held_back(number: int) -> Iterator[list[int]]:
-    """Keep a signal from interrupting this block; the yielded list contains the signals that arrived."""
+    """Delay a signal until the block has ended; the yielded list contains the signals that arrived."""
     came: list[int] = []
     before = signal.signal(number, lambda *_: came.append(number))
     try:
@@ -119,9 +117,9 @@ def held_back(number: int) -> Iterator[list[int]]:
 class FakeNode:
     """A node that is registered as a publisher of `topic` during the block, but never publishes.
 
-    With `alive`, the fake node is registered with the address of the check's own node, so a ping is answered.
-    Without `alive`, it is like a killed node, because it is registered with the address of a closed port. If
-    the port was `reused`, another program listens there, which closes each connection.
+    If `alive` is true, its address is the address of the check's own node, so a ping succeeds. Otherwise, its
+    address has a closed port, as after a kill. If `reused` is true, another program listens on the port and
+    closes each connection.
     """
 
     def __init__(
@@ -143,7 +141,7 @@ class FakeNode:
         self._node.master.unregister_publisher(self.name, self._topic, self._uri)
         if self._listener:
             with suppress(OSError):
-                self._listener.shutdown(socket.SHUT_RDWR)  # this ends accept()
+                self._listener.shutdown(socket.SHUT_RDWR)  # This call ends accept().
             self._listener.close()
 
 
@@ -155,7 +153,7 @@ def _hang_up(listener: socket.socket) -> None:
 
 
 def closed_port() -> int:
-    """Return a port of this computer on which no program listens."""
+    """Return a port of this computer that no program uses."""
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port: int = listener.getsockname()[1]
         return port

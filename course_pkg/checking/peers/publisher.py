@@ -18,9 +18,10 @@ from course_pkg.waiting import wait_until
 class Publisher:
     """Publishes its messages on `topic` in a cycle, one message every `every` s.
 
-    With `once`, it begins as soon as there is a subscriber, and ends after the last message. `sent` contains
-    the times at which messages were published, in s of time.monotonic(), and `subscribers` the number of
-    connected subscribers at these times. After a subscriber has left, two more messages may count it.
+    If `once` is true, the publisher begins as soon as there is a subscriber, and ends after the last message.
+    `sent` contains the times of the messages in s of time.monotonic(). `subscribers` contains the number of
+    connected subscribers at each of these times. A disconnected subscriber may be counted for two more
+    messages.
     """
 
     def __init__(
@@ -37,7 +38,7 @@ class Publisher:
         self.sent: list[float] = []
         self.subscribers: list[int] = []
         self._results, self._type = results, str(kind._type)
-        self._label = label  # the topic as assertions show it
+        self._label = label  # Assertions show this text for the topic.
         self._messages = [_made(kind, fields) for fields in messages]
         self._every = every
         self._once = once
@@ -52,7 +53,7 @@ class Publisher:
     def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
         """Assert that the topic has a subscriber of its type, and return when the subscriber is connected.
 
-        `hints` are for the value "no subscriber". A subscriber of another type leads to this value, too.
+        `hints` are for the value "no subscriber", also if a subscriber has another type.
         """
         assertion = f"somebody listens to {self._label}"
         if not self.has_subscriber(within):
@@ -64,7 +65,7 @@ class Publisher:
         self._results.passes(assertion)
 
     def finish(self, within: float = 10.0) -> bool:
-        """With `once`, wait at most `within` s for the last message; return whether it was published."""
+        """If `once` is true, wait up to `within` s for the last message; return whether it was published."""
         return self._done.wait(within)
 
     def stop(self) -> None:

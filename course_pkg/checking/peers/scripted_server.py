@@ -1,7 +1,7 @@
-"""A server for the student's client. A script in the check decides what it does, so it can behave wrongly.
+"""A server for the student's client; a script in the check chooses each response.
 
 The server implements TCPROS itself (wiki.ros.org/ROS/TCPROS, "Service Client" and "Service"). A server of
-rospy cannot close a connection without a response, ignore a request, or serve another definition.
+rospy cannot close a connection without a response, ignore a request, or use another definition.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from course_pkg.checking.plain_values import Fields, ServiceClass, Value, fields
 
 @dataclass(frozen=True)
 class Refuse:
-    """Send the error message that rospy sends after a handler has raised a ServiceException."""
+    """Send the error message of rospy for a ServiceException in a handler."""
 
     reason: str
 
@@ -47,7 +47,7 @@ class Late:
 
 
 Act = Mapping[str, Value] | genpy.Message | Refuse | HangUp | Silence | Late
-Script = Callable[..., Act]  # maps a request to the next action
+Script = Callable[..., Act]  # A script returns the next action for a request.
 
 
 @dataclass
@@ -57,7 +57,8 @@ class Received:
     requests: list[Fields] = field(default_factory=list)
     # The connection header of each call, without probes.
     headers: list[dict[str, str]] = field(default_factory=list)
-    probes: int = 0  # number of connections without a request; wait_for_service makes such connections
+    # This is the number of connections without a request, such as the connections of wait_for_service.
+    probes: int = 0
 
 
 class ScriptedServer:
@@ -80,7 +81,7 @@ class ScriptedServer:
 
     @property
     def uri(self) -> str:
-        """The address of the service, as it is registered at the master."""
+        """The registered address of the service."""
         return self._uri
 
     def __enter__(self) -> ScriptedServer:
@@ -95,11 +96,11 @@ class ScriptedServer:
             raise self.problem
 
     def leave(self) -> None:
-        """Stop serving and close all connections, in the same way as a server that shuts down."""
+        """Stop serving and close all connections, like a server that shuts down."""
         self._over.set()
         self._close_port()
         for connection in self._connections.copy():
-            with suppress(OSError):  # the socket is already closed
+            with suppress(OSError):  # The socket is closed already.
                 connection.shutdown(socket.SHUT_RDWR)
         self._node.master.unregister_service(self._node.name, self._name, self._uri)
         self._node.restore(self._name, self._former)
@@ -111,7 +112,7 @@ class ScriptedServer:
         self._listener.close()
 
     def _accept(self) -> None:
-        with suppress(OSError):  # leave() has closed the listening socket
+        with suppress(OSError):  # leave() has closed the listening socket.
             while True:
                 sock, _ = self._listener.accept()
                 threading.Thread(target=self._serve_connection, args=(sock,), daemon=True).start()
@@ -153,7 +154,7 @@ class ScriptedServer:
         return not probe
 
     def _serve_one(self, sock: socket.socket) -> bool:
-        """Read one request and do what the script says next; return whether the connection stays open."""
+        """Read one request and execute the script's action; return whether the connection is still open."""
         request = self._kind._request_class()
         request.deserialize(_exactly(sock, struct.unpack("<I", _exactly(sock, 4))[0]))
         self.received.requests.append(fields_of(request))
@@ -184,7 +185,7 @@ class ScriptedServer:
 class Absent:
     """Unregisters the server of `name` during the block.
 
-    With `stale`, an address with a closed port is registered.
+    If `stale` is true, an address with a closed port is registered instead.
     """
 
     def __init__(self, node: Node, name: str, *, stale: bool = False) -> None:

@@ -17,8 +17,8 @@ from course_pkg.checking.plain_values import Message, ServiceClass, Value, plain
 from course_pkg.waiting import Deadline
 
 HANDLERS_ERROR = matches("error processing request")
-LONGEST = 2000  # maximum number of characters of a traceback in a report
-TIMEOUT = 3.0  # time limit in s for one call, unless a check sets another limit
+LONGEST = 2000  # A traceback in a report has at most this number of characters.
+TIMEOUT = 3.0  # A call has this time limit in s, unless a check sets another limit.
 
 
 @dataclass(frozen=True)
@@ -28,11 +28,11 @@ class Reply:
     request: Message
     response: Message = None
     error: str = ""
-    took: float = 0.0  # s
+    took: float = 0.0  # The call took this time in s.
 
     @property
     def unanswered(self) -> bool:
-        """Return whether the call had not returned when its time limit was over."""
+        """Return whether the call reached its time limit."""
         return self.error.startswith("TimesUp")
 
 
@@ -51,12 +51,12 @@ class Service:
     ) -> None:
         self.name = name
         self.kind = kind
-        self.took = 0.0  # the duration of the last call in s
+        self.took = 0.0  # The last call took this time in s.
         self._results = results
-        self._label = label  # the service as assertions show it
+        self._label = label  # Assertions show this text for the service.
         self._hints = hints
         self._timeout = timeout
-        # A function that returns the traceback of the handler's last exception, which the kernel reports.
+        # The function requests the traceback of the handler's last exception from the kernel.
         self._traceback = traceback
 
     def __call__(self, *values: Value, **fields: Value) -> Message:
@@ -66,7 +66,7 @@ class Service:
     def at_once(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
         """Call with all `requests` at the same time, each in its own thread; return the replies in order.
 
-        Asserts that the service responds to each request.
+        The method asserts that the service responds to each request.
         """
         replies = self.replies(requests)
         for reply in replies:
@@ -74,13 +74,13 @@ class Service:
         return replies
 
     def replies(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
-        """Call with all `requests` at the same time; return the replies in order. Asserts nothing."""
+        """Call with all `requests` at the same time, without an assertion; return the replies in order."""
         return self._call([self._request(**fields) for fields in requests])
 
     def refused(self, assertion: str, *, saying: str = "", hints: Hints = (), **fields: Value) -> str:
         """Assert that the service refuses a request with an error message that matches `saying`.
 
-        Return the message.
+        The method returns the error message.
         """
         reply = self._call([self._request(**fields)])[0]
         self._results.asked = lambda: command_line(self.name, self.kind, reply.request)
@@ -111,7 +111,7 @@ class Service:
         return hint_for(HANDLER_RAISED, error) or explained(error)
 
     def _with_traceback(self, error: str) -> str:
-        """Return the error message, followed by the lines of the handler that raised the exception."""
+        """Return the error message and the traceback of the handler."""
         if not HANDLERS_ERROR.search(error):
             return error
         return f"{error}\n{self._traceback()[:LONGEST]}".strip()
@@ -119,7 +119,7 @@ class Service:
     def _call(self, requests: Sequence[Message]) -> list[Reply]:
         """Make calls with all requests at the same time.
 
-        A call that hangs keeps its thread until this process ends.
+        The thread of a call without a response runs until this process ends.
         """
         inboxes = [self._started(request) for request in requests]
         deadline = Deadline(self._timeout)

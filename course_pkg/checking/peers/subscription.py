@@ -1,8 +1,7 @@
 """A check's subscription to a student's topic; it stores each message with its time of arrival.
 
-The subscription accepts any type (`rospy.AnyMsg`). With a single type, the check would receive nothing from a
-publisher of another type, but it has to report such a publisher. http://wiki.ros.org/ROS/TCPROS, fields of
-the connection header.
+The subscription accepts any type (`rospy.AnyMsg`), so the check can report a publisher with a wrong type. The
+type is in the connection header: http://wiki.ros.org/ROS/TCPROS.
 """
 
 from __future__ import annotations
@@ -22,7 +21,8 @@ from course_pkg.checking.peers.node import Node
 from course_pkg.checking.plain_values import Fields, Message, ServiceClass, Value, fields_of
 from course_pkg.waiting import wait_until
 
-KEPT = 20_000  # maximum number of stored messages; a loop without a sleep may publish too many
+# At most this number of messages is stored. A loop without a sleep may publish many more messages.
+KEPT = 20_000
 
 
 @dataclass(frozen=True)
@@ -30,9 +30,9 @@ class Arrival:
     """One message: its `fields` as plain data, and its time of arrival `at` (time.monotonic())."""
 
     fields: Fields
-    at: float  # s
-    by: str  # name of the node that published the message
-    latched: bool  # whether the publisher keeps its last message for later subscribers
+    at: float  # The message arrived at this time in s.
+    by: str  # The node with this name published the message.
+    latched: bool  # The value is true if the publisher sends its last message to later subscribers.
 
 
 class Subscription:
@@ -41,26 +41,26 @@ class Subscription:
     def __init__(self, results: Results, node: Node, topic: str, kind: ServiceClass, label: str) -> None:
         self.name = topic
         self.kind = str(kind._type)
-        self.count = 0  # number of all messages of the type, including those that are not stored
+        self.count = 0  # This number counts all messages of the type, even messages that are not stored.
         self._results, self._node = results, node
-        self._label = label  # the topic, as the titles of assertions show it
+        self._label = label  # The titles of assertions show this text for the topic.
         self._cls = kind
         self._arrivals: list[Arrival] = []
-        self._others: deque[str] = deque(maxlen=1)  # the type of the last message that had a wrong type
+        self._others: deque[str] = deque(maxlen=1)  # This is the type of the last message with a wrong type.
         self._arrived = threading.Condition()
 
     @property
     def arrivals(self) -> tuple[Arrival, ...]:
-        """The messages that have arrived; the oldest comes first."""
+        """The messages that have arrived, the oldest message first."""
         return tuple(self._arrivals)
 
     def wait(self, count: int = 1, within: float = 5.0) -> list[Arrival]:
-        """Return the first `count` messages. If fewer messages arrive within `within` s, return these."""
+        """Return the first `count` messages, or fewer messages after `within` s."""
         self.until(lambda arrivals: len(arrivals) >= count, within)
         return self._arrivals[:count]
 
     def until(self, condition: Callable[[Sequence[Arrival]], bool], within: float = 5.0) -> bool:
-        """Wait for at most `within` s until the messages meet `condition`; return whether they meet it."""
+        """Wait at most `within` s until the messages meet `condition`; return whether they meet it."""
         with self._arrived:
             return self._arrived.wait_for(lambda: condition(self._arrivals), within)
 
@@ -74,7 +74,7 @@ class Subscription:
     def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
         """Assert that a node publishes on the topic with the right type; return when it is connected.
 
-        `hints` are for wrong values: "no publisher", or the name of another type.
+        `hints` are for wrong values: "no publisher", or the name of a wrong type.
         """
         assertion = f"{self._label} is published as {self.kind}"
         found = wait_until(self._found, within)
@@ -89,7 +89,7 @@ class Subscription:
         return self._node.master.system_state().publishers.get(self.name, ())
 
     def leave(self) -> None:
-        """Unsubscribe; the stored messages stay."""
+        """Unsubscribe; the stored messages are not deleted."""
         self._subscriber.unregister()
 
     def __enter__(self) -> Subscription:
@@ -116,7 +116,7 @@ class Subscription:
             self._arrived.notify_all()
 
     def _found(self) -> str:
-        """Return the type of the topic's publisher, or "" as long as no publisher is connected."""
+        """Return the type of the topic's publisher, or "" if no publisher is connected."""
         if self._arrivals:
             return self.kind
         headers = map(_header_of, self._subscriber.impl.connections)
@@ -140,8 +140,8 @@ def rate(arrivals: Sequence[Arrival]) -> float:
 
 
 def _header_of(connection: Value) -> dict[str, str]:
-    """Return the header of a publisher's connection; it is empty until both headers were exchanged."""
-    md5sum = getattr(connection, "md5sum", None)  # rospy sets this attribute last
+    """Return the header of a publisher's connection, or an empty dict before the headers are exchanged."""
+    md5sum = getattr(connection, "md5sum", None)  # rospy sets this attribute after all other attributes.
     return {"type": connection.type, "md5sum": md5sum} if md5sum else {}
 
 

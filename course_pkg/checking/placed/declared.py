@@ -1,4 +1,4 @@
-"""The decorator `@remote` marks the methods and attributes that the student's kernel may use."""
+"""The decorator `@remote` declares the methods and attributes that the student's kernel may use."""
 
 from __future__ import annotations
 
@@ -30,19 +30,19 @@ def remote(function: Function) -> Function:
 
 @dataclass(frozen=True)
 class Interface:
-    """The names that a class has marked with `remote`."""
+    """The names that a class has declared with `remote`."""
 
     methods: frozenset[str]
     readable: frozenset[str]
     writable: frozenset[str]
 
     def __bool__(self) -> bool:
-        """Return whether the class has marked any name."""
+        """Return whether the class has declared any name."""
         return bool(self.methods or self.readable or self.writable)
 
 
 def interface_of(kind: type) -> Interface:
-    """Return the names that the class `kind` has marked with `remote`."""
+    """Return the names that the class `kind` has declared with `remote`."""
     members = {name: inspect.getattr_static(kind, name) for name in dir(kind)}
     properties = {name: value for name, value in members.items() if isinstance(value, property)}
     return Interface(

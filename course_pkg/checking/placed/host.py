@@ -30,22 +30,23 @@ from course_pkg.errors import ChannelBroken, ChannelError
 from course_pkg.ros.protocol.json_channel import Json, JsonChannel
 from course_pkg.waiting import Deadline
 
-LIMIT = 1 << 16  # maximum bytes of a line
-CONNECTIONS = 128  # maximum number of simultaneous connections; a kernel in a sandbox may have 200 threads
-# maximum number of calls in one check a loop that tries to acquire a lock makes about 10,000 calls per second
+LIMIT = 1 << 16  # A line has at most this number of bytes.
+# At most this number of connections is open at the same time. A kernel in a sandbox may have 200 threads.
+CONNECTIONS = 128
+# One check makes at most this number of calls. A loop that polls a lock makes about 10,000 calls per second.
 CALLS = 200_000
-KEY_TIMEOUT = 5.0  # time limit for the first line of a connection (s)
-SEND_TIMEOUT = 5.0  # time limit for the kernel to read a reply (s)
-END_TIMEOUT = 1.0  # time limit for the end of all threads (s)
-STACK = 512 * 1024  # bytes of a thread's stack; a check runner in a sandbox has limited memory
-LONGEST = 4000  # maximum number of characters of an error message
+KEY_TIMEOUT = 5.0  # The first line of a connection has to arrive within this time in s.
+SEND_TIMEOUT = 5.0  # The kernel has to read a reply within this time in s.
+END_TIMEOUT = 1.0  # All threads have to end within this time in s.
+STACK = 512 * 1024  # The stack of each thread has this number of bytes, because a sandbox has limited memory.
+LONGEST = 4000  # An error message has at most this number of characters.
 
 
 class PlacedObjects:
     """Objects with remote methods, and the kernel's connections to them; a context manager.
 
-    At its end, all connections are closed, and a waiting call raises an error in the kernel. If calls of an
-    object can wait, its method `close` should end them.
+    When the block ends, all connections are closed, and a waiting call raises an error in the kernel. An
+    object with waiting calls needs a method `close` that ends these calls.
     """
 
     def __init__(self) -> None:
@@ -70,7 +71,7 @@ class PlacedObjects:
             self._closed = True
             left = dict(self._open)
         with suppress(OSError):
-            self._listener.shutdown(socket.SHUT_RDWR)  # this ends accept()
+            self._listener.shutdown(socket.SHUT_RDWR)  # This call ends accept().
         self._listener.close()
         for each in self._objects:
             if callable(close := getattr(each, "close", None)):
@@ -112,7 +113,7 @@ class PlacedObjects:
         while True:
             try:
                 sock, _ = self._listener.accept()
-            except OSError:  # the listening socket was closed
+            except OSError:  # The listening socket was closed.
                 return
             with self._lock:
                 if self._closed or len(self._open) >= CONNECTIONS:
@@ -126,7 +127,7 @@ class PlacedObjects:
         try:
             thread.start()
             self._open[thread] = sock
-        except RuntimeError:  # there is not enough memory for another thread
+        except RuntimeError:  # There is not enough memory for another thread.
             sock.close()
         finally:
             threading.stack_size(before)
@@ -140,7 +141,7 @@ class PlacedObjects:
             while hmac.compare_digest(key, self._key.encode()):
                 channel.send(self._reply(channel.receive()), SEND_TIMEOUT)
         except (ChannelError, OSError):
-            pass  # the kernel notices that the connection is closed
+            pass  # The kernel detects the closed connection.
         finally:
             channel.close()
             with self._lock:

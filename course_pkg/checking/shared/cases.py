@@ -1,4 +1,4 @@
-"""A check of a dict that assigns one of several entries to each case, for example a cause to each symptom."""
+"""A check of a dict that assigns an entry to each case, for example a cause to each symptom."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ from course_pkg.checking.plain_values import of_kind
 class Cases:
     """The right entry for each case, and the texts for a report.
 
-    For each case, `right` contains the right entry, and `decisive` contains the fact from which it follows.
-    `entries` contains a sentence about each possible entry. There are three other hints: `missing` for
-    missing keys, `keys` for unknown keys, and `spelling` for an unknown entry. `label` is the name of a case
-    in the title of an assertion, and `again` is its name in a hint.
+    For each case, `right` contains the right entry, and `decisive` contains the fact that proves this entry.
+    `entries` contains a sentence about each possible entry.
+
+    Three other hints are `missing` for missing keys, `keys` for unknown keys, and `spelling` for an unknown
+    entry. `label` is the name of a case in the title of an assertion, and `again` is its name in a hint.
     """
 
     right: Mapping[str, str]
@@ -26,9 +27,9 @@ class Cases:
     missing: str
     keys: str
     spelling: str
-    entry: str = "cause"  # the word for an entry in a report
+    entry: str = "cause"  # A report uses this noun for an entry.
     listed: str = "the list"
-    case: str = "case"  # the word for a case in a report
+    case: str = "case"  # A report uses this noun for a case.
     label: str = "case {}"
     again: str = "case {}"
 
@@ -58,7 +59,7 @@ def compare_cases(context: CheckContext, name: str, cases: Cases) -> None:
 
 
 def _entries_by_case(context: CheckContext, name: str, cases: Cases) -> dict[str, str]:
-    """Return the student's dict, after an assertion that its keys are the cases."""
+    """Return the student's dict; assert that its keys are the cases."""
     given = context.read(name)
     keys = set(given) if isinstance(given, dict) else set()
     context.require(

@@ -1,8 +1,8 @@
 """A check's copy of a student's catkin package, built in a separate folder, and the programs of this copy.
 
-The copy is complete: the check adds its own version of each file that the student does not have yet. So a
-check can examine one file before the other files exist. This is also necessary in grading, because a
-submission contains only the cells of the notebook.
+The check adds its own version of each missing file, so one file can be examined before the student has
+written all files. In grading, a submission contains only the cells of the notebook, so files are missing
+there too.
 """
 
 from __future__ import annotations
@@ -18,22 +18,23 @@ from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.fault import locate
 
 BUILDS = "catkin_make builds the package"
-# s of processor time, and KiB of a file; the sandbox has its own limits
+# The limits are the CPU time in s and the size of a file in KiB. The sandbox has its own limits.
 LIMITS = "ulimit -t 20 -f 60000 2> /dev/null"
-# time limit of the build in s; it takes 3 s of processor time, or 6 s at a load of 9 on two cores
+# The time limit of the build in s. A build takes 3 s of CPU time, or 6 s on a machine with two cores and a
+# load average of 9.
 BUILD = 50.0
-OWN = "own"  # the folder of the check's own files; cp -n does not replace the student's files
+OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-# This path is enough for a package that contains only scripts.
+# For a package that contains only scripts, no other path is necessary.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
-# Without -j2, catkin_make sets a load limit, and make waits while the machine is busy.
+# Without -j2, catkin_make sets a load limit, and make would wait while the machine is busy.
 CATKIN_MAKE = "catkin_make -j2"
 
 
 @dataclass(frozen=True)
 class Package:
-    """A package that exercises need: its name, and the check's own files by their paths in the package."""
+    """A package for exercises: its name, and the check's own version of each file."""
 
     name: str
     files: Mapping[str, str]
@@ -49,7 +50,7 @@ class Package:
 
 
 class BuiltPackage:
-    """A copy of a package that was built in a workspace of the check's own."""
+    """A built copy of a package in the check's own workspace."""
 
     def __init__(self, folder: Folder, package: Package) -> None:
         self.folder = folder
@@ -60,14 +61,14 @@ class BuiltPackage:
         return self.folder.command("bash", "-c", f". {setup} && {line}", within=within, worded=line)
 
     def start(self, line: str, *, worded: str = "", setup: str = SETUP) -> Running:
-        """Start a command that continues to run, such as `rosrun PACKAGE PROGRAM`; a context manager.
+        """Start a command that continues to run, such as `rosrun PACKAGE PROGRAM`; returns a context manager.
 
-        A report shows the command, or `worded` if it is given.
+        A report shows `worded` instead of the command, if `worded` is given.
         """
         return self.folder.start("bash", "-c", f". {setup} && exec {line}", worded=worded or line)
 
     def md5(self, type_name: str) -> tuple[str, str]:
-        """Return the MD5 sum of a service type that Python imports, and ""; or "" and the error output."""
+        """Return (MD5 sum, "") of a service type that Python imports, or ("", error output)."""
         name = self.package.name
         line = f"python3 -c 'from {name}.srv import {type_name}; print({type_name}._md5sum)'"
         done = self.run(line)
@@ -85,10 +86,10 @@ def built(
 ) -> BuiltPackage:
     """Build a copy of the student's package, and assert that the build succeeds.
 
-    With `alone`, all other files are the check's own, because the student writes them later. The files
-    `drawn`, by their paths in the package, replace the student's files. Their content is random, so that no
-    CMakeLists.txt can contain it. Raises CheckError if the build takes more than `within` s; a build with C++
-    needs more than the default.
+    If `alone` is true, only `examined` comes from the student. The files in `drawn` (content by path in the
+    package) replace the student's files. The content of these files is random, so no student's CMakeLists.txt
+    can contain it. Raises CheckError if the build takes more than `within` s; a build with C++ needs more
+    than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}
@@ -104,7 +105,7 @@ def built(
 def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: float) -> Finished:
     """Run catkin_make in `folder` after the commands `before` of bash, such as "ulimit -t 6;".
 
-    Raises CheckError if it has not finished after `within` s.
+    Raises CheckError if catkin_make has not finished after `within` s.
     """
     line = f"{before} exec {CATKIN_MAKE} {options}"
     build = folder.command("bash", "-c", line, within=within, worded="catkin_make")
@@ -119,8 +120,8 @@ def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: f
 def copied(context: CheckContext, package: Package, *, examined: str, alone: bool = False) -> BuiltPackage:
     """Copy a package that needs no build, because it contains only Python programs and launch files.
 
-    rosrun and roslaunch find its programs in `src`, as they do in a workspace that was built. With `alone`,
-    all files except `examined` are the check's own.
+    rosrun and roslaunch find its programs in `src`, as they do in a workspace that was built. If `alone` is
+    true, only `examined` comes from the student.
     """
     files = [package.path(examined) if alone else package.folder]
     folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})
@@ -129,10 +130,9 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
 
 
 def _own_files(package: Package, examined: str) -> dict[str, str]:
-    """Return the check's own files by their paths in the folder of a check.
+    """Return the check's own files by their paths in the folder of a check, without the examined file.
 
-    The check's version of the examined file is left out, because a CMakeLists.txt could use it instead of the
-    student's file.
+    A CMakeLists.txt could otherwise use the check's version of the examined file.
     """
     return {f"{OWN}/{package.name}/{file}": text for file, text in package.files.items() if file != examined}
 

@@ -1,4 +1,4 @@
-"""Split a command line, which a student's function returned, as a shell does."""
+"""Split a command line from a student's function with the rules of a shell."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ OPERATORS = "();<>|&"
 def commands_of(line: Json) -> list[list[str]]:
     """Return the name and the arguments of each command in a pipe, without comments and without a final &.
 
-    The list is empty if `line` is not a string, if a quotation mark is not closed, or if the line contains
-    another operator, such as `;` or `&&`. With these, another program could do the work of the command.
+    The list is empty if `line` is not a string, if a quotation mark is missing, or if the line contains
+    another operator, such as `;` or `&&`.
     """
     if not isinstance(line, str):
         return []

@@ -1,4 +1,4 @@
-"""A student's definition of a service type, read as ROS reads it, and the hint if ROS cannot read it."""
+"""Read a student's definition of a service type with ROS's own rules, and return a hint if it is invalid."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Recognise the programs of the course, so that they do not earn points in place of the student's program."""
+"""Recognise the programs of the course, because they must not earn points for the student."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from course_pkg.checking.context import CheckContext
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient
 from course_pkg.ros.trace.recording import GET_RECORD
 
-TIMEOUT = 2.0  # s for the answer of a node
+TIMEOUT = 2.0  # A node has to respond within this time in s.
 
 
 def require_own_nodes(context: CheckContext, space: str, besides: Collection[str] = ()) -> None:
     """Assert that no node in the namespace `space` is a program of the course, except the nodes `besides`.
 
-    Every program of the course records its calls, and its slave API returns the record. A program that uses
-    only rospy or roscpp does not know this method. A report shows this assertion only if it fails.
+    Every program of the course returns the record of its calls through the slave API; a program that uses
+    only rospy or roscpp has no such method. A report shows this assertion only if it fails.
     """
     for node in context.look().nodes:
         if node.name.startswith(f"{space}/") and node.name not in besides and _returns_a_record(node.uri):
@@ -29,10 +29,9 @@ def require_own_nodes(context: CheckContext, space: str, besides: Collection[str
 
 
 def require_kernel(context: CheckContext, nodes: Collection[str]) -> None:
-    """Assert that all `nodes`, which do what the exercise asks for, are the student's kernel.
+    """Assert that all `nodes` are the student's kernel, not a program that the student's code has started.
 
-    The code of the exercise could otherwise start another program. A report shows this assertion only if it
-    fails.
+    A report shows this assertion only if it fails.
     """
     kernel = context.run("rospy.get_name").value
     others = [node for node in nodes if node != kernel]

@@ -1,4 +1,4 @@
-"""Inspects a compiled program: it has to use roscpp, and no other program may do its work."""
+"""Inspect a compiled program: it has to use roscpp, and it must not start another program."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from course_pkg.checking.commands.folder import Folder
 from course_pkg.checking.context import CheckContext
 from course_pkg.errors import ToolMissing
 
-# A name in the list of dynamic symbols that `readelf` prints: the program uses the name, and a library
-# defines it.
+# This pattern matches an undefined symbol in the output of `readelf`: the program uses the symbol, and a
+# library defines it.
 CALLED = re.compile(r"\sUND\s+([A-Za-z_]\w*)")
 STARTS = re.compile(
     r"f?exec[lv]\w*|posix_spawnp?|v?fork|clone\d?|system|popen|dlm?open|syscall|mprotect|memfd_create"
 )
 NEEDED = re.compile(r"\(NEEDED\)[^\[]*\[(lib\w+)\.so")
-# Instructions on x86 and ARM that enter the kernel directly, without a library function.
+# These instructions on x86 and ARM make a system call without a library function.
 INSTRUCTION = r"[[:space:]](syscall|sysenter|svc)([[:space:]]|$)|int +[$]0x80"
-LINES = 2000  # maximum number of lines of readelf's output; a usual program has about 400 symbols
+# At most this number of lines of readelf's output is read; a usual program has about 400 symbols.
+LINES = 2000
 
 
 def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
     """Assert that the file `program` in `folder` is a compiled roscpp program that starts no other program.
 
-    Otherwise, a program in another language could respond in its place: C++ code can start another program
-    (exec(3)), and a CMakeLists.txt can write a script in place of the compiled program. Raises ToolMissing if
-    binutils is missing; it is usually installed with a compiler. A report shows these assertions only if they
-    fail.
+    C++ code can start another program (exec(3)), and a CMakeLists.txt can write a script instead of the
+    compiled program. Raises ToolMissing if binutils is missing; it is usually installed with a compiler. A
+    report shows these assertions only if they fail.
     """
     path = shlex.quote(program)
     seen = folder.command(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from course_pkg.checking.context import CheckContext
 
-MARK = "\ufeff"  # the byte order mark; some editors on Windows write it at the beginning of a file
+MARK = "\ufeff"  # Some editors on Windows write this byte order mark at the beginning of a file.
 
 
 def require_shebang(
@@ -22,7 +22,7 @@ def require_shebang(
     """Assert that the first line of the student's file is a shebang with `program`, and not with Python 2.
 
     There are hints for five cases: no shebang, a shebang in another line, another program, Windows line
-    endings, and a byte order mark. Where a hint is not given, `missing` is used.
+    endings, and a byte order mark. If a hint is not given, `missing` is used.
     """
     text = context.source(f"file:{path}")
     first = text.partition("\n")[0]

@@ -1,4 +1,4 @@
-"""Assert which process serves a name. Otherwise, another process could do the work of the student's code.
+"""Assert which process offers a service, because another process could replace the student's code.
 
 A report shows these assertions only if they fail.
 """
@@ -19,7 +19,7 @@ def served_at(name):
 
 
 def require_served_by_program(context: CheckContext, program: Running, *services: str) -> None:
-    """Assert that the program, or a process that it started, listens at the address of each service."""
+    """Assert that the program, or one of its child processes, listens at the address of each service."""
     seen = context.look()
     for service in filter(None, map(seen.service, services)):
         if not program.listens_at(service.uri):

@@ -1,1 +1,1 @@
-"""Grades one submission in Gradescope's container; `course autograder` writes the zip for it."""
+"""Grades one submission in Gradescope's container."""

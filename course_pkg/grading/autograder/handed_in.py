@@ -12,7 +12,7 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-STUDENT = "student"  # the name of the folder that is graded; Gradescope knows whose work it is
+STUDENT = "student"  # The graded folder gets this name; Gradescope knows the student's name.
 
 
 def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], list[str]]:

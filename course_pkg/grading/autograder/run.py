@@ -1,4 +1,4 @@
-"""`course autograde`: grades the submission in /autograder, and always writes results.json.
+"""`course autograde`: grades the submission in /autograder, and writes results.json even after an error.
 
 Gradescope starts the script `run_autograder` as root in a new container for each submission:
 
@@ -50,7 +50,7 @@ OURS = "The autograder failed ({}). This is not a mistake in your work. Please t
 def prepare() -> int:
     """Make the checks and the solutions of this checkout unreadable for all users except root."""
     for folder in {path.parent for path in secret_paths()}:
-        (folder / "__pycache__").mkdir(exist_ok=True)  # will contain the compiled fixtures
+        (folder / "__pycache__").mkdir(exist_ok=True)  # This folder will contain the compiled fixtures.
     for path in [*secret_paths(), Places.of().checkout / "solutions"]:
         path.chmod(0o700 if path.is_dir() else 0o600)
     return 0
@@ -111,7 +111,10 @@ def _grade(submission: Submission, points: PointsTable, run: Run) -> Grade:
 
 @contextmanager
 def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
-    """Yield a function that runs a part; after the deadline, it ends the part, and runs no other part."""
+    """Yield a function that runs a part.
+
+    After the deadline, the function stops the part and runs no other part.
+    """
     with SandboxWorker(users=weaker, private=private) as worker:
 
         def run(job: PartJob) -> PartResult:
@@ -130,5 +133,5 @@ def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
         finally:
             timer.cancel()
     if weaker:
-        _, lock = users.reserve()  # this ends what a killed worker may have left
+        _, lock = users.reserve()  # The call also ends processes that a killed worker may have left.
         lock.close()

@@ -17,16 +17,16 @@ from course_pkg.grading.deadlines.moments import moment_of
 
 @dataclass(frozen=True)
 class Settings:
-    """What `course autograder` writes to settings.json, for the runs in the container."""
+    """The settings that `course autograder` writes to settings.json, for the runs in the container."""
 
     chapters: tuple[str, ...]
-    minutes: float  # the time limit of a run; it has to be shorter than that of Gradescope
+    minutes: float  # A run has this time limit, which must be shorter than Gradescope's time limit.
     late_per_day: float | None = None  # percent
     late_max_days: float | None = None
 
     @property
     def policy(self) -> LatePolicy | None:
-        """The deduction for lateness, or None if there is none."""
+        """The deduction for lateness, or None without a deduction."""
         if self.late_per_day is None and self.late_max_days is None:
             return None
         most = math.inf if self.late_max_days is None else self.late_max_days
@@ -47,9 +47,9 @@ def read_settings(path: Path) -> Settings:
 
 
 def days_late(metadata: Path) -> float | None:
-    """Return the days after the deadline, or None if the metadata of the submission do not tell.
+    """Return the days after the deadline, or None if the metadata of the submission do not contain them.
 
-    An extension is a deadline of the student's own. Format:
+    If the student has an extension, the metadata contain the student's own deadline. Format:
     https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
     """
     try:

@@ -1,1 +1,1 @@
-"""Deadlines: the times of submissions, how late they are, and the choice of the attempt that counts."""
+"""Deadlines: the times of submissions, the lateness, and the choice of the attempt that counts."""

@@ -1,4 +1,4 @@
-"""Reads a table; each row gives its values by the names of the columns."""
+"""Reads a CSV table; in each row, the keys are the names of the columns."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from course_pkg.grading.tables import table_rows
 
 @dataclass(frozen=True)
 class Row:
-    """The values of a row by the names of the columns, in small letters.
+    """The values of a row; the keys are the names of the columns in lower case.
 
-    Messages contain the row's place in the file.
+    Error messages contain the position of the row in the file.
     """
 
-    where: str  # such as "times.csv, line 3"
+    where: str  # `where` is the file and the line, such as "times.csv, line 3".
     values: dict[str, str]
 
     def get(self, *columns: str) -> str:
-        """Return the first value in `columns` that is not empty, or ""."""
+        """Return the first non-empty value in `columns`, or ""."""
         return next((value for name in columns if (value := self.values.get(name, ""))), "")
 
 
 def read_rows(path: Path, what: str) -> tuple[list[str], list[Row]]:
-    """Return the names of the columns in small letters, and the rows that are not empty."""
+    """Return the names of the columns in lower case, and the rows that are not empty."""
     lines = table_rows(path, what)
     head = [name.strip().lower() for name in lines[0]] if lines else []
     rows = [

@@ -17,14 +17,14 @@ DAY = 86_400.0  # s
 
 @dataclass(frozen=True)
 class Deadlines:
-    """The deadlines by chapter; the key "" is for each chapter without its own deadline."""
+    """The deadlines by chapter; the key "" applies to each chapter without its own deadline."""
 
     by_chapter: Mapping[str, datetime]
     grace: timedelta = timedelta()
     extensions: Extensions = field(default_factory=Extensions)
 
     def due(self, student: str, chapter: str) -> datetime | None:
-        """Return a student's deadline for a chapter, without the grace period, or None if there is none.
+        """Return a student's deadline for a chapter without the grace period, or None without a deadline.
 
         With an extension, the deadline is at the same time of day, even if the clocks change in between.
         """
@@ -34,12 +34,12 @@ class Deadlines:
         return deadline + timedelta(days=self.extensions.days(student))
 
     def is_over(self, student: str, chapter: str) -> bool:
-        """Return whether a student's time for a chapter is over now; without a deadline, it is."""
+        """Return whether a student's deadline for a chapter has passed; without a deadline, return True."""
         due = self.due(student, chapter)
         return due is None or due + self.grace <= datetime.now(due.tzinfo)
 
     def days_late(self, student: str, chapter: str, submitted: datetime) -> float:
-        """Return how many days after the end of the grace period a chapter was handed in, or 0."""
+        """Return the number of days after the end of the grace period, or 0."""
         due = self.due(student, chapter)
         if due is None:
             return 0.0

@@ -10,7 +10,7 @@ from course_pkg.errors import GradingError
 from course_pkg.grading.roster.people import Person
 
 COLUMN = "extension_days"
-FOLDED = "extension days"  # the name of this column, as the roster stores it
+FOLDED = "extension days"  # The roster stores the name of the column in this form.
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Lateness.
 
-A table contains the days late, and options of `course grade` say how many points are deducted.
+Reads a table of late days, and computes the deduction of points from options of `course grade`.
 """
 
 from __future__ import annotations
@@ -17,14 +17,12 @@ from course_pkg.grading.grade import NO_TIME, Submission
 from course_pkg.grading.tables import table_rows
 
 COLUMNS = (["student", "days"], ["student", "chapter", "days"])
-LARGEST = 1_000_000  # maximum bytes of a table
+LARGEST = 1_000_000  # LARGEST is the maximum number of bytes of a table.
 
 
 @dataclass(frozen=True)
 class LatePolicy:
-    """The deduction for lateness: `per_day` percent of the points for each day late.
-
-    A day that has begun counts as a whole day. `per_day` percent of the points for each day that has begun.
+    """The deduction for lateness is `per_day` percent of the points for each day that has begun.
 
     After more than `max_days` days, no points are left.
     """
@@ -46,8 +44,8 @@ def late_policy(
 ) -> LatePolicy:
     """Return the policy from the options --late-per-day (percent) and --late-max-days.
 
-    Raises GradingError if there is a table of late days or a deadline, but no policy; if there is a policy,
-    but neither of them; or if a number is out of its range.
+    Raises GradingError if there are late days or a deadline without a policy, if there is a policy without
+    them, or if a number is out of range.
     """
     if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(
@@ -68,7 +66,7 @@ def late_policy(
 
 @dataclass(frozen=True)
 class LateTable:
-    """The days late by (student, chapter); the chapter "" stands for all chapters without a row."""
+    """The days late by (student, chapter); the chapter "" applies to all chapters without a row."""
 
     rows: Mapping[tuple[str, str], float]
 
@@ -77,7 +75,7 @@ class LateTable:
         return self.rows.get((student, chapter), self.rows.get((student, ""), 0.0))
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions with their days late; without a row, the number of days does not change."""
+        """Return the submissions with the days late from the table, where the table has a row for them."""
         return [
             self._late(each)
             if (each.student, each.chapter) in self.rows or (each.student, "") in self.rows
@@ -90,7 +88,7 @@ class LateTable:
         return replace(submission, late=self.days(submission.student, submission.chapter), notes=notes)
 
     def strangers(self, submissions: Sequence[Submission]) -> int:
-        """Return how many students in the table have no submission; their names may be misspelt."""
+        """Return the number of students in the table without a submission; their names may be misspelt."""
         return len({student for student, _ in self.rows} - {each.student for each in submissions})
 
 
@@ -117,7 +115,7 @@ def late_table(path: Path) -> LateTable:
 def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[str, str], float]:
     """Return the key and the days of a row.
 
-    A message never contains a cell, because each cell may be a name.
+    An error message never contains a cell, because a cell can contain a student's name.
     """
     student, chapter = values.get("student", "").strip(), values.get("chapter", "").strip()
     if not complete or not student:

@@ -16,7 +16,7 @@ LAST, BEST = "last", "best"
 
 @dataclass(frozen=True)
 class Lateness:
-    """The deadlines of a run, and a function that returns the time at which a submission was handed in."""
+    """The deadlines of a run, and a function that returns the submission time of a submission."""
 
     deadlines: Deadlines
     when: Callable[[Submission], datetime | None]
@@ -59,10 +59,10 @@ class Lateness:
 def attempts_to_grade(
     submissions: Sequence[Submission], attempts: str, when: Callable[[Submission], datetime | None]
 ) -> list[Submission]:
-    """Return the attempts to grade: all attempts if the best one counts, otherwise only the last ones.
+    """Return all attempts if the best attempt counts, otherwise only the last attempts.
 
-    If the times of all attempts are known and different, the last attempt has the latest time. Otherwise, it
-    has the highest number or the newest file.
+    If all attempts have known and different times, the last attempt is the attempt with the latest time.
+    Otherwise, the last attempt is the attempt with the highest number or the newest file.
     """
     chosen = []
     for each in submissions:
@@ -77,7 +77,7 @@ def attempts_to_grade(
 
 
 def best_attempts(grades: Sequence[Grade]) -> list[Grade]:
-    """Return one grade for each student and chapter: the one with the most points.
+    """Return the grade with the most points for each student and chapter.
 
     If two attempts have the same points, the later attempt is used.
     """
@@ -98,7 +98,7 @@ def _best(groups: Iterable[list[Grade]]) -> Iterator[Grade]:
 
 
 def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime | None]) -> Submission:
-    """Return the last of a student's attempts; `given` is sorted by the rank of the attempts."""
+    """Return the last attempt of a student; `given` is sorted by the rank of the attempts."""
     times = [when(each) for each in given]
     stamps = [moment.timestamp() for moment in times if moment]
     if len(set(stamps)) < len(given):

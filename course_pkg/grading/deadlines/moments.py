@@ -15,8 +15,8 @@ ISO = re.compile(
 )
 OFFSET = re.compile(r"(?:UTC)?([+-])(\d\d):?(\d\d)", re.IGNORECASE)
 MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
-# "Sunday, 1 November 2026, 11:59 PM"; the month may also come before the day. Moodle writes both forms,
-# depending on its language
+# An example is "Sunday, 1 November 2026, 11:59 PM"; the month can also come before the day. The order depends
+# on the language of Moodle.
 WRITTEN = re.compile(
     r"(?:[a-z]+,?\s+)?(?:(?P<day>\d{1,2})\.?\s+(?P<month>[a-z]{3,9})|(?P<month2>[a-z]{3,9})\s+(?P<day2>\d{1,2})),?\s+"
     r"(?P<year>\d{4}),?\s+(?:at\s+)?(?P<hour>\d{1,2}):(?P<minute>\d\d)(?::\d\d)?\s*(?P<half>[ap]\.?m\.?)?",
@@ -42,8 +42,9 @@ def zone_of(name: str) -> tzinfo:
 def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
     """Return the point in time in `text`, or None if `text` is not a point in time.
 
-    `zone` is used if the text contains no time zone. If neither contains a time zone, the result is None. If
-    the clock was put back, a time can occur twice; then the result is the first of the two.
+    `zone` is used if the text contains no time zone. If neither `text` nor `zone` contains a time zone, the
+    result is None. If the clock was put back, a time can occur twice; in this case, the result is the earlier
+    point in time.
     """
     text = " ".join(text.split())
     if found := ISO.fullmatch(text):

@@ -43,8 +43,8 @@ def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
     """Return a function that returns the time of a submission, or None if the time is not known.
 
     `option` is the value of --times: the path of a table, "nbgrader", "gradescope", or "". With "", the times
-    come from times.csv in the folder of the submissions, or from Gradescope's metadata. `zone` is the time
-    zone of times that contain no zone. Raises GradingError if the table cannot be used.
+    come from times.csv in the folder of the submissions, or from Gradescope's metadata. `zone` applies to
+    times without a time zone. Raises GradingError if the table cannot be used.
     """
     if not option and (source / TIMES).is_file():
         option = str(source / TIMES)
@@ -70,7 +70,7 @@ def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
 class _Entry:
     """A row of a table: a time for a chapter and a file.
 
-    An empty chapter stands for all chapters, and an empty file for all files.
+    An empty chapter means all chapters, and an empty file means all files.
     """
 
     chapter: str
@@ -101,7 +101,7 @@ class _Table:
 def _has(submission: Submission, file: str) -> bool:
     """Return whether the submission contains `file`.
 
-    This is a path in the submissions or in the student's folder.
+    `file` is a path in the folder of all submissions or in the student's folder.
     """
     if file in _paths(submission.origin, submission.student) and submission.content:
         return True
@@ -112,7 +112,8 @@ def _has(submission: Submission, file: str) -> bool:
 def _paths(origin: str, student: str) -> tuple[str, ...]:
     """Return two paths of a submitted file.
 
-    One is relative to all submissions, and one to the student's folder.
+    The first path is relative to the folder of all submissions, and the second path is relative to the
+    student's folder.
     """
     parts = origin.split("/")
     place = next((index for index, part in enumerate(parts[:-1]) if clean.identity(part) == student), None)
@@ -121,7 +122,7 @@ def _paths(origin: str, student: str) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Worksheet:
-    """The times of submissions by Moodle's participant numbers."""
+    """The times of submissions; the keys are Moodle's participant numbers."""
 
     times: Mapping[str, datetime]
 
@@ -157,7 +158,10 @@ def _table(rows: list[Row], zone: tzinfo | None) -> _Table:
 
 
 def _moment(row: Row, written: str, zone: tzinfo | None) -> datetime:
-    """Return the time in a row. A message never contains a cell, because each cell may be a name."""
+    """Return the time in a row.
+
+    An error message never contains a cell, because a cell can contain a student's name.
+    """
     moment = moment_of(written, zone)
     if moment is not None:
         return moment

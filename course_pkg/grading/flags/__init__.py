@@ -1,4 +1,1 @@
-"""Flags mark work that an instructor should look at. A flag is a hint for a person.
-
-It never changes points.
-"""
+"""Flags mark work that an instructor should examine. A flag never changes points."""

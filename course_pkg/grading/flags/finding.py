@@ -1,4 +1,4 @@
-"""Finds the flags of a class: of all kinds, or of the kinds that the instructor selects."""
+"""Finds the flags of a class, of all kinds or of the kinds that the instructor selects."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from course_pkg.grading.grade import Flag, Grade, Submission
 from course_pkg.grading.plan import plan
 
 Find = Callable[[Group], Iterator[Found]]
-Key = tuple[str, str, str]  # student, chapter, origin
+Key = tuple[str, str, str]  # A key contains the student, the chapter and the origin.
 NONE = "none"
 
 
 def kind_names() -> list[str]:
-    """Return the names of all kinds; each is the name of a module in `kinds`."""
+    """Return the names of all kinds; each name is the name of a module in `kinds`."""
     return sorted(module.name for module in pkgutil.iter_modules(kinds.__path__))
 
 
 def title_of(kind: str) -> str:
-    """Return the heading of a kind for a report; if this kind does not exist (any more), return its name."""
+    """Return the heading of a kind for a report; for an unknown kind, return the name of the kind."""
     return str(_module(kind).TITLE) if kind in kind_names() else kind
 
 
@@ -48,10 +48,10 @@ def wanted_kinds(names: Sequence[str]) -> list[str]:
 def with_flags(
     grades: Sequence[Grade], submissions: Sequence[Submission], names: Sequence[str]
 ) -> list[Grade]:
-    """Return the grades with the flags of these kinds, found in the submissions that were graded.
+    """Return the grades with the flags of these kinds; the flags are found in the graded submissions.
 
-    Submissions that do not count, such as earlier attempts, are left out. A grade without a submission, such
-    as the result of an earlier run, keeps its old flags.
+    Submissions that do not count, such as earlier attempts, get no flags. A grade without a submission in
+    this run has the flags of an earlier run.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

@@ -1,8 +1,9 @@
-"""Fingerprints of code: features that stay the same if names, comments and the order of statements change.
+"""Fingerprints of code: features that do not depend on names, comments and the order of statements.
 
-There are three kinds of features: a statement in its block; two statements of which one sets a name and the
-other uses it; and the set of all statements of a function or class. The order of statements is ignored,
-because a student who copies an answer can reorder its functions and independent statements.
+There are three kinds of features: a statement in its block; a pair of statements, where one statement sets a
+name and the other statement uses it; and the set of all statements of a function or class. The order of
+statements is ignored, because a student who copies an answer can reorder its functions and independent
+statements.
 """
 
 from __future__ import annotations
@@ -21,10 +22,11 @@ from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
 from course_pkg.grading.flags.tokens import cpp_statements
 from course_pkg.grading.flags.work import Answer
 
-BLOCK = 3  # number of statements from which the set of a function's or class's statements is a feature
-PAIRS = 400  # maximum number of pairs for one name; a name in many lines is not characteristic
-LONG = 12  # least number of characters of a characteristic string
-LINE = 500  # maximum number of characters that are read of a line of C++
+# The set of a function's or class's statements is a feature if it has at least this many statements.
+BLOCK = 3
+PAIRS = 400  # One name produces at most this many pairs, because a name in many lines is not characteristic.
+LONG = 12  # A characteristic string has at least this many characters.
+LINE = 500  # At most this many characters of a line of C++ are read.
 TEXT = re.compile(r'"([^"]+)"')
 COMMENT = re.compile(r"//\s*(.+)|/\*(.+?)\*/")
 
@@ -35,13 +37,14 @@ class Fingerprint:
 
     statements: int
     code: frozenset[str] = field(default=frozenset())
-    # comments, strings, and names that the program defines
+    # The set contains comments, strings, and names that the program defines.
     words: frozenset[str] = field(default=frozenset())
-    lines: tuple[tuple[str, int], ...] = ()  # the normal form and the line number of each statement
+    # Each tuple contains the normal form and the line number of a statement.
+    lines: tuple[tuple[str, int], ...] = ()
 
 
 def fingerprint(answer: Answer) -> Fingerprint:
-    """Return the features of an answer; there are none if it is neither Python nor C++, or cannot be read."""
+    """Return the features of an answer, or no features if it cannot be parsed as Python or C++."""
     try:
         return _fingerprint(answer)
     except UNREADABLE:
@@ -62,7 +65,7 @@ def _fingerprint(answer: Answer) -> Fingerprint:
 
 
 def _features(made: list[Statement]) -> Iterator[str]:
-    """Yield the features; if a feature occurs twice, the second occurrence is a different feature."""
+    """Yield the features; the second occurrence of a feature is a different feature."""
     counts: Counter[str] = Counter()
     for feature in [*_single(made), *_pairs(made), *_blocks(made)]:
         counts[feature] += 1
@@ -76,7 +79,7 @@ def _single(made: list[Statement]) -> Iterator[str]:
 
 
 def _pairs(made: list[Statement]) -> Iterator[str]:
-    """Yield the pairs of statements of which one sets a name and the other uses it."""
+    """Yield the pairs of statements where one statement sets a name and the other statement uses it."""
     binds: dict[Name, list[int]] = {}
     uses: dict[Name, list[int]] = {}
     for place, each in enumerate(made):
@@ -109,7 +112,8 @@ def _python_words(source: str, module: ast.Module) -> Iterator[str]:
             if token.type == tokenize.COMMENT:
                 yield from _long(token.string)
     except (tokenize.TokenError, SyntaxError, ValueError):
-        pass  # an IPython magic or an unterminated string: the comments before it have been found already
+        # After an IPython magic or an unterminated string, the comments before it have already been found.
+        pass
     for node in ast.walk(module):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):
             yield from _long(node.value)

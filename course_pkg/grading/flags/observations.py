@@ -1,7 +1,7 @@
-"""Observations: what a program does that an instructor may want to look at.
+"""Observations: actions of a program that an instructor may want to examine.
 
-The key of an observation, such as "os.environ", identifies it. Observations that the course's own notebooks
-cause are left out, because students may do the same.
+Each observation has a key, such as "os.environ". Observations that also occur in the course's own notebooks
+are left out.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from course_pkg.grading.flags.syntax import UNREADABLE, aliases, imports, is_pyt
 from course_pkg.grading.flags.work import Answer, Found, Group
 from course_pkg.grading.grade import Flag
 
-SHOWN = 5  # maximum number of flags of one kind for one answer
+SHOWN = 5  # SHOWN is the maximum number of flags of one kind for one answer.
 
 
 @dataclass(frozen=True)
 class Observation:
-    """One thing that a program does."""
+    """An action of a program."""
 
     key: str
     line: int
-    words: str  # a sentence about it for the instructor
+    words: str  # A sentence tells the instructor what the program does.
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,8 @@ Observe = Callable[[Program], Iterable[Observation]]
 def unusual(group: Group, kind: str, observe: Observe, *, whole_notebook: bool) -> Iterator[Found]:
     """Yield a flag for each observation in an answer that does not occur in the course's own code.
 
-    This code is the solution of the exercise, and all cells that are not exercises. With `whole_notebook`, it
-    includes the solutions of the chapter's other exercises.
+    The course's own code is the solution of the exercise, and all cells that are not exercises. With
+    `whole_notebook`, the course's own code includes the solutions of the chapter's other exercises.
     """
     shown = [tree(Answer("00", source)) for source in group.shown]
     given = imports(shown)

@@ -1,19 +1,19 @@
-"""Finds students who handed in identical or nearly identical code that the class does not have in common.
+"""Finds students with identical or nearly identical code, except code that many students of the class have.
 
-Three things are ignored: handed-out code, code that more than a tenth of the class has, and answers with
-fewer than ten statements. Each remaining feature has a weight: if s of n students have it, its weight is
-log2(n / s) bits. The similarity of two answers is the weight of their common features, divided by the weight
-of all their features.
+Three kinds of code are ignored: handed-out code, code that more than a tenth of the class has, and answers
+with fewer than ten statements. Each remaining feature has a weight. If s of n students have the feature, its
+weight is log2(n / s) bits. The similarity of two answers is the weight of their common features, divided by
+the weight of all their features.
 
 Two short answers to the same exercise can be similar by chance. Therefore, a pair is flagged for one of two
 reasons:
 
-- One answer is enough if the two students share much code, or comments, strings or names, that hardly any
-  other student has.
-- Otherwise, several answers of the same two students have to be similar. For each of these answers, the
-  fraction of all pairs of students whose similarity is at least as high is an estimate of its probability p.
-  The sum of log2(1 / p) has to be larger than log2 of the number of pairs. Then, fewer than one such pair is
-  expected by chance in the whole class.
+- One similar answer is enough if the two students share much code, or comments, strings or names, that almost
+  no other student has.
+- Otherwise, the two students must have several similar answers. For each answer, p is the estimated
+  probability that two students have such a high similarity by chance. The estimate is the fraction of all
+  pairs of students with at least this similarity. The sum of log2(1 / p) must be larger than log2 of the
+  number of pairs. With this limit, fewer than one such pair is expected by chance in the whole class.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ from itertools import combinations
 
 from course_pkg.grading.flags.fingerprints import Fingerprint
 
-STATEMENTS = 10  # least number of statements of an answer
-COMMON = 0.1  # part of the class; code that more students have is ignored
-FEW = 3  # number of students who may have the same code, even in a small class
-SMALL = 30  # number of students; in a smaller class, the weights are the same as in a class of this size
-ALIKE = 0.9  # least similarity of two nearly identical answers
-SAME = 0.95  # least similarity of two answers if one answer is the only reason
-OWN_CODE = 15  # least number of features that at most one other student has, if one answer is the only reason
-OWN_WORDS = 3  # least number of such comments, strings or names, in place of such features
+STATEMENTS = 10  # An answer with fewer statements is not compared.
+COMMON = 0.1  # Code is ignored if more than this fraction of the class has it.
+FEW = 3  # Even in a small class, code is compared if at most this many students have it.
+SMALL = 30  # In a class with fewer students than this, the weights are the same as in a class of this size.
+ALIKE = 0.9  # Nearly identical answers have at least this similarity.
+SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
+OWN_CODE = 15  # A single answer is enough with this many features that at most one other student has.
+OWN_WORDS = 3  # A single answer is also enough with this many such comments, strings or names.
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)
 Couple = tuple[int, int]
@@ -51,7 +51,7 @@ class Pair:
 
 
 class Similarity:
-    """Compares the answers of a class, which are given for each student as fingerprints by name."""
+    """Compares the answers of a class; each student has fingerprints by the names of the answers."""
 
     def __init__(
         self, students: Sequence[Mapping[str, Fingerprint]], handed_out: Mapping[str, Fingerprint]
@@ -100,24 +100,24 @@ class Exercise:
         return self._having[feature]
 
     def counts(self, feature: str) -> bool:
-        """Return whether a feature is compared: it was not handed out, and few students have it."""
+        """Return whether a feature is compared: it was not handed out, and only a few students have it."""
         return feature not in self._given and self._having[feature] <= self._most
 
     @cached_property
     def likeness(self) -> dict[Couple, float]:
-        """The similarity of each pair of answers that have a common feature."""
+        """The similarity of each pair of answers with a common feature."""
         return {
             (first, second): 2 * bits / (self._totals[first] + self._totals[second])
             for (first, second), bits in self._shared.items()
         }
 
     def likeness_of(self, one: Fingerprint, other: Fingerprint) -> float:
-        """Return the similarity of two answers; they may also be answers that no student wrote."""
+        """Return the similarity of two answers."""
         total = self._bits(one.code) + self._bits(other.code)
         return 2 * self._bits(one.code & other.code) / total if total else 0.0
 
     def surprise(self, likeness: float) -> float:
-        """Return log2(1 / p), where p is the fraction of all pairs whose similarity is at least this high."""
+        """Return log2(1 / p), where p is the fraction of all pairs with at least this similarity."""
         as_much = len(self._ranked) - bisect_left(self._ranked, likeness - 1e-9)
         everybody = len(self._answers) * (len(self._answers) - 1) / 2
         return math.log2(everybody / max(1, as_much))
@@ -131,7 +131,7 @@ class Exercise:
         )
 
     def _rare(self, features: frozenset[str]) -> int:
-        """Return the number of these features that hardly any student has."""
+        """Return the number of features in `features` that almost no student has."""
         return sum(self.counts(feature) and self.having(feature) <= FEW for feature in features)
 
     @cached_property
@@ -147,7 +147,7 @@ class Exercise:
 
     @cached_property
     def _shared(self) -> dict[Couple, float]:
-        """The weight (bits) of the common features of each pair of answers that have any."""
+        """The weight (bits) of the common features of each pair of answers with common features."""
         holders: dict[str, list[int]] = {}
         for number, features in self._code.items():
             for feature in features:

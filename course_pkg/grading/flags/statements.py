@@ -1,8 +1,8 @@
 """The statements of an answer in a normal form, which does not depend on names, comments, layout and order.
 
-One sign replaces all names that the program defines: variables, parameters, functions, and attributes that it
-sets. Names that are defined elsewhere stay, because they tell what the code does. Docstrings, annotations and
-the contents of strings are removed.
+One symbol replaces all names that the program defines: variables, parameters, functions, and attributes.
+Names that are defined elsewhere are not replaced, because they show what the code does. Docstrings,
+annotations and the contents of strings are removed.
 """
 
 from __future__ import annotations
@@ -16,22 +16,24 @@ from course_pkg.grading.flags.syntax import Function, is_text
 COMMUTATIVE = (ast.Add, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE}
 BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
-Name = tuple[int, str]  # the scope that binds a name (0: the module; -1: attributes), and the name
+# The tuple contains the scope that binds the name (0: the module; -1: attributes), and the name.
+Name = tuple[int, str]
 
 
 @dataclass
 class Statement:
     """One statement, without the statements in its body."""
 
-    form: str  # its normal form
+    form: str  # `form` is the normal form of the statement.
     line: int
-    parent: int  # index of the statement whose body contains it; -1 at the top level
-    binds: set[Name] = field(default_factory=set)  # the program's own names to which it assigns a value
-    uses: set[Name] = field(default_factory=set)  # the program's own names that it reads
+    parent: int  # `parent` is the index of the enclosing statement, or -1 at the top level.
+    # The statement assigns values to these names of the program.
+    binds: set[Name] = field(default_factory=set)
+    uses: set[Name] = field(default_factory=set)  # The statement reads these names of the program.
 
 
 def statements_of(module: ast.Module) -> list[Statement]:
-    """Return the statements of a Python program; each comes after the statement whose body contains it."""
+    """Return the statements of a Python program; an inner statement comes after its enclosing statement."""
     return _Reader(module).read()
 
 
@@ -75,7 +77,7 @@ class _Reader:
     def owner(self, name: str, scopes: tuple[int, ...]) -> Name | None:
         """Return the program's own name to which `name` refers in these nested scopes.
 
-        None if the program does not define it.
+        Return None if the program does not define the name.
         """
         for scope in reversed(scopes):
             if name in self._scopes[scope]:
@@ -113,7 +115,7 @@ class _Form:
     def _compound(self, node: ast.AST) -> str:
         if isinstance(node, ast.AugAssign):
             target = self.of(node.target)
-            self._statement.uses |= self._statement.binds  # an augmented assignment also reads the old value
+            self._statement.uses |= self._statement.binds  # An augmented assignment also reads the old value.
             value = self._operands(node.op, [target, self.of(node.value)])
             return f"Assign({target},{value})"
         if isinstance(node, ast.AnnAssign):
@@ -184,7 +186,7 @@ def _own_attributes(module: ast.Module) -> Iterator[str]:
 
 
 def _bound(node: ast.AST) -> set[str]:
-    """Return the names that a function or a module binds, without those of inner functions."""
+    """Return the names that a function or module binds; names in inner functions are not included."""
     names: set[str] = set()
     if isinstance(node, Function):
         given = node.args
@@ -202,6 +204,6 @@ def _bound(node: ast.AST) -> set[str]:
         elif isinstance(each, ast.ExceptHandler) and each.name:
             names.add(each.name)
         elif isinstance(each, ast.arg):
-            names.add(each.arg)  # of a lambda
+            names.add(each.arg)  # This argument belongs to a lambda.
         todo += ast.iter_child_nodes(each)
     return names

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from course_pkg.grading.flags.work import Answer
 from course_pkg.grading.rebuild.context import LONGEST, tree_of
 
-# errors for a tree that is too deep, or for a huge number
+# These errors occur for a tree that is too deep, or for a huge number.
 UNREADABLE = (RecursionError, ValueError, MemoryError)
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -26,7 +26,7 @@ def is_too_long(answer: Answer) -> bool:
 
 
 def tree(answer: Answer) -> ast.Module:
-    """Return the syntax tree of an answer; its line numbers are those of the cell or file.
+    """Return the syntax tree of an answer; line numbers are the line numbers of the cell or file.
 
     The tree is empty if the answer is not Python, too long, or too deeply nested.
     """
@@ -55,9 +55,9 @@ def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
 
 
 def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
-    """Return `known`, and the names that `module` imports or assigns from a known name.
+    """Return `known` together with the names that `module` imports or assigns from a known name.
 
-    If a variable contains a path, its name refers to the class of paths, so that its methods are known.
+    A variable with a path gets the name of the class of paths, so the methods of the path are known.
     """
     names = {**known, **imports([module])}
     assigned = [node for node in ast.walk(module) if isinstance(node, ast.Assign)]
@@ -99,7 +99,7 @@ def _bodies(module: ast.Module) -> Iterator[list[ast.stmt]]:
 
 
 def _body(answer: Answer) -> str:
-    """Return the source; the magic that writes a file is replaced by an empty line."""
+    """Return the source; an empty line replaces the magic that writes a file."""
     if answer.path and answer.source.lstrip().startswith("%%"):
         return "\n" + answer.source.lstrip().partition("\n")[2]
     return answer.source

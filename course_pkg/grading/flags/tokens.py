@@ -1,4 +1,4 @@
-"""The statements of a C++ program, in the same normal form as those of Python."""
+"""The statements of a C++ program, in the same normal form as Python statements."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pygments.token import Comment, Keyword, Name, String, Text, _TokenType
 
 from course_pkg.grading.flags.statements import Statement
 
-LEADS = ("&", "*", ">", "auto")  # tokens between a type and the name that it declares
+LEADS = ("&", "*", ">", "auto")  # These tokens can occur between a type and the name that it declares.
 OPENS, CLOSES, ENDS = "{", "}", ";"
 
 
@@ -22,9 +22,9 @@ class _Token:
 
 
 def cpp_statements(source: str) -> list[Statement]:
-    """Return the statements.
+    """Return the statements of a C++ program.
 
-    These are lines that begin with #, and code that ends with a semicolon or before a brace.
+    A statement is a line that begins with #, or code that ends with a semicolon or before a brace.
     """
     every = list(_tokens(source))
     directives = {token.line for token in every if token.text.lstrip().startswith("#")}
@@ -65,7 +65,7 @@ def _neighbours(tokens: list[_Token]) -> Iterator[tuple[_Token | None, _Token, _
 
 
 def _declares(before: _Token | None, token: _Token, after: _Token | None) -> bool:
-    """Return whether a token is a name directly after a type; then the program declares this name."""
+    """Return whether a token is a name directly after a type, so that the program declares the name."""
     if before is None or after is None or token.kind not in Name or after.text in (":", "<"):
         return False
     typed = before.kind in Keyword.Type or before.kind in Name or before.text in LEADS

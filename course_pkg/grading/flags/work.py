@@ -13,27 +13,27 @@ from course_pkg.grading.grade import Flag, Package, Submission
 from course_pkg.grading.plan import Plan
 from course_pkg.grading.rebuild.wanted import written_path
 
-ENDINGS = (".py", ".cpp", ".cc", ".h", ".hpp")  # endings of the files in a package that are read
-LARGEST = 100_000  # maximum number of characters of a file; longer files are not read
+ENDINGS = (".py", ".cpp", ".cc", ".h", ".hpp")  # Only files of a package with these endings are read.
+LARGEST = 100_000  # A file with more characters than this is not read.
 
 
 @dataclass(frozen=True)
 class Answer:
     """The code of one exercise cell, or one file of a package."""
 
-    where: str  # the part, such as "05.1", or the file's path below src
+    where: str  # `where` is the part, such as "05.1", or the path of the file below src.
     source: str = field(repr=False)
 
     @cached_property
     def path(self) -> str:
-        """The file that the answer is or that its cell writes; "" for code that runs in the notebook."""
+        """The file that the answer is or that its cell writes, or "" for code that runs in the notebook."""
         return written_path(self.source) if self.where[:1].isdigit() else self.where
 
     @property
     def name(self) -> str:
-        """The name of the same exercise in all students' work: the path of a file, or the id of the part.
+        """The path of the file or the id of the part; it is the same in all students' work.
 
-        One student may write the file in a cell, and another student may hand it in with a package.
+        One student can write the file with a cell, and another student can submit it in a package.
         """
         return self.path.removeprefix("src/") or self.where
 
@@ -53,9 +53,10 @@ class Group:
 
     chapter: str
     works: tuple[Work, ...]
-    solution: Mapping[str, Answer]  # the course's own answers by name
-    blanks: Mapping[str, str]  # the blank answers that students get, by the same names
-    shown: tuple[str, ...]  # the code of all other cells of the chapter's notebook
+    solution: Mapping[str, Answer]  # The course's own answers; the keys are the names of the answers.
+    # The unchanged exercise cells that students get, with the same keys as `solution`.
+    blanks: Mapping[str, str]
+    shown: tuple[str, ...]  # The code of all cells of the chapter's notebook that are not exercises.
 
     def answers(self) -> Iterator[tuple[Work, Answer]]:
         """Yield each answer with the work that contains it."""
@@ -64,7 +65,7 @@ class Group:
                 yield work, answer
 
 
-Found = tuple[Work, Flag]  # the result of a kind's function `find`
+Found = tuple[Work, Flag]  # The function `find` of a kind returns such tuples.
 
 
 def group_of(chapter: str, submissions: Sequence[Submission], plan: Plan) -> Group:

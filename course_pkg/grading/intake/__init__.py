@@ -1,1 +1,1 @@
-"""Reads handed-in files (archives, and notebooks in any format), and returns submissions."""
+"""Reads submitted files (archives, and notebooks in any format), and returns submissions."""

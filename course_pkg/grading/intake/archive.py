@@ -1,6 +1,4 @@
-"""The files in a submitted folder or zip; they are listed and read one by one, and never unpacked.
-
-They are listed and read one by one, but never unpacked.
+"""Lists and reads the files in a submitted folder or zip. A zip is never unpacked.
 
 Links are not followed, no file outside the folder or zip is opened, and each file has a size limit.
 """
@@ -22,35 +20,39 @@ from pathlib import Path, PurePosixPath
 from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 
-LARGEST = 20 << 20  # maximum bytes of one notebook
-ALTOGETHER = 4 << 30  # maximum bytes of all unpacked notebooks in a zip
-# Maximum compression ratio; it is about 10 for a usual notebook, and 100 for one with much repetition.
+LARGEST = 20 << 20  # LARGEST is the maximum number of bytes of one notebook.
+ALTOGETHER = 4 << 30  # ALTOGETHER is the maximum number of bytes of all unpacked notebooks in a zip.
+# Maximum compression ratio. A usual notebook has a ratio of 10, and a notebook with much repetition has 100.
 RATIO = 400
-SMALL = 1 << 20  # bytes; the ratio of smaller files is not checked
+SMALL = 1 << 20  # The compression ratio of files with fewer bytes is not checked.
 MEMBERS = 200_000
-DEPTH = 16  # folders within folders
+DEPTH = 16  # Folders can be nested to this depth.
 LITTER = {"__macosx", "thumbs.db", "desktop.ini", "timestamp.txt", "__pycache__"}
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A handed-in file; `read` returns its content, or raises GradingError with the reason."""
+    """A submitted file; `read` returns its content, or raises GradingError with the reason."""
 
-    path: str  # its path in the submitted folder or archive, with / between folders
-    modified: float  # s since 1970
+    path: str  # `path` is the path in the submitted folder or archive, with / between folders.
+    modified: float  # `modified` is a time in s since 1970.
     read: Callable[[], bytes]
-    # Whether the file's owner may execute it; False if an archive does not contain permissions.
+    # The value is True if the file's owner may execute the file, and False if an archive contains no
+    # permissions.
     executable: bool = False
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """The folders and the file's name."""
+        """The names of the folders, and the name of the file."""
         return PurePosixPath(self.path).parts
 
 
 @contextmanager
 def opened(source: Path) -> Iterator[list[Entry]]:
-    """List the files in `source`, a folder or a zip. They can be read until the end of the block."""
+    """List the files in `source`, a folder or a zip.
+
+    The files can be read until the end of the `with` block.
+    """
     if source.is_dir():
         yield sorted(_in_folder(source, "", DEPTH), key=lambda entry: entry.path)
         return
@@ -74,7 +76,7 @@ def one_file(path: Path) -> Entry:
 
 
 def is_litter(parts: tuple[str, ...]) -> bool:
-    """Return whether an operating system or an editor created the file, and not the student."""
+    """Return whether an operating system or an editor, and not the student, created the file."""
     return any(part.lower() in LITTER or (part.startswith(".") and part not in ("..", ".")) for part in parts)
 
 
@@ -189,7 +191,7 @@ def _refuse_suspicious(member: zipfile.ZipInfo) -> None:
 
 
 def leads_out(path: str) -> bool:
-    """Return whether a path in an archive leads to a place outside the archive."""
+    """Return whether a path in an archive leads out of the archive."""
     parts = path.replace("\\", "/").split("/")
     return not parts[0] or ".." in parts or re.match(r"[A-Za-z]:", path) is not None
 

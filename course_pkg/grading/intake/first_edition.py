@@ -17,10 +17,10 @@ TITLE = re.compile(r"# (.+)")
 class RenumberedChapter:
     """A chapter of the first edition, with the number that it has in this edition."""
 
-    name: str  # the name of its file in the first edition, without the ending .ipynb
-    title: str  # its number in the first edition
+    name: str  # `name` is the name of the file in the first edition, without the ending .ipynb.
+    title: str  # `title` is the number in the first edition.
     now: str
-    moved: str = ""  # a sentence about exercises that another chapter contains now
+    moved: str = ""  # `moved` is a sentence about exercises that are now in another chapter.
 
     @property
     def number(self) -> str:
@@ -61,17 +61,17 @@ CHOOSE = RenumberedChapter(
     "Exercise 03.3 is now exercise 10.2 of chapter 10. Exercise 03.5 is now exercise 03.4. The old exercise "
     "03.4 was removed.",
 )
-LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")  # only the first edition has this part
+LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")  # Only the first edition has this part.
 
 
 def first_edition(name: str, cells: Sequence[StudentCell], by_ids: str) -> RenumberedChapter | None:
-    """Return the first edition's chapter to which a notebook belongs.
+    """Return the chapter of the first edition to which a notebook belongs.
 
-    None if the notebook is of this edition.
+    Return None for a notebook of this edition.
 
-    `name` is the name of the notebook's file, in small letters with underscores. `by_ids` is the chapter that
-    has the most cell ids in common with the notebook. The number of the chapter is not enough, because it
-    belongs to another chapter in this edition.
+    `name` is the name of the notebook's file, in lower case with underscores. `by_ids` is the chapter that
+    has the most cell ids in common with the notebook. The chapter number alone is not sufficient, because
+    another chapter has this number in this edition.
     """
     number = _number(cells)
     if number == CHOOSE.number and (CHOOSE.title in _titles(cells) or _has_last_part(cells)):

@@ -15,17 +15,18 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-DEPTH = 3  # maximum depth of folders: two folders that a platform adds, and the student's folder
+DEPTH = 3  # At most two folders that a platform adds, and the student's folder, are nested.
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 
 
 def handed_in_nothing(
     source: Path, files: Sequence[str], outer: int, submitters: Submitters, reports: Sequence[str] = ()
 ) -> list[Submission]:
-    """Return a submission with a problem for each student whose folder contains no file.
+    """Return a submission with a problem for each student with an empty folder.
 
-    `source` is a folder or a zip, `files` are the paths in it, and `outer` is the number of folders that
-    contain all students' folders. `reports` are the paths of folders in `source` that belong to no student.
+    `source` is a folder or a zip, `files` contains the paths in it, and `outer` is the number of folders that
+    contain all students' folders. `reports` contains the paths of folders in `source` that belong to no
+    student.
     """
     filled = {PurePosixPath(path).parts[:depth] for path in files for depth in range(1, DEPTH + 1)}
     found: dict[str, Submission] = {}
@@ -60,7 +61,7 @@ def require_other_folder(source: Path, out: Path) -> None:
 
 
 def report_folders(source: Path, out: Path | None) -> list[str]:
-    """Return the folders in `source` that contain reports: `out`, and those of other runs.
+    """Return the folders in `source` that contain reports: `out`, and the folders of other runs.
 
     The paths have / between the names. A message on stderr contains the folders of other runs.
     """
@@ -79,12 +80,12 @@ def report_folders(source: Path, out: Path | None) -> list[str]:
 
 
 def is_inside(path: str, folders: Sequence[str]) -> bool:
-    """Return whether a file is in one of `folders`; its path has / between the folders."""
+    """Return whether a file is in one of `folders`; the path of the file has / between the folders."""
     return any(path.startswith(f"{folder}/") for folder in folders)
 
 
 def _path_inside(source: Path, folder: Path | None) -> str:
-    """Return the path of `folder` in the folder `source`, with / between the names; "" if it is not there."""
+    """Return the path of `folder` inside the folder `source`, with / between the names, or ""."""
     try:
         inside = folder.resolve().relative_to(source.resolve()) if folder else Path()
     except ValueError:
@@ -93,7 +94,7 @@ def _path_inside(source: Path, folder: Path | None) -> str:
 
 
 def _leads_to(parts: tuple[str, ...], folders: Sequence[str]) -> bool:
-    """Return whether a folder is one of `folders` or a parent of one of them."""
+    """Return whether a folder is in `folders`, or is a parent of a folder in `folders`."""
     inner = (PurePosixPath(folder).parts for folder in folders)
     return any(parts[: len(each)] == each[: len(parts)] for each in inner)
 
@@ -114,7 +115,7 @@ def _folders(source: Path) -> Iterator[tuple[str, ...]]:
 def _below(folder: Path, parts: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
     try:
         inside = [item for item in os.scandir(folder) if item.is_dir(follow_symlinks=False)]
-    except OSError:  # the list of files contains a message about this error
+    except OSError:  # The list of files contains a message about this error.
         return
     for item in inside:
         if not is_litter((item.name,)):

@@ -1,6 +1,6 @@
 """Finds the student to whom a file belongs.
 
-An instructor or a platform has put the name into a folder's or file's name.
+An instructor or a platform put the student's name into the name of a folder or file.
 
 SUBMISSIONS/<student>/NN_topic.ipynb                          by hand; folders below are allowed
 Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle, a folder for each; or all in the name
@@ -32,26 +32,27 @@ METADATA = "submission_metadata.yml"
 TIMES = "times.csv"  # `course collect` writes this file next to the students' folders
 WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
-# some systems add .txt or .json
+# Some systems add the ending .txt or .json.
 NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)
-Submitters = Mapping[str, Sequence[str]]  # the submitters of each folder in Gradescope's export
+# The keys are the folders in Gradescope's export, and the values are the submitters.
+Submitters = Mapping[str, Sequence[str]]
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A file, and the student to whom it belongs according to its path."""
+    """A file, and the student to whom the file belongs according to its path."""
 
-    student: str  # the student's name, or "" if the path does not contain it
-    stem: str  # the notebook's name as the student chose it; "" for any other file
-    attempt: int = 0  # the number of the attempt, as the platform counts attempts
+    student: str  # `student` is the student's name, or "" if the path does not contain it.
+    stem: str  # `stem` is the notebook's name as the student chose it; "" for any other file.
+    attempt: int = 0  # `attempt` is the number of the attempt, as the platform counts attempts.
     marked_late: bool = False
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
     """Return the students to whom a file belongs: one student, or all members of a group.
 
-    Only a name that a platform chose is read. This is the name of the first folder, or of the file if there
-    is no folder. Names below this folder are chosen by students, who could use another student's name.
+    Only the name of the first folder is used, or the name of the file if there is no folder. The platform
+    chose this name. Students choose the names below this folder, and could use another student's name.
     """
     *folders, name = parts
     first = folders[0] if folders else name
@@ -65,11 +66,12 @@ def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
 
 
 def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -> tuple[str, str]:
-    """Return the name and the number of a student on `platform` (MOODLE, CANVAS).
+    """Return the name and the number of a student on the platform (MOODLE or CANVAS).
 
-    Both are "" if they are not known.
+    Both values are "" if they are not known.
 
-    The number is read only from names that the platform chose; a student with the name `s_17` has no number.
+    The number is read only from names that the platform chose. For example, a student with the name `s_17`
+    has no number.
     """
     for origin in origins:
         for part in origin.split("/"):
@@ -97,7 +99,7 @@ def _claim(student: str, name: str, *, late: bool = False) -> Claim:
 def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
     """Return the number of folders that contain all students' folders.
 
-    It is 1 if one folder contains all files, otherwise 0.
+    The result is 1 if one folder contains all files, and otherwise 0.
 
     `archive` is the name of the zip without .zip, or "" for a folder.
     """
@@ -129,7 +131,8 @@ def gradescope_records(content: bytes) -> dict[str, dict[str, Any]]:
 
     Raises GradingError if the metadata cannot be read.
 
-    The file is YAML; its keys are symbols of Ruby. Every scalar is read as a string, and tags are ignored.
+    The file is YAML; its keys are symbols of Ruby. Every scalar is read as a string, and YAML tags are
+    ignored.
     """
     loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
     try:

@@ -1,13 +1,13 @@
 """The submitted catkin packages.
 
-Each is next to the notebooks: SUBMISSIONS/<student>/<package>/package.xml.
+Each package is a folder next to the notebooks. SUBMISSIONS/<student>/<package>/package.xml.
 
 A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
 writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
 If no part needs this name, but a part needs the name of the folder, the name of the folder is used.
 
-A link or a device is left out with a note; the other files of the package are examined. A package that is too
-large is not examined. If two packages have the same name, the newest one is used, as for notebooks.
+A link or a device is left out with a note; all other files of the package are examined. A package that is too
+large is not examined. If two packages have the same name, the newest package is used.
 """
 
 from __future__ import annotations
@@ -25,10 +25,12 @@ from course_pkg.sandbox.job import work_file
 from course_pkg.workspace.fault import manifest_tags
 
 MANIFEST = "package.xml"
-GENERATED = frozenset({"build", "devel", "install"})  # catkin writes these folders
-LARGEST = 2 << 20  # maximum bytes of all files of a package; the course's own packages have less than 50 KiB
+GENERATED = frozenset({"build", "devel", "install"})  # Catkin writes these folders.
+# LARGEST is the maximum number of bytes of all files of a package; the course's own packages have less than
+# 50 KiB.
+LARGEST = 2 << 20
 FILES = 300
-SHOWN = 3  # maximum number of names in a sentence
+SHOWN = 3  # SHOWN is the maximum number of names in a sentence.
 NO_NOTEBOOK = "No notebook was handed in for this chapter."
 
 
@@ -42,28 +44,28 @@ class Member:
 
 @dataclass(frozen=True)
 class Found:
-    """A handed-in package; `problem` says why it cannot be examined."""
+    """A submitted package; `problem` says why it cannot be examined."""
 
     package: Package
-    folder: str  # the name of its folder
-    modified: float  # time of the newest file (s since 1970)
+    folder: str  # `folder` is the name of the package's folder.
+    modified: float  # `modified` is the time of the newest file (s since 1970).
     notes: tuple[str, ...] = ()
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return which of `names` is the package's name, or ""; `names` are the names that parts need."""
+        """Return the name in `names` that belongs to the package, or ""; parts need the names in `names`."""
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
 
 def package_roots(paths: Sequence[tuple[str, ...]]) -> set[tuple[str, ...]]:
-    """Return the folders of the packages in a student's `paths`; a package cannot be in another package."""
+    """Return the package folders in a student's `paths`; a package cannot be inside another package."""
     with_manifest = {path[:-1] for path in paths if len(path) > 1 and path[-1] == MANIFEST}
     own = {root for root in with_manifest if not is_generated(root)}
     return {root for root in own if not any(root[:depth] in own for depth in range(1, len(root)))}
 
 
 def is_generated(folders: Sequence[str]) -> bool:
-    """Return whether catkin has written the files in the last of these nested folders."""
+    """Return whether catkin generated the files in the last of these nested folders."""
     return not GENERATED.isdisjoint(folders)
 
 
@@ -75,7 +77,7 @@ def root_of(path: tuple[str, ...], packages: set[tuple[str, ...]]) -> tuple[str,
 
 
 def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
-    """Read the files of one package, up to the limits for the number and size of files."""
+    """Read the files of one package, up to the limits on the number and size of files."""
     inside = "/".join(members[0].path[len(root) :])
     origin = clean.line(members[0].entry.path.removesuffix(f"/{inside}"), 500)
     found = Found(Package(root[-1], (), origin), root[-1], max(each.entry.modified for each in members))
@@ -115,7 +117,7 @@ def _too_large(name: str, why: str) -> str:
 
 
 def _name(manifest: bytes) -> str:
-    """Return the name in a package.xml; an empty string if there is none."""
+    """Return the name in a package.xml, or ""."""
     tags = manifest_tags(manifest.decode("utf-8", "replace"))
     return next((tag.text for tag in tags if tag.name == "name"), "")
 
@@ -123,11 +125,11 @@ def _name(manifest: bytes) -> str:
 def attached(
     given: Sequence[Submission], packages: Mapping[str, Sequence[Found]], wanted: Sequence[str] = ()
 ) -> list[Submission]:
-    """Add each student's packages to the submissions for the chapters that need them; return all submissions.
+    """Add each student's packages to the submissions for chapters that need them; return all submissions.
 
-    `given` are the submissions with notebooks, and `packages` are the packages of each student. `wanted` are
-    the graded chapters; an empty list means all chapters. Without a notebook, a package becomes a submission
-    if it contains a file that a part of the chapter needs.
+    `given` contains the submissions with notebooks, and `packages` contains the packages of each student.
+    `wanted` contains the graded chapters; an empty list means all chapters. Without a notebook, a package
+    becomes a submission only if a part of the chapter needs a file of the package.
     """
     if not packages:
         return list(given)
@@ -158,7 +160,7 @@ def _made(
     asked: Mapping[str, set[str]],
     given: Submission | None,
 ) -> Submission | None:
-    """Return a student's submission for a chapter, with the packages that the chapter needs, or None."""
+    """Return a student's submission for a chapter with the packages that the chapter needs, or None."""
     taken, notes = [], []
     for name in asked:
         ranked = sorted((each for each in found if each.called(list(asked)) == name), key=_rank, reverse=True)

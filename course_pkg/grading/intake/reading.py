@@ -1,4 +1,4 @@
-"""Reads a student's notebook; it may have any format version, and it may be damaged.
+"""Reads a student's notebook, which may have any format version and may be damaged.
 
 The size of the input is limited.
 """
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from course_pkg.errors import GradingError
 from course_pkg.types.fields import Plain
 
-# Maximum number of lists and objects in the file; 20 MiB of them would need half a GB of memory.
+# A file may contain at most this many lists and objects; 20 MiB of them would need half a GB of memory.
 BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {
@@ -31,7 +31,7 @@ WRONG = (
     ValueError,
     IndexError,
     RecursionError,
-)  # errors that a damaged notebook in an old format causes
+)  # A damaged notebook in an old format causes these errors.
 
 
 @dataclass(frozen=True)
@@ -39,10 +39,10 @@ class StudentCell:
     """One cell with the data that grading needs."""
 
     id: str
-    kind: str  # "code", "markdown", "raw"
+    kind: str  # The value is "code", "markdown" or "raw".
     source: str
-    exercise: str = ""  # the id of the part to which it belongs, from its metadata
-    check: str = ""  # the id of the part that it checks
+    exercise: str = ""  # `exercise` is the id of the exercise in the metadata of the cell.
+    check: str = ""  # `check` is the id of the part that the cell checks.
     tags: tuple[str, ...] = ()
 
 
@@ -64,7 +64,7 @@ def read_cells(content: bytes) -> list[StudentCell]:
 def slimmed(cells: Sequence[StudentCell]) -> bytes:
     """Return a notebook with only the data for grading.
 
-    The outputs of a whole class would fill the memory.
+    The outputs of all students' notebooks would fill the memory.
     """
     kept = [
         {
@@ -97,10 +97,10 @@ def _parsed(content: bytes) -> dict[str, Plain]:
 
 
 def _all_cells(data: dict[str, Plain]) -> object:
-    """Return the cells, whatever the format: up to version 3, they are in worksheets.
+    """Return the cells of a notebook of any format; up to version 3, the cells are in worksheets.
 
-    nbformat's conversion would first validate an old notebook. For a long notebook, this takes seconds and
-    writes the whole content to a log.
+    The conversion of nbformat would first validate an old notebook. For a long notebook, the validation takes
+    seconds and writes the whole content to a log.
     """
     sheets = data.get("worksheets")
     if "cells" in data or not isinstance(sheets, list):

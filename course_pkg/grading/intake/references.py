@@ -11,7 +11,8 @@ from course_pkg.authoring.cells import exercise_of
 from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.grading.intake.reading import StudentCell
 
-ENOUGH = 5  # least number of ids that a notebook has to share with a solution if it has no id of an exercise
+# A notebook without an exercise id belongs to a solution if the two share at least this many cell ids.
+ENOUGH = 5
 
 
 class References:
@@ -54,7 +55,7 @@ class References:
         return found[1].zfill(2) if found else ""
 
     def by_cells(self, cells: Sequence[StudentCell], favoured: str) -> str:
-        """Return the chapter to which most exercises belong; if `favoured` has as many, return `favoured`.
+        """Return the chapter with the most exercises of the notebook; in case of a tie, prefer `favoured`.
 
         If the notebook has no exercises, the ids of all cells are compared.
         """
@@ -66,12 +67,12 @@ class References:
         return self.by_ids(cells)
 
     def by_ids(self, cells: Sequence[StudentCell]) -> str:
-        """Return the chapter that has the most ids in common with the cells; "" if there are too few."""
+        """Return the chapter that has the most ids in common with the cells, or "" if too few ids match."""
         shared = Counter(chapter for cell in cells for chapter in self._ids.get(cell.id, []))
         chapter, count = max(shared.items(), key=lambda item: (item[1], item[0]), default=("", 0))
         return chapter if count >= ENOUGH else ""
 
 
 def plain(stem: str) -> str:
-    """Return a file's name in small letters, with single underscores between the words."""
+    """Return a file's name in lower case, with single underscores between the words."""
     return re.sub(r"[^a-z0-9]+", "_", stem.lower()).strip("_")

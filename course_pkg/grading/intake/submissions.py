@@ -42,7 +42,7 @@ LATE = (
     "Canvas marks this submission as late, but does not say how late it is. Give a table of late days or of "
     "times."
 )
-SHOWN = 3  # maximum number of file names in a sentence
+SHOWN = 3  # SHOWN is the maximum number of file names in a sentence.
 
 
 @dataclass(frozen=True)
@@ -65,13 +65,13 @@ def submissions(
 
     `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, a download from a platform (see naming.py),
     or one notebook. `root` is the checkout that contains the solutions. The folder `without`, and folders
-    with the reports of earlier runs, are ignored. A file that cannot be used becomes a submission with a
-    `problem`, and so does an empty folder of a student. GradingError is raised only if `source` can neither
-    be listed nor opened.
+    with the reports of earlier runs, are ignored. An unusable file becomes a submission with a `problem`, and
+    so does an empty folder of a student. GradingError is raised only if `source` can neither be listed nor
+    opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
-    NotebookStore(root).solutions(chapters)  # raises an error for an unknown chapter
+    NotebookStore(root).solutions(chapters)  # The call raises an error for an unknown chapter.
     references = References(root)
     reports = report_folders(source, without)
     with opened(source) as everything:
@@ -112,7 +112,7 @@ def _beside(path: Path) -> Iterator[Found]:
 
 @dataclass(frozen=True)
 class _File:
-    """A file with its student, and its path in the students' folders."""
+    """A file with its student, and its path in the folder of all students' folders."""
 
     entry: Entry
     path: tuple[str, ...]
@@ -120,7 +120,7 @@ class _File:
 
 
 def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_File]]:
-    """Return the packages of each student, and all other files; files that catkin wrote are left out."""
+    """Return the packages of each student, and all other files; files that catkin generated are left out."""
     packages: dict[str, list[Found]] = {}
     others: list[_File] = []
     for _, group in groupby(sorted(files, key=lambda each: each.path), lambda each: each.path[:1]):
@@ -152,7 +152,10 @@ def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list
 
 
 def _is_metadata(entry: Entry, outer: int) -> bool:
-    """Return whether Gradescope, and not a student, wrote the file: it is not in a student's folder."""
+    """Return whether Gradescope, and not a student, wrote the file.
+
+    A file that Gradescope wrote is not in a student's folder.
+    """
     return unwrapped(_inside(entry), outer) == (METADATA,)
 
 
@@ -177,7 +180,7 @@ def _found(file: _File, references: References) -> Iterator[_Found]:
 
 
 def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
-    """Read one file; if it has a `problem`, the text says what is wrong, where it is, and what to do."""
+    """Read one file; a `problem` says what is wrong, where the error is, and what to do."""
     name = clean.line(entry.path.rpartition("/")[2] or "the archive", 120)
     blank = Submission(owner.student, "", b"", clean.line(entry.path, 500))
     try:
@@ -220,7 +223,7 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
 def _of_first_edition(found: RenumberedChapter, references: References, blank: Submission) -> Submission:
     """Return a submission with a `problem`.
 
-    It says what has changed, and which notebook has to be handed in.
+    The problem says what has changed, and which notebook the student has to submit.
     """
     name = clean.line(blank.origin.rpartition("/")[2], 120)
     problem = (
@@ -269,7 +272,10 @@ def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
 
 
 def _without_chapter(given: Sequence[Submission]) -> Iterator[Submission]:
-    """Yield one submission with all unusable files of a student; they usually have the same problem."""
+    """Yield one submission with all unusable files of a student.
+
+    Unusable files of a student usually have the same problem.
+    """
     first, *others = sorted(given, key=lambda each: each.origin)
     if others:
         names = _listed([each.origin for each in others])

@@ -1,1 +1,1 @@
-"""Runs a submission with nbval; this gives feedback, but no points."""
+"""Runs a submission with nbval, which gives feedback but no points."""

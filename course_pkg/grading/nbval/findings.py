@@ -8,7 +8,7 @@ COLOUR = re.compile(r"\x1b\[[\d;]*m")
 RAISED = re.compile(r"^(?P<error>[A-Za-z_][\w.]*): (?P<message>.*)$", re.MULTILINE)
 OWN_LIMIT = re.compile(r"gave no result within (?P<seconds>\d+) s")
 LIMIT = re.compile(r"Timeout of (?P<seconds>\d+) seconds exceeded (?:while )?executing")
-SENTENCES = (  # each entry is a text of nbval 0.11 or pytest, and its meaning for a student
+SENTENCES = (  # Each entry is a text of nbval 0.11 or pytest, and its meaning for a student.
     (
         "Missing output fields",
         "The cell showed no output, or less output than it shows with the right answers.",
@@ -27,9 +27,9 @@ OTHER = "The result of the cell differs from the result with the right answers."
 
 
 def finding(words: str) -> str:
-    """Return a sentence about a cell for the student; `words` is nbval's text about the cell.
+    """Return a sentence about a cell for the student, or "" if `words` is empty.
 
-    For "", return "".
+    `words` is nbval's text about the cell.
     """
     text = COLOUR.sub("", words)
     if not text.strip():

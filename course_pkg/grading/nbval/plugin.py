@@ -1,9 +1,8 @@
 """A pytest plug-in that reports the result of each part after nbval has run a notebook of the course.
 
-The run fails if a part does not have all of its points: its check did not pass, did not run, or is missing.
-The result is only feedback, because it comes from the outputs of the notebook, which student code can forge.
-If the variable COURSE_NBVAL_RECORD contains the name of a file, one JSON object per cell is appended to this
-file.
+The run fails if a part does not have all its points: its check failed, did not run, or is missing. The result
+is only feedback, because it comes from the notebook's outputs, and student code can forge outputs. If the
+variable COURSE_NBVAL_RECORD contains the name of a file, one JSON object per cell is appended to this file.
 """
 
 from __future__ import annotations
@@ -19,15 +18,15 @@ from course_pkg.authoring.cells import Cell, check_of, exercise_of
 from course_pkg.checking.parts import chapters, parts_of
 
 RECORD = "COURSE_NBVAL_RECORD"
-WORDS = 40000  # maximum number of characters of a failure's text
-PART, MISSING = "part", "missing"  # the names of a report's user properties
+WORDS = 40000  # WORDS is the maximum number of characters of a failure's text.
+PART, MISSING = "part", "missing"  # A report's user properties have these names.
 CALL = re.compile(r"""^\s*check\(["'](\d\d\.\d+)["']\)""", re.MULTILINE)
 SEEN = pytest.StashKey[bool]()
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Record the result of a cell; reports that are not about a cell are ignored."""
+    """Record the result of a cell; other reports are ignored."""
     report = yield
     cell: Cell | None = getattr(item, "cell", None)
     if cell is not None and (report.when == "call" or report.outcome != "passed"):
@@ -86,7 +85,7 @@ def _is_passed(headline: str) -> bool:
 def _missing(item: pytest.Item) -> Sequence[str]:
     """Return the parts of the chapter for which the notebook has no check.
 
-    Only for the notebook's first report.
+    For all reports after the notebook's first report, the result is empty.
     """
     notebook = item.parent
     if notebook is None or notebook.stash.get(SEEN, False):

@@ -1,8 +1,8 @@
 """Runs nbval in an outer sandbox with trusted processes; the kernel runs in an inner sandbox.
 
 The trusted processes are pytest, the master and the check runner. The program reads a notebook from stdin.
-Its argument is the time limit of a cell in s. It writes the result of each cell to stdout, as one JSON object
-per line.
+The program's argument is the time limit of a cell in s. The program writes the result of each cell to stdout,
+as one JSON object per line.
 """
 
 from __future__ import annotations
@@ -26,14 +26,16 @@ from course_pkg.sandbox.channel import descendants, end, fork
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
 from course_pkg.waiting import Deadline, at_this_load
 
-# s; nbval waits for output and ends the kernel within this time after the time limit of a cell
+# nbval waits for output, and ends the kernel at most this many s after the time limit of a cell.
 SILENCE = 15.0
-TOGETHER = 2 * confinement.TOGETHER  # memory limit for pytest and all nodes of a chapter (bytes)
+# The memory limit (bytes) applies to pytest and all nodes of a chapter together.
+TOGETHER = 2 * confinement.TOGETHER
 KERNEL = "sandboxed"
-OVERVIEW = re.compile(r"\b(progress|results)\(")  # in the first edition, the function was called `results`
+OVERVIEW = re.compile(r"\b(progress|results)\(")  # In the first edition, the function was called `results`.
 OWN = "/student/.course"
-NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"  # in one folder, as in a checkout
-# Without this, a kernel whose parent is process 1 would end, because it would assume that its parent has
+# Both folders are in one folder, as in a checkout.
+NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"
+# Without this option, a kernel whose parent is process 1 would end: it would assume that its parent has
 # ended.
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")
 
@@ -62,10 +64,12 @@ def main() -> None:
 
 
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
-    """Run `command`. Kill its processes if they use too much memory, or if `record` does not grow any more.
+    """Run `command`.
 
-    Returns whether `record` did not grow for `silence` s. nbval itself waits for ever for a kernel whose
-    connections are damaged.
+    Kill its processes if they use too much memory, or if `record` does not grow for `silence` s.
+
+    Returns whether `record` did not grow for `silence` s. nbval itself waits for ever if the connections of a
+    kernel are damaged.
     """
     size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
@@ -80,7 +84,7 @@ def _run_within_limits(command: list[str], record: Path, silence: float) -> bool
 
 
 def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
-    """Return the line of the record for the first cell without a result."""
+    """Return the record line for the first cell without a result."""
     recorded = {json.loads(line)["cell"] for line in record.read_text("utf-8").splitlines()}
     left = (each["id"] for each in code_cells(notebook) if each["source"] and each["id"] not in recorded)
     if not (first := next(left, "")):
@@ -92,7 +96,7 @@ def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
 
 
 def _remove_overview(cell: Cell) -> None:
-    """Make each cell empty that shows the student's progress, because a graded run has no record of it."""
+    """Empty each cell that shows the student's progress, because a graded run has no progress record."""
     if cell["cell_type"] == "code" and OVERVIEW.search(cell["source"]) and not check_of(cell):
         cell["source"] = ""
         cell["outputs"] = []
@@ -188,7 +192,7 @@ def _run_check(sock: socket.socket) -> None:
     from course_pkg.checking.channel import Channel
     from course_pkg.checking.runner import run_check
 
-    # the submission decides how many bytes the check receives
+    # This limit is needed because the submission decides how many bytes the check receives.
     namespaces.limit(AS=confinement.CHECK_RUNNER)
     run_check(Channel(sock))
 

@@ -1,4 +1,4 @@
-"""Runs a rebuilt notebook with nbval, and finds the cells whose output differs from that of the reference.
+"""Runs a rebuilt notebook with nbval, and finds the cells with outputs that differ from the reference.
 
 The results earn no points.
 """
@@ -16,10 +16,12 @@ from course_pkg.grading.nbval.findings import finding
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.bubblewrap import sandbox_command
 
-CELL = 40  # s on an idle machine; because of this limit, a cell that blocks the kernel costs less than 60 s
-LIMIT = 600.0  # s for a notebook; the longest chapter takes 100 s
-LINE = 100  # maximum bytes of the output
-OUTPUT = 8 << 20  # bytes of the output
+# On an idle machine, a cell may run for this time in s. With this limit, a blocked kernel costs less than 60
+# s.
+CELL = 40
+LIMIT = 600.0  # A notebook may run for this time in s; the longest chapter takes 100 s.
+LINE = 100  # LINE is the maximum number of bytes of the output.
+OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of the whole output.
 
 
 def wanted(grade: Grade, whose: str) -> bool:
@@ -30,7 +32,10 @@ def wanted(grade: Grade, whose: str) -> bool:
 
 
 def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
-    """Return `grade` with the outcomes of the notebook's cells. If there are none, a note says why."""
+    """Return `grade` with the outcomes of the notebook's cells.
+
+    If nbval gives no outcomes, a note says why.
+    """
     if not grade.sandboxed:
         return replace(
             grade, notes=(*grade.notes, "nbval runs notebooks only in a sandbox, but this run had none.")

@@ -1,1 +1,1 @@
-"""Builds the notebook to grade: the reference notebook with a student's answers."""
+"""Builds the notebook that is graded: the reference notebook with a student's answers."""

@@ -1,8 +1,8 @@
 """Finds the cells that an answer needs, by the names that these cells define.
 
-An answer is run only with the cells that its check needs (see checking/fixtures.py). But an answer may use
-other names, for example an import in a cell above, or a function from an earlier answer. Therefore, the cells
-that define these names run, too, and also the cells that those cells need.
+An answer is run only with the cells that its check needs (see checking/fixtures.py). However, an answer may
+use other names, such as an import in a cell above or a function of an earlier answer. Therefore, the cells
+that define these names also run, and so do the cells that these cells need.
 """
 
 from __future__ import annotations
@@ -13,11 +13,13 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-# Maximum number of characters of a cell that is parsed. Usual cells are shorter, and parsing takes time.
+# A cell with more characters is not parsed. Usual cells are shorter, and parsing a long cell takes too much
+# time.
 LONGEST = 20_000
-# Maximum number of lines of a cell with magics, because IPython's time grows with the square of this number.
+# A cell with magics may have at most this many lines, because IPython's time grows with the square of the
+# number of lines.
 MAGICAL = 300
-# Names that these nodes assign inside are not names of the cell.
+# Names that are assigned inside these nodes are not names of the cell.
 SCOPES = (
     *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),
     *(ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
@@ -27,14 +29,14 @@ KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", 
 
 @dataclass(frozen=True)
 class _Cell:
-    """The names that a cell defines for later cells, and the names that it uses without defining them."""
+    """The names that a cell defines for later cells, and the undefined names that it uses."""
 
     gives: frozenset[str]
     uses: frozenset[str]
 
 
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
-    """Return the sources in `above` that `answer` needs, in their order; `before` runs in any case."""
+    """Return the sources in `above` that `answer` needs, in their order; the cell `before` always runs."""
     given = KNOWN | _read(before).gives
     cells = [_read(source) for source in above]
     chosen: set[int] = set()
@@ -82,12 +84,12 @@ def _given(tree: ast.Module) -> frozenset[str]:
         nodes.append(node)
         if not isinstance(node, SCOPES):
             todo += ast.iter_child_nodes(node)
-    # Python deletes the name of a caught exception at the end of the clause.
+    # Python deletes the name of a caught exception at the end of the `except` clause.
     return _bound(node for node in nodes if not isinstance(node, ast.ExceptHandler))
 
 
 def _bound(nodes: Iterable[ast.AST]) -> frozenset[str]:
-    """Return the names that these nodes assign, import, define, or give to a caught exception."""
+    """Return the names that these nodes assign, import or define, and the names of caught exceptions."""
     names: set[str | None] = set()
     for node in nodes:
         if isinstance(node, ast.Import | ast.ImportFrom):

@@ -1,4 +1,4 @@
-"""Removes nbval's markers and a cell's magic from a student's source, because they change how it runs.
+"""Removes nbval's markers and cell magics from a student's source, because both change how the cell runs.
 
 nbval obeys a comment such as `# NBVAL_SKIP` in any line, and IPython passes the whole cell to the magic in
 its first line. With such a comment or magic, an answer could avoid its check.
@@ -13,7 +13,7 @@ from typing import TypeAlias, cast
 
 from IPython.core.inputtransformer2 import TransformerManager
 
-MARKERS = (  # see plugin.py of nbval 0.11, comment_markers
+MARKERS = (  # The markers are listed as comment_markers in plugin.py of nbval 0.11.
     "PYTEST_VALIDATE_IGNORE_OUTPUT",
     "NBVAL_IGNORE_OUTPUT",
     "NBVAL_CHECK_OUTPUT",
@@ -29,7 +29,7 @@ Transform: TypeAlias = Callable[[list[str]], list[str]]
 
 @dataclass(frozen=True)
 class Defused:
-    """A source that can be placed safely, and notes for the student about the changes."""
+    """A source that is safe to run, and notes for the student about the changes."""
 
     source: str
     notes: tuple[str, ...] = ()
@@ -54,16 +54,16 @@ def magic_of(source: str) -> str:
 def _readable(source: str) -> tuple[str, list[str]]:
     """Return the source without characters that Python or UTF-8 cannot contain."""
     kept = source.replace("\r\n", "\n").replace("\r", "\n").replace("\x00", "")
-    kept = kept.encode("utf-8", "replace").decode("utf-8")  # a surrogate becomes a question mark
+    kept = kept.encode("utf-8", "replace").decode("utf-8")  # A question mark replaces a surrogate.
     if kept != source.replace("\r\n", "\n").replace("\r", "\n"):
         return kept, ["Characters that a Python file cannot contain were removed from your cell."]
     return kept, []
 
 
 def _as_ipython_reads(source: str) -> list[str]:
-    """Return the lines in which IPython looks for a magic.
+    """Return the lines in which IPython searches for a magic.
 
-    They have no indentation and no prompts, and none is empty.
+    The lines have no indentation and no prompts, and no line is empty.
     """
     lines = (source.rstrip() + "\n").splitlines(keepends=True)
     for transform in TransformerManager().cleanup_transforms:

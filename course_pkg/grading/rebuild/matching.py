@@ -1,9 +1,9 @@
 """Finds the cells of a student's notebook that answer an exercise, even if they were moved or copied.
 
-The cell of an exercise is found by its id, or by its metadata, which stay in a copy. Otherwise, it is found
-by the names that it defines, or by the file that it writes. If there are several such cells, the last one
-that is not blank is used. If the student has split the answer, the parts directly below belong to it; other
-cells of the student do not.
+The cell of an exercise is found by its id or by its metadata, because a copied cell has the same metadata.
+Otherwise, the cell is found by the names that it defines, or by the file that it writes. If there are several
+such cells, the last non-blank cell is used. If the student has split the answer into several cells, the cells
+directly below belong to the answer.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from course_pkg.grading.intake.reading import StudentCell
 from course_pkg.grading.rebuild.defusing import TAGS
 from course_pkg.grading.rebuild.wanted import Wanted, defined, lent, used, written_path
 
-LONGEST = 100_000  # maximum number of characters of an answer
-BELOW = 50  # maximum number of cells below an exercise that may belong to its answer
+LONGEST = 100_000  # An answer may have at most this many characters.
+BELOW = 50  # At most this many cells below an exercise may belong to its answer.
 
 
 @dataclass(frozen=True)
 class Match:
-    """The answer to an exercise, or the reason why there is none."""
+    """The answer to an exercise, or the reason why there is no answer."""
 
     source: str = ""
     missing: str = ""
     notes: tuple[str, ...] = ()
-    cells: frozenset[int] = frozenset()  # indices of its cells in the notebook
+    cells: frozenset[int] = frozenset()  # `cells` contains the indices of the answer's cells in the notebook.
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class _Run:
     kind: str
     cells: frozenset[int]
     tags: frozenset[str]
-    written: int  # number of cells that are not empty
+    written: int  # `written` is the number of non-empty cells.
 
 
 class Matching:
@@ -46,9 +46,9 @@ class Matching:
     def __init__(
         self, cells: Sequence[StudentCell], wanted: Sequence[Wanted], given: Mapping[str, str]
     ) -> None:
-        """`given` contains the sources of all cells of the reference that are not exercises.
+        """`given` contains the sources of all reference cells that are not exercises.
 
-        The keys are their ids.
+        The keys are the ids of the cells.
         """
         self._cells = cells
         self._given = given
@@ -82,7 +82,7 @@ class Matching:
         )
 
     def lent(self, taken: frozenset[int]) -> set[str]:
-        """Return the names that unused cells define, and that the reference does not define."""
+        """Return the names that unused cells define, but the reference does not define."""
         names: set[str] = set()
         for place, cell in enumerate(self._cells):
             if place not in taken and cell.kind == "code" and not self._owners[place]:
@@ -99,7 +99,7 @@ class Matching:
     def _runs(self, wanted: Wanted) -> Iterator[_Run]:
         """Yield the possible answers to the exercise.
 
-        Each is one cell, together with the parts that were split off.
+        Each answer is a cell, together with following cells if the student split the answer.
         """
         run: list[int] = []
         above = _Above()
@@ -158,14 +158,17 @@ class _Above:
             self._lines |= {line.strip() for line in cell.source.splitlines()}
 
     def goes_on(self, cell: StudentCell, wanted: Wanted) -> bool:
-        """Return whether a cell of the same exercise continues this answer; a copy of the answer does not."""
+        """Return whether a cell of the same exercise continues this answer.
+
+        A copy of the answer does not continue it.
+        """
         if cell.kind != self._last.kind or cell.source == self._last.source or wanted.is_blank(cell.source):
             return False
         anew = defined(cell.source) & self._names & wanted.names
         return not (anew or cell.source.lstrip().startswith("%%"))
 
     def needs(self, source: str, wanted: Wanted) -> bool:
-        """Return whether one of the student's own cells is a part of this answer."""
+        """Return whether a cell that the student added is part of this answer."""
         lines = [line for line in source.splitlines() if line.strip()]
         if not lines or source.lstrip().startswith(("%%", "!")):
             return False

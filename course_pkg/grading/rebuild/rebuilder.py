@@ -1,6 +1,6 @@
 """Builds the notebook to grade.
 
-It is the reference notebook with a student's answers, but no other cell of the student.
+The notebook is the reference notebook with a student's answers; all other cells of the student are left out.
 """
 
 from __future__ import annotations
@@ -16,20 +16,21 @@ from course_pkg.grading.rebuild.defusing import defuse
 from course_pkg.grading.rebuild.matching import Match, Matching
 from course_pkg.grading.rebuild.wanted import defined, every_wanted, used
 
-NOTES = 40  # maximum number of notes; more notes would not help the student
+NOTES = 40  # At most this many notes are given, because more notes would not help the student.
 
 
 @dataclass(frozen=True)
 class Rebuilt:
     """The notebook to grade; each part of the reference is either in `answers` or in `missing`."""
 
-    notebook: Notebook  # the exercise cells have no outputs, so nbval does not compare them
-    answers: Mapping[str, str]  # the source that runs for each part; it may be the unchanged blank cell
-    # For each part without an answer, the reason as a text for the student.
+    notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
+    # `answers` contains the source that runs for each part, which may be the unchanged blank cell.
+    answers: Mapping[str, str]
+    # For each part without an answer, the value is a text for the student with the reason.
     missing: Mapping[str, str] = field(default_factory=dict)
-    untouched: frozenset[str] = frozenset()  # the parts in `answers` whose cell the student did not change
-    notes: tuple[str, ...] = ()  # notes for the student about everything that is unusual
-    problem: str = ""  # the reason why the notebook could not be used
+    untouched: frozenset[str] = frozenset()  # The student did not change the cells of these parts.
+    notes: tuple[str, ...] = ()  # The notes tell the student about everything unusual in the notebook.
+    problem: str = ""  # `problem` is the reason why the notebook could not be used.
 
 
 def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
@@ -43,8 +44,8 @@ def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
 class Rebuilder:
     """A reference notebook; the same object is used for all students.
 
-    If an answer is missing, the notebook contains the blank cell of the exercise, and never the solution.
-    Cells that are not exercises have the output objects of the reference.
+    If an answer is missing, the notebook contains the blank cell of the exercise, never the solution. Cells
+    that are not exercises share their output objects with the reference.
     """
 
     def __init__(self, reference: Notebook) -> None:
@@ -99,7 +100,7 @@ def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
 
 
 def _lent(cells: Sequence[StudentCell], matching: Matching, matches: Mapping[str, Match]) -> set[str]:
-    """Return the names in cells that are not graded which an answer may use."""
+    """Return the names from ungraded cells that an answer may use."""
     taken = frozenset(place for match in matches.values() for place in match.cells)
     names = matching.lent(taken) if len(taken) < len(cells) else set()
     for match in matches.values():

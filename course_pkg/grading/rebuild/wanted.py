@@ -1,7 +1,7 @@
 """Finds the names and files of an exercise in the reference, and the names that a source defines.
 
-A student's source is only searched line by line, and not parsed. Therefore, a source that is made to overload
-a parser does no harm.
+A student's source is searched line by line, but not parsed. Therefore, a source that would overload a parser
+does no harm.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import Notebook, code_cells, exercise_of
 from course_pkg.grading.rebuild.defusing import WRITES, magic_of
 
-SCANNED = 200_000  # maximum number of characters of a source that are searched
+SCANNED = 200_000  # At most this many characters of a source are searched.
 DEFINED = re.compile(r"^(?:async[ \t]+)?(?:def|class)[ \t]+(\w+)", re.MULTILINE)
 ASSIGNED = re.compile(r"^(\w+)[ \t]*(?::[^=\n]{1,200})?=(?!=)", re.MULTILINE)
 IMPORTED = re.compile(r"^(?:import|from[ \t]+[\w.]+[ \t]+import)[ \t]+([^\n#]{1,1000})", re.MULTILINE)
@@ -25,19 +25,20 @@ class Wanted:
     """One exercise of the reference."""
 
     part: str
-    cell: str  # the id of its cell
-    blank: str  # the blank cell in the student's notebook
-    first_line: str  # the cell magic in the first line, such as `%%writefile src/Area.srv`
-    names: frozenset[str]  # the names that an answer defines at the top level
-    wiring: frozenset[str]  # whole lines of the blank cell that define no name, such as node.serve(…)
+    cell: str  # `cell` is the id of the exercise cell.
+    blank: str  # `blank` is the blank cell in the student's notebook.
+    first_line: str  # `first_line` is the cell magic in the first line, such as `%%writefile src/Area.srv`.
+    names: frozenset[str]  # An answer defines these names at the top level.
+    # These lines are whole lines of the blank cell that define no name, such as node.serve(…).
+    wiring: frozenset[str]
 
     @property
     def path(self) -> str:
-        """The file that the cell writes, or "" if it writes none."""
+        """The file that the cell writes, or "" if the cell writes no file."""
         return written_path(self.first_line)
 
     def is_blank(self, source: str) -> bool:
-        """Return whether a source is the unchanged blank cell, except for spaces at the ends of lines."""
+        """Return whether a source equals the blank cell, except for spaces at the ends of lines."""
         return _plain(source) == _plain(self.blank)
 
 
@@ -81,7 +82,7 @@ def lent(source: str) -> set[str]:
 
 
 def used(source: str) -> set[str]:
-    """Return all words that occur in a source."""
+    """Return all identifiers and other words in a source."""
     return set(WORD.findall(source[:SCANNED]))
 
 

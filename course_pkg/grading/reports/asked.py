@@ -1,4 +1,4 @@
-"""The chapters that students were asked for; each counts for a student even if it was not handed in."""
+"""The chapters that were assigned; each of them counts for a student even without a submission."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def _always(_student: str, _chapter: str) -> bool:
 
 @dataclass(frozen=True)
 class Column:
-    """A part that was graded, or that students were asked for."""
+    """A part that was graded or assigned."""
 
     check: str
     chapter: str
@@ -26,20 +26,22 @@ class Column:
 
 @dataclass(frozen=True)
 class Asked:
-    """The chapters of a run, the parts that were selected, and whether a student's chapter is due.
+    """The chapters of a run, the selected parts, and a function that says whether a student's chapter is due.
 
-    A report also contains chapters of earlier runs. Before its deadline, a chapter counts only for the
-    students who handed it in.
+    A report also contains chapters of earlier runs. Before the deadline, a chapter counts only for students
+    who have submitted it.
     """
 
     chapters: frozenset[str] = frozenset()
     columns: tuple[Column, ...] = ()
-    due: Callable[[str, str], bool] = _always  # arguments: student, or "" for others, and chapter
+    # The arguments are the student, or "" for others, and the chapter.
+    due: Callable[[str, str], bool] = _always
 
     def counted(self, student: str, grades: Sequence[Grade], asked: Sequence[str]) -> list[str]:
         """Return the chapters of `asked` that count for a student with these `grades`.
 
-        A student who withdrew, so that all results are from earlier runs, was asked for nothing else.
+        If a student has only results from earlier runs, the student has probably left the course. In this
+        case, only the chapters with a grade count.
         """
         there = {grade.chapter for grade in grades}
         if there and all(grade.absent for grade in grades):

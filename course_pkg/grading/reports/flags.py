@@ -13,18 +13,18 @@ from course_pkg.grading.grade import Flag
 from course_pkg.grading.reports.gradebook import Book, name_of
 from course_pkg.grading.reports.page import paragraph, text
 
-OTHERS = 10  # maximum number of other students that one flag lists
+OTHERS = 10  # A flag lists at most this many other students.
 ABOUT = (
     "A flag is a reason to look at an answer yourself. It changes no points, and the feedback for students "
     "does not contain it."
 )
-Flagged = tuple[str, str, Flag]  # (student, chapter, flag)
+Flagged = tuple[str, str, Flag]  # The tuple contains the student, the chapter and the flag.
 
 
 def flag_sections(book: Book) -> Iterator[str]:
     """Yield the section about flags, with a list of students for each kind.
 
-    Yield nothing if there are no flags.
+    Without flags, yield nothing.
     """
     found = list(_flagged(book))
     if not found:

@@ -23,7 +23,8 @@ ABSENT = "These results are from an earlier run. In the latest run, nothing was 
 class Book:
     """Grades by student, chapter and part.
 
-    The notes of a grade say if it was made without a sandbox, and if nothing was handed in for it this time.
+    The notes of a grade say whether it was made without a sandbox, and whether this run had no submission for
+    it.
     """
 
     def __init__(
@@ -47,7 +48,7 @@ class Book:
 
     @property
     def identified(self) -> list[str]:
-        """The students whom a platform can identify; other students get no row in a file for a platform."""
+        """The students whom a platform can identify; only these students get a row in a platform's file."""
         return [student for student in self.students if student and student not in self.class_list.unclear]
 
     def of(self, student: str) -> list[Grade]:
@@ -55,7 +56,7 @@ class Book:
         return self._by_student.get(student, [])
 
     def grade(self, student: str, chapter: str) -> Grade | None:
-        """Return a student's grade for a chapter, or None if nothing was handed in for it."""
+        """Return a student's grade for a chapter, or None without a submission."""
         return next((grade for grade in reversed(self.of(student)) if grade.chapter == chapter), None)
 
     def columns_of(self, chapter: str) -> list[Column]:
@@ -71,9 +72,9 @@ class Book:
         return round(sum(grade.earned for grade in self.of(student)), 2)
 
     def counted(self, student: str) -> list[str]:
-        """Return the chapters that count for a student, or for a student of the roster without a submission.
+        """Return the chapters that count for a student, even for a student without a submission.
 
-        These are the chapters that were asked for; see Asked.
+        The chapters that were assigned count; see Asked.
         """
         return self._asked.counted(student, self._by_student.get(student, []), self.chapters)
 
@@ -88,7 +89,7 @@ class Book:
 
 
 def report_of(grade: Grade | None, check: str) -> Report | None:
-    """Return the report on a part, if there is one."""
+    """Return the report on a part, or None."""
     return next((report for report in grade.reports if report.check == check), None) if grade else None
 
 
@@ -103,7 +104,7 @@ def points(value: float) -> str:
 
 
 def about_lateness(grade: Grade) -> str:
-    """Return the message about the deadline for a student; an empty string for a submission in time."""
+    """Return the message for a student about the deadline, or "" for a submission that was in time."""
     if grade.late <= 0:
         return ""
     late = f"Handed in {_duration(grade.late)} late"
@@ -111,7 +112,10 @@ def about_lateness(grade: Grade) -> str:
 
 
 def _duration(days: float) -> str:
-    """Return a time as a report shows it: "2 days", "3.5 hours", "10 minutes"; a time is never shown as 0."""
+    """Return a duration for a report, such as "2 days", "3.5 hours" or "10 minutes".
+
+    A duration is never shown as 0.
+    """
     units = ((days, "day"), (days * 24, "hour"), (days * 24 * 60, "minute"))
     value, unit = next((each for each in units if each[0] >= 1), units[-1])
     shown = points(max(value, 0.01) if unit == "day" else max(1.0, round(value, 1)))
@@ -124,7 +128,7 @@ def of_points(earned: float, possible: float) -> str:
 
 
 def attention(book: Book, student: str) -> list[str]:
-    """Return why an instructor should look at a student's work, the most serious reason first."""
+    """Return why an instructor should examine a student's work, with the most serious reason first."""
     grades = book.of(student)
     return [
         *(clean.line(problem) for grade in grades if (problem := _problem(grade))),
@@ -140,7 +144,7 @@ def attention(book: Book, student: str) -> list[str]:
 
 
 def not_handed_in(book: Book, student: str) -> str:
-    """Return a sentence about the chapters for which a student handed in nothing, or an empty string."""
+    """Return a sentence about the chapters without a submission of a student, or ""."""
     there = {grade.chapter for grade in book.of(student)}
     missing = [chapter for chapter in book.counted(student) if chapter not in there]
     if not missing:
@@ -150,8 +154,8 @@ def not_handed_in(book: Book, student: str) -> str:
 
 
 def notes(book: Book, student: str) -> list[str]:
-    """Return notes about unusual notebooks of a student that need no attention."""
-    known = (ABSENT, NO_TIME)  # attention() has a sentence about each of these notes
+    """Return notes about unusual notebooks of a student that need no action."""
+    known = (ABSENT, NO_TIME)  # attention() has a sentence about each of these notes.
     found = (note for grade in book.of(student) for note in grade.notes if note not in known)
     return list(dict.fromkeys(clean.line(note) for note in found))
 
@@ -167,13 +171,13 @@ def reviews(book: Book, student: str) -> list[str]:
 
 
 def needs_look(grade: Grade) -> bool:
-    """Return whether an instructor should look at this submission."""
+    """Return whether an instructor should examine this submission."""
     outdated = any(report.review and report.review.outdated for report in grade.reports)
     return bool(_problem(grade) or _about(grade) or _inconclusive(grade) or outdated)
 
 
 def _problem(grade: Grade) -> str:
-    """Return the problem of a submission, unless an instructor has reviewed all parts of it."""
+    """Return the problem of a submission, or "" if an instructor has reviewed all its parts."""
     return "" if grade.reports and all(report.review for report in grade.reports) else grade.problem
 
 
@@ -197,7 +201,7 @@ def _about(grade: Grade) -> str:
 
 
 def _inconclusive(grade: Grade) -> list[str]:
-    """Return a sentence for each part whose check could not finish."""
+    """Return a sentence for each part with an unfinished check."""
     return [
         f"{report.check} earned no points, but its check could not finish. Look at the answer. "
         f"{clean.line(report.note, 160)}"

@@ -1,4 +1,4 @@
-"""The frame of a page that loads and runs nothing; its policy permits only its own style sheet."""
+"""The HTML frame of a page without scripts; its policy permits only its own style sheet."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from course_pkg.checking.report import Verdict
 from course_pkg.grading import clean
 
-KINDS = {  # for each verdict, a class of the style sheet, and a sign before the verdict
+KINDS = {  # Each verdict has a class of the style sheet, and a symbol before the verdict.
     Verdict.PASSED: ("passed", "✓"),
     Verdict.FAILED: ("failed", "✗"),
     Verdict.NOT_ATTEMPTED: ("untried", "○"),
@@ -34,7 +34,7 @@ class Frame:
         )
 
     def page(self, title: str, body: Iterable[str]) -> str:
-        """Return a page; `body` is clean HTML, `title` may be any text."""
+        """Return a page; `body` is clean HTML, and `title` can be any text."""
         inside = "\n".join(body)
         title = f"<title>{clean.html(clean.line(title))}</title>"
         return f"{self._head}{title}\n</head>\n<body>\n<main>\n{inside}\n</main>\n</body>\n</html>\n"
@@ -63,9 +63,11 @@ def banner(title: str, sentences: Sequence[str]) -> str:
 
 
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:
-    """Return a table. The first cell of each row is a header, and the last `numbers` columns are numbers.
+    """Return an HTML table.
 
-    The cells of `rows` are HTML; `caption` and `head` may be any text.
+    The first cell of each row is a header, and the last `numbers` columns are numbers.
+
+    The cells in `rows` are HTML; `caption` and `head` can be any text.
     """
     numeric = len(head) - numbers
 

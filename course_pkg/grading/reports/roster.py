@@ -1,6 +1,6 @@
 """The section of the reports about the roster.
 
-It lists missing and unknown students, and those who were not identified.
+The section lists missing students, unknown students, and students who were not identified.
 """
 
 from __future__ import annotations

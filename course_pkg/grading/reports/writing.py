@@ -15,8 +15,8 @@ from course_pkg.grading.reports.gradebook import Book
 from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
-# These reports also contain empty folders, and earlier results without a new submission. The other files
-# leave such students out, so that a platform keeps its own points.
+# These reports also contain empty folders and earlier results without a new submission. All other reports
+# leave such students out, so a platform keeps its own points for them.
 WITH_ABSENT = ("class_page", "feedback", "records", "table")
 # A platform stores only one score for each report, so a report contains only the chapters of this run.
 OF_ASSIGNMENT = ("gradescope", "gradescope_table", "moodle_worksheet")
@@ -30,11 +30,10 @@ def write_reports(
 ) -> None:
     """Write every report about `grades` into the folder `out`.
 
-    `class_list` contains the students' identities and the missing students. `asked` contains the
-    chapters of this run; without it, these are all chapters of `grades`.
+    `class_list` contains the students' identities and the missing students. `asked` contains the chapters of
+    this run; by default, it contains all chapters of `grades`.
 
-    Each module in `formats` writes one report with its function `write(book, out)`; a new format needs only
-    such a module.
+    Each module in `formats` writes one report with its function `write(book, out)`.
     """
     book = Book(grades, class_list, asked)
     chapters = asked.chapters if asked else ()

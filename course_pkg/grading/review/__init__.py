@@ -1,1 +1,1 @@
-"""Review by hand: an instructor's points and comments, a page to enter them, and how they are applied."""
+"""Manual review: an instructor's points and comments, a page to enter them, and their use in grades."""

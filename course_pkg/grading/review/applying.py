@@ -1,4 +1,4 @@
-"""Apply an instructor's points and comments to grades."""
+"""Applies an instructor's points and comments to grades."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.gradebook import name_of
 from course_pkg.grading.review.overrides import FILE, Override, Overrides
 
-SHOWN = 10  # maximum number of names in a line
+SHOWN = 10  # A line lists at most this many names.
 
 
 def answer_of(grade: Grade, part: str) -> str:
-    """Return a short text that identifies the student's answer: another answer gives another text.
+    """Return a short text that identifies the student's answer; each answer has a different text.
 
-    It begins with a letter, so that no spreadsheet reads it as a number.
+    The text begins with a letter, so a spreadsheet does not read it as a number.
     """
     code = clean.code(grade.code.get(part, ""))
     return f"v{hashlib.sha256(code.encode()).hexdigest()[:10]}"
@@ -27,7 +27,7 @@ def answer_of(grade: Grade, part: str) -> str:
 def reviewed(grades: Sequence[Grade], overrides: Overrides) -> list[Grade]:
     """Return the grades with the points and comments of the instructor.
 
-    `grades` contain the points of the checks.
+    The grades in `grades` have the points of the checks.
     """
     return [
         replace(grade, reports=tuple(_reviewed(grade, report, overrides) for report in grade.reports))

@@ -48,7 +48,7 @@ def review(out: Path, wanted: Wanted, port: int, *, browser: bool) -> int:
 
 
 def wanted_of(parts: Sequence[str], *, flagged: bool, unfinished: bool) -> Wanted:
-    """Return the selection of the options."""
+    """Return the selection that the options describe."""
     return Wanted(tuple(map(two_digits, parts)), flagged, unfinished)
 
 

@@ -18,16 +18,16 @@ from course_pkg.grading.rebuild.wanted import every_wanted
 from course_pkg.grading.review.applying import answer_of, is_outdated
 from course_pkg.grading.review.overrides import Key, Overrides
 
-LINES = 2_000  # maximum number of shown lines of an answer
+LINES = 2_000  # The page shows at most this many lines of an answer.
 
 
 @dataclass(frozen=True)
 class Item:
-    """The answer of one student to one part; `grade` contains the points of the checks."""
+    """The answer of one student to one part; `grade` has the points of the checks."""
 
     grade: Grade = field(repr=False)
     report: Report
-    answer: str  # identifies the answer
+    answer: str  # `answer` is a text that identifies the answer.
     flags: tuple[Flag, ...] = ()
 
     @property
@@ -71,9 +71,10 @@ def items_of(grades: Sequence[Grade]) -> list[Item]:
 
 
 def is_unfinished(item: Item, overrides: Overrides) -> bool:
-    """Return whether a person has to look at an answer.
+    """Return whether an instructor has to examine an answer.
 
-    This is so if its check gave no result and nobody has reviewed it, or if it has changed since its review.
+    An answer is unfinished if its check gave no result and no instructor reviewed it, or if it changed after
+    the review.
     """
     if row := overrides.rows.get(item.key):
         return is_outdated(row, item.grade)
@@ -82,7 +83,7 @@ def is_unfinished(item: Item, overrides: Overrides) -> bool:
 
 
 def identical(item: Item, items: Sequence[Item]) -> list[Item]:
-    """Return the other answers to the same part with the same code; none for an empty answer."""
+    """Return the other students' answers to the same part with the same code, or [] for an empty answer."""
     if not item.code.strip():
         return []
     return [
@@ -95,7 +96,7 @@ def identical(item: Item, items: Sequence[Item]) -> list[Item]:
 def marked_lines(item: Item) -> Iterator[tuple[str, str]]:
     """Yield the lines of the answer as (kind, line), compared with the cell that students get.
 
-    The kinds are "same", "added" and "removed". A package has no such cell: all its lines are "same".
+    The kinds are "same", "added" and "removed". A package has no such cell, so all its lines are "same".
     """
     lines = item.code.strip("\n").split("\n")[:LINES]
     given = _handed_out(item.grade.chapter).get(exercise_of(item.report.check), "")
@@ -112,13 +113,13 @@ def marked_lines(item: Item) -> Iterator[tuple[str, str]]:
 
 
 def numbers(check: str) -> list[int]:
-    """Return the numbers of a part's id, by which parts are sorted."""
+    """Return the numbers in a part's id; parts are sorted by these numbers."""
     return [int(part) for part in check.split(".") if part.isdecimal()]
 
 
 @cache
 def _handed_out(chapter: str) -> dict[str, str]:
-    """Return the cells that students get, by part; empty for an unknown chapter."""
+    """Return the cells that students get, by part; the result is empty for an unknown chapter."""
     try:
         (path,) = NotebookStore().solutions([chapter])
     except AuthoringError:
@@ -127,7 +128,7 @@ def _handed_out(chapter: str) -> dict[str, str]:
 
 
 def _flags_by_part(grade: Grade) -> dict[str, list[Flag]]:
-    """Return the flags of each part: those about its answer, and those about a file of its answer.
+    """Return the flags of each part: flags about its answer or about a file of its answer.
 
     The first part gets the flags about other files.
     """

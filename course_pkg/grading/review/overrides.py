@@ -1,8 +1,8 @@
-"""overrides.csv: the points and comments of an instructor, which the page and a spreadsheet can edit.
+"""overrides.csv: the points and comments of an instructor. The page and a spreadsheet can edit the file.
 
-The columns are student, chapter, part, points, comment and answer; other columns and empty lines stay as they
-are. A part is written as "Part 05.10", because a spreadsheet changes 05.10 to 5.1. `answer` identifies the
-answer that was reviewed; it is empty in a row that was typed in a spreadsheet.
+The columns are student, chapter, part, points, comment and answer. Other columns and empty lines do not
+change. A part is written as "Part 05.10", because a spreadsheet would change 05.10 to 5.1. `answer`
+identifies the reviewed answer; it is empty in a row that was typed in a spreadsheet.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ COLUMNS = ("student", "chapter", "part", "points", "comment", "answer")
 LARGEST = 20_000_000  # bytes
 POINTS = re.compile(r"\d{1,6}([.,]\d{1,2})?")
 PREFIX = "Part "
-LONG = 4_000  # maximum number of characters of a comment
-Key = tuple[str, str]  # student and part
+LONG = 4_000  # LONG is the maximum number of characters of a comment.
+Key = tuple[str, str]  # The tuple contains the student and the part.
 
 
 @dataclass(frozen=True)
@@ -38,11 +38,13 @@ class Override:
 
     student: str
     part: str
-    points: float | None = None  # None leaves the points of the check
+    points: float | None = None  # With None, the points of the check are used.
     comment: str = ""
     answer: str = ""
-    line: int = field(default=0, compare=False)  # of the file, counted from 1
-    bare: bool = field(default=False, compare=False)  # whether the file has the part without "Part"
+    # `line` is the number of the line in the file, counted from 1.
+    line: int = field(default=0, compare=False)
+    # `bare` is True if the file contains the part without the word "Part".
+    bare: bool = field(default=False, compare=False)
 
     @property
     def key(self) -> Key:
@@ -52,15 +54,16 @@ class Override:
 
 @dataclass(frozen=True)
 class Overrides:
-    """The contents of the file: its rows, and everything else that it contains."""
+    """All contents of overrides.csv, including other columns and empty lines."""
 
     path: Path
     rows: Mapping[Key, Override] = field(default_factory=dict)
     head: tuple[str, ...] = COLUMNS
-    lines: tuple[tuple[str, ...], ...] = ()  # the cells of all lines after the head
-    places: Mapping[Key, int] = field(default_factory=dict)  # the place of each row in `lines`
+    lines: tuple[tuple[str, ...], ...] = ()  # The tuple contains the cells of all lines after the first line.
+    # The values are the indices of the rows in `lines`.
+    places: Mapping[Key, int] = field(default_factory=dict)
     delimiter: str = ","
-    digest: str = ""  # of the bytes of the file
+    digest: str = ""  # `digest` is a digest of the file's bytes.
 
     def require_students(self, names: Collection[str]) -> None:
         """Raise GradingError if a row is about another student."""
@@ -88,7 +91,7 @@ class Overrides:
                 )
 
     def changed(self, changes: Mapping[Key, Override | None]) -> bytes:
-        """Return the file with other rows in place of those with the same keys; None removes a row."""
+        """Return the file with new rows for the keys in `changes`; None removes a row."""
         lines: list[tuple[str, ...] | None] = list(self.lines)
         for key, row in changes.items():
             place = self.places.get(key)
@@ -163,9 +166,9 @@ def save(current: Overrides, changes: Mapping[Key, Override | None]) -> Override
 
 
 def points_of(text: str) -> float | None:
-    """Return points that a person typed, such as "1.5" or "1,5"; None for an empty text.
+    """Return points that an instructor typed, such as "1.5" or "1,5", or None for an empty text.
 
-    Raises ValueError if they are not a number with at most two decimals.
+    Raises ValueError if the text is not a number with at most two decimals.
     """
     shown = text.strip()
     if not shown:
@@ -223,7 +226,7 @@ def _name(cell: str) -> str:
 
 
 def _protected(text: str) -> str:
-    """Return a cell that no spreadsheet reads as a formula; `_plain` returns the text again."""
+    """Return a cell that a spreadsheet does not read as a formula; `_plain` reverses the change."""
     return f"'{text}" if text.lstrip("'").startswith(tuple(clean.FORMULA)) else text
 
 

@@ -34,7 +34,7 @@ HEADERS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
-LARGEST = 100_000  # bytes of a request
+LARGEST = 100_000  # A request may have at most this many bytes.
 WAIT = 0.05  # s
 
 
@@ -55,7 +55,7 @@ def application(session: Session, token: str, port: Callable[[], int]) -> Applic
         ],
         default_handler_class=Unknown,
         default_handler_args=shared,
-        log_function=lambda _handler: None,  # the page shows what is refused
+        log_function=lambda _handler: None,  # No log is needed, because the page shows refused requests.
     )
 
 
@@ -65,11 +65,11 @@ class Handler(RequestHandler):
     def initialize(
         self, session: Session, token: str, port: Callable[[], int], templates: Environment
     ) -> None:
-        """Keep what all handlers share."""
+        """Store the data that all handlers share."""
         self.session, self.token, self.port, self.templates = session, token, port, templates
 
     def set_default_headers(self) -> None:
-        """Add the policies to each response, also to errors."""
+        """Add the security policies to each response, including errors."""
         self.clear_header("Server")
         for name, value in HEADERS.items():
             self.set_header(name, value)
@@ -93,7 +93,7 @@ class Handler(RequestHandler):
         self.finish(json.dumps(data))
 
     async def attempt(self, action: Callable[[], dict[str, Plain]]) -> None:
-        """Send the result of `action`, or the reason why it is not possible."""
+        """Send the result of `action`, or the reason why it failed."""
         while self.session.is_being_written():
             await asyncio.sleep(WAIT)
         try:
@@ -107,7 +107,7 @@ class Handler(RequestHandler):
             self.answer({"problem": f"overrides.csv cannot be written: {why}."})
 
     def sent(self) -> dict[str, Plain]:
-        """Return the data of the request; empty if it is not an object."""
+        """Return the JSON data of the request, or {} if the data are not an object."""
         try:
             data = json.loads(self.request.body)
         except ValueError:
@@ -145,12 +145,12 @@ class Items(Handler):
     """All answers and rows."""
 
     def get(self) -> None:
-        """Send them."""
+        """Send all answers and rows."""
         self.answer(self.session.describe())
 
 
 class OneItem(Handler):
-    """One answer as a part of the page."""
+    """The HTML of one answer."""
 
     def get(self, number: str) -> None:
         """Send the answer with its code, assertions and flags."""
@@ -177,7 +177,10 @@ class Rows(Handler):
     """The rows, after another program has changed the file."""
 
     async def get(self) -> None:
-        """Send all rows if they have changed since the page last saw them, else none."""
+        """Send all rows if another program has changed them since the last request of the page.
+
+        Otherwise, send none.
+        """
         session = self.session
         await self.attempt(lambda: {"rows": session.rows(), "reloaded": True} if session.refresh() else {})
 
@@ -186,7 +189,7 @@ class Save(Handler):
     """The points and the comment of an answer."""
 
     async def post(self) -> None:
-        """Store them."""
+        """Store the points and the comment."""
         sent = self.sent()
         number, points, comment = sent.get("number"), sent.get("points"), sent.get("comment")
         whole = isinstance(number, int) and 0 <= number < len(self.session.items)
@@ -202,5 +205,5 @@ class Undo(Handler):
     """The last change."""
 
     async def post(self) -> None:
-        """Undo it."""
+        """Undo the last change."""
         await self.attempt(self.session.undo)

@@ -1,4 +1,4 @@
-"""A review: the answers, the overrides as the page last saw them, and the changes that can be undone."""
+"""A review: the answers, the overrides that the page last received, and the changes that can be undone."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from course_pkg.grading.review.overrides import (
 )
 from course_pkg.types.fields import Plain
 
-QUIET = 0.3  # s; a file that another program changed a shorter time ago may not be complete
+QUIET = 0.3  # If another program changed the file less than this many s ago, the file may be incomplete.
 Rows = Mapping[Key, Override | None]
 
 
@@ -39,9 +39,8 @@ class Step:
 class Session:
     """The review of one folder of results.
 
-    Each method that changes a row first reads overrides.csv again, so that it keeps the changes of a
-    spreadsheet. The methods raise GradingError if the file has a wrong row, and OSError if it cannot be
-    written.
+    Each method that changes a row first reads overrides.csv again, so changes by a spreadsheet are not lost.
+    The methods raise GradingError if the file has a wrong row, and OSError if it cannot be written.
     """
 
     def __init__(self, out: Path, grades: Sequence[Grade], wanted: Wanted) -> None:
@@ -69,7 +68,7 @@ class Session:
         return {"items": items, "rows": self.rows(), "undo": len(self._steps)}
 
     def rows(self) -> dict[str, Plain]:
-        """Return all rows about the answers of this review, by the number of the answer."""
+        """Return all rows about the answers of this review; the keys are the numbers of the answers."""
         return self._shown(self._overrides.rows)
 
     def alike(self, number: int) -> list[Item]:
@@ -77,7 +76,7 @@ class Session:
         return identical(self.items[number], self._all)
 
     def is_being_written(self) -> bool:
-        """Return whether another program has changed the file just now, so that it may not be complete."""
+        """Return whether another program has just changed the file, so that the file may be incomplete."""
         try:
             written = self._overrides.path.stat().st_mtime
         except OSError:
@@ -96,9 +95,9 @@ class Session:
         return before.digest != self._overrides.digest
 
     def decide(self, number: int, points: str, comment: str, *, also_identical: bool) -> dict[str, Plain]:
-        """Store points and a comment, and return the changed rows; without both, the row is removed.
+        """Store points and a comment, and return the changed rows. If both are empty, the row is removed.
 
-        Raises ValueError if the points are not a number, or more than possible.
+        Raises ValueError if the points are not a number, or are higher than the maximum.
         """
         item = self.items[number]
         value, words = points_of(points), clean.text(comment, LONG).strip()
@@ -114,7 +113,7 @@ class Session:
         return self._change(changes, undoing=False)
 
     def undo(self) -> dict[str, Plain]:
-        """Restore the rows before the last change; `shown` is the number of an answer that it concerns.
+        """Restore the rows before the last change; `shown` is the number of a changed answer.
 
         Raises ValueError if there is nothing to undo, or if another program has changed a row since.
         """
@@ -147,7 +146,7 @@ class Session:
         try:
             return read_overrides(self._out).digest != self._overrides.digest
         except GradingError:
-            return True  # a file that is not complete may contain a wrong row
+            return True  # An incomplete file may contain a wrong row.
 
     def _shown(self, rows: Rows) -> dict[str, Plain]:
         numbered = ((self._numbers.get(key), row) for key, row in rows.items())

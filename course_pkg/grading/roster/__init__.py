@@ -1,1 +1,1 @@
-"""An instructor's class list and Moodle's grading worksheet, and the search for a student's row in them."""
+"""Reads an instructor's class list and Moodle's grading worksheet, and finds a student's row in them."""

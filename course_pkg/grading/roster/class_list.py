@@ -14,32 +14,33 @@ from course_pkg.grading.roster.people import Person, labels, read_roster
 from course_pkg.grading.roster.worksheet import Participant, Worksheet, read_worksheet
 
 ROSTER, WORKSHEET = "the roster", "Moodle's worksheet"
-SHOWN = 10  # maximum number of names in one sentence
-Origins = Mapping[str, Sequence[str]]  # for each student, the paths of the handed-in files
+SHOWN = 10  # SHOWN is the maximum number of names in one sentence.
+# For each student, the value contains the paths of the submitted files.
+Origins = Mapping[str, Sequence[str]]
 
 
 @dataclass(frozen=True)
 class ClassList:
     """The identities of the students with submissions.
 
-    It is empty if there is neither a roster nor a worksheet.
+    The list is empty if there is neither a roster nor a worksheet.
     """
 
-    people: Mapping[str, Person] = field(default_factory=dict)  # by student
+    people: Mapping[str, Person] = field(default_factory=dict)  # The keys are the students' names.
     roster: tuple[Person, ...] | None = None
-    found: int = 0  # number of students of the roster with a submission
-    missing: tuple[Person, ...] = ()  # students of the roster without a submission
-    strangers: tuple[str, ...] = ()  # students who are not on the roster
-    # for each student who was not found, the reason for this
+    found: int = 0  # `found` is the number of students of the roster with a submission.
+    missing: tuple[Person, ...] = ()  # These students of the roster have no submission.
+    strangers: tuple[str, ...] = ()  # These students have a submission, but are not on the roster.
+    # The values are the reasons why a student was not found.
     unclear: Mapping[str, str] = field(default_factory=dict)
     worksheet: Worksheet | None = None
-    # the participants in the worksheet, by student
+    # The keys are the students' names, and the values are the participants in the worksheet.
     participants: Mapping[str, Participant] = field(default_factory=dict)
-    unlisted: tuple[str, ...] = ()  # students who are not in the worksheet
+    unlisted: tuple[str, ...] = ()  # These students have a submission, but are not in the worksheet.
 
     @property
     def given(self) -> bool:
-        """Whether an instructor gave a list."""
+        """Whether the instructor provided a roster or a worksheet."""
         return self.roster is not None or self.worksheet is not None
 
     def summary(self) -> Iterator[str]:
@@ -91,7 +92,8 @@ class Lists:
         sheet = _Search([each.person for each in listed], WORKSHEET)
         roster = _Search(self.roster or (), ROSTER)
         for student in students:
-            text = "" if student in platform else student  # an instructor or a script chose this name
+            # Without a platform, an instructor or a script chose the name of the folder.
+            text = "" if student in platform else student
             sheet.search(student, platform.get(student), text)
             roster.search(student, _joined(sheet.found.get(student), platform.get(student)), text)
             if student in roster.found and not sheet.decided(student):
@@ -125,19 +127,19 @@ def read_lists(roster: Path | None, worksheet: Path | None) -> Lists:
 
 
 class _Search:
-    """The rows of one list that belong to students, and the students without a clear row."""
+    """The rows of one list that belong to students, and the students without a unique row."""
 
     def __init__(self, people: Iterable[Person], title: str) -> None:
         self._people = People(people, title)
         self._title = title
         self.found: dict[str, Person] = {}
         self.unclear: dict[str, str] = {}
-        self.lines: set[int] = set()  # numbers of the lines that belong, or may belong, to a student
+        self.lines: set[int] = set()  # The lines with these numbers belong, or may belong, to a student.
 
     def decided(self, student: str) -> bool:
         """Return whether the search for a student is finished.
 
-        Then the row was found, or several rows are possible.
+        The search is finished if the row was found, or if several rows are possible.
         """
         return student in self.found or student in self.unclear
 
@@ -152,7 +154,10 @@ class _Search:
             self.lines |= match.possible
 
     def refuse_shared(self) -> None:
-        """Remove a row that fits several students. Only the instructor can decide to whom it belongs."""
+        """Remove a row that matches several students.
+
+        Only the instructor can decide to which student the row belongs.
+        """
         by_line: dict[int, list[str]] = {}
         for student, person in self.found.items():
             by_line.setdefault(person.line, []).append(student)
@@ -178,7 +183,7 @@ def origins_of(handed_in: Iterable[Submission | Grade]) -> dict[str, list[str]]:
 def _platform(origins: Origins, source: Path | None, nameless: str) -> dict[str, Person]:
     """Return the data about students that platforms write into the names of files and folders.
 
-    `nameless` is the word that Moodle writes in place of a name if submissions are anonymous.
+    `nameless` is the word that Moodle writes instead of a name if submissions are anonymous.
     """
     exported = any(GRADESCOPE.fullmatch(part) for paths in origins.values() for part in _parts(paths))
     found = gradescope_people(source) if exported and source else {}

@@ -1,7 +1,7 @@
-"""A CSV file in which a cell can be changed without changing any other byte.
+"""A CSV file in which one cell can be changed without changing any other byte.
 
-The csv module returns only values; quotes, line endings and the byte order mark would be lost. The format is
-RFC 4180, with any character as the separator.
+The csv module cannot be used, because it does not preserve quotes, line endings and the byte order mark. The
+format is RFC 4180, with any character as the separator.
 """
 
 from __future__ import annotations
@@ -15,7 +15,10 @@ BREAK = r"\r\n|\n|\r"
 
 @dataclass
 class Record:
-    """One record: The `cells` as they are in the file, the line break `end`, and the number of the line."""
+    """One record of the file.
+
+    `cells` contains the cells in their original form, and `end` is the line break.
+    """
 
     cells: list[str]
     end: str
@@ -31,7 +34,7 @@ class Record:
     def put(self, place: int, value: str, separator: str) -> None:
         """Write a value into a cell.
 
-        It is quoted if the old cell was quoted, or if the value needs quotes.
+        The new cell is quoted if the old cell was quoted, or if the value needs quotes.
         """
         quotes = self.cells[place].startswith('"') or re.search(f'[{re.escape(separator)}"\r\n]', value)
         self.cells[place] = '"' + value.replace('"', '""') + '"' if quotes else value
@@ -67,5 +70,5 @@ def records(text: str, separator: str) -> Iterator[Record]:
 
 
 def text_of(found: list[Record], separator: str) -> str:
-    """Return the text of the records; if no cell was changed, this is the original text."""
+    """Return the text of the records. Without changed cells, it equals the original text."""
     return "".join(separator.join(record.cells) + record.end for record in found)

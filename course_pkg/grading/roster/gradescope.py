@@ -1,4 +1,4 @@
-"""The students in an export from Gradescope, with all data about them in the metadata."""
+"""The students in an export from Gradescope, with the data about them in the metadata."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.grading.roster.people import Person
 
 
 def gradescope_people(source: Path) -> dict[str, Person]:
-    """Return the students by their names in the grades; the result is empty if there are no metadata.
+    """Return the students by their names in the grades, or {} without metadata.
 
     `source` is a folder or a zip.
     """
@@ -22,13 +22,13 @@ def gradescope_people(source: Path) -> dict[str, Person]:
             for entry in entries:
                 if entry.parts[-1:] == (METADATA,) and len(entry.parts) < 3:
                     found |= _people(entry.read())
-    except GradingError:  # grading itself reports files that it cannot read
+    except GradingError:  # Grading itself reports unreadable files.
         return found
     return found
 
 
 def _people(content: bytes) -> dict[str, Person]:
-    """Return the persons in the metadata, in the same order as the names from `gradescope_submitters`."""
+    """Return the persons in the metadata, in the order of the names from `gradescope_submitters`."""
     records = gradescope_records(content)
     return {
         clean.identity(student): Person(

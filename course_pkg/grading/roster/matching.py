@@ -1,7 +1,8 @@
-"""Finds the row of a list that belongs to a student, without guesses, from the data in a submission.
+"""Finds the row of a list that belongs to a student, from the data in a submission.
 
-For each known field (a number, an address or a name), some rows have the same value. A field is ignored if no
-row has its value. The row belongs to the student only if it is the only row that fits all other fields.
+For each known field (a number, an address or a name), the rows with the same value are found. A field without
+such a row is ignored. A row belongs to the student only if it is the only row that matches all remaining
+fields.
 """
 
 from __future__ import annotations
@@ -16,15 +17,16 @@ from course_pkg.grading.roster.people import IDENTITY, Person
 
 @dataclass(frozen=True)
 class Match:
-    """The row that belongs to a student. If several rows are possible, `problem` contains the reason."""
+    """The row that belongs to a student. If several rows are possible, `problem` says why."""
 
     person: Person | None = None
     problem: str = ""
-    possible: frozenset[int] = frozenset()  # numbers of the lines that are possible, if there are several
+    # If several rows are possible, these are the numbers of their lines.
+    possible: frozenset[int] = frozenset()
 
 
 class People:
-    """The rows of a list; each row can be found by each of its fields."""
+    """The rows of a list; each field can be used to find a row."""
 
     def __init__(self, people: Iterable[Person], title: str) -> None:
         self._people = tuple(people)
@@ -37,7 +39,7 @@ class People:
     def find(self, known: Person, text: str = "") -> Match:
         """Return the row that belongs to the person `known`.
 
-        `text` is a folder's name that an instructor chose; it may be the value of any field.
+        `text` is a folder's name that an instructor chose; it can be the value of any field.
         """
         proposals = [rows for rows in self._proposals(known, text) if rows]
         if not proposals:
@@ -56,8 +58,8 @@ class People:
         for key in IDENTITY:
             yield self._fitting(key, getattr(known, key))
         yield self._fitting("name", known.name)
-        # Moodle's number identifies a participant only within one assignment. Some rosters contain it in the
-        # column `id`.
+        # Moodle's number identifies a participant only within one assignment. Some rosters contain this
+        # number in the column `id`.
         yield self._fitting("number", known.number) or {
             place
             for place in self._fitting("id", known.number)
@@ -86,18 +88,18 @@ def _keys(person: Person) -> Iterator[tuple[str, str]]:
 def orders(name: str) -> set[str]:
     """Return the letters of a name, once for each order of first and last names that platforms use.
 
-    Canvas writes "doejanemaria" for Jane Maria Doe, a spreadsheet "Doe, Jane Maria".
+    For Jane Maria Doe, Canvas writes "doejanemaria", and a spreadsheet can contain "Doe, Jane Maria".
     """
     parts = [part for word in re.split(r"[\s,_]+", name) if (part := folded(word))]
     return {"".join(parts[place:] + parts[:place]) for place in range(len(parts))}
 
 
 def _agree(one: str, other: str) -> bool:
-    """Return whether two names can belong to one student; Moodle may write the group before the name."""
+    """Return whether two names can belong to one student; Moodle may write a group before the name."""
     return not one or not other or any(folded(one).endswith(order) for order in orders(other))
 
 
 def folded(name: str) -> str:
-    """Return the letters and digits of a name, in small letters without accents."""
+    """Return the letters and digits of a name, in lower case without accents."""
     letters = unicodedata.normalize("NFKD", name.casefold())
     return "".join(letter for letter in letters if letter.isalnum())

@@ -3,8 +3,8 @@
 The first line contains the names of the columns, in any order: name, id, email, username, section. One of the
 first four columns is enough. The course also understands the columns of Canvas (Student, ID, SIS Login ID,
 Section), Gradescope (First Name, Last Name, SID, Email, Sections) and Moodle (First name, Last name, Email
-address, ID number, Username). Therefore, an export from one of them is a roster. Other columns are stored
-under their own names.
+address, ID number, Username). Therefore, an export from one of these platforms is a roster. The values of
+other columns are stored under the columns' names.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from course_pkg.grading.tables import table_rows
 
 WHAT = "roster"
 FIRST, LAST = "first name", "last name"
-IDENTITY = ("id", "email", "username")  # a value of one of these fields belongs to only one student
+IDENTITY = ("id", "email", "username")  # Each value of these fields belongs to only one student.
 FIELDS = ("name", *IDENTITY, "section")
 ALIASES = {
     "name": ("name", "full name", "student", "student name"),
@@ -39,20 +39,21 @@ NO_STUDENTS = ("Points Possible", "Student, Test")
 
 @dataclass(frozen=True)
 class Person:
-    """The data about a student from a roster or from a platform; an unknown field is empty."""
+    """The data about a student from a roster or a platform; an unknown field is empty."""
 
     name: str = ""
-    id: str = ""  # the Canvas user id, or Gradescope's student number (SID)
+    id: str = ""  # `id` is the Canvas user id, or Gradescope's student number (SID).
     email: str = ""
     username: str = ""
     section: str = ""
-    number: str = ""  # the number of a participant in one assignment of Moodle, such as "12345"
-    line: int = 0  # number of the line in the file; 0 if the person is not from a file
-    more: Mapping[str, str] = field(default_factory=dict)  # other columns, by their lowercase names
+    number: str = ""  # `number` is Moodle's number of a participant in one assignment, such as "12345".
+    line: int = 0  # `line` is the number of the line in the file, or 0 if the person is not from a file.
+    # `more` contains the other columns; the keys are the columns' names in lower case.
+    more: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def label(self) -> str:
-        """The first known field that a person can read most easily."""
+        """The known field that is easiest for a person to read."""
         known = (self.name, self.username, self.email, self.id, self.number)
         return next(filter(None, known), f"line {self.line}")
 
@@ -63,11 +64,11 @@ class Person:
 
 
 def read_roster(path: Path) -> tuple[Person, ...]:
-    """Return the students in the CSV file at `path`, in its order.
+    """Return the students in the CSV file at `path`, in the order of the file.
 
-    Raises GradingError if the file cannot be read, has none of the columns, has a column twice, or has a row
-    that identifies no student or the same student as another row. Messages never contain a cell, because each
-    cell may be a name.
+    Raises GradingError if the file cannot be read, has no known column or a column twice, or has a row
+    without an identity or with the identity of an earlier row. An error message never contains a cell,
+    because a cell can contain a student's name.
     """
     lines = table_rows(path, WHAT)
     head = [_plain(name) for name in lines[0]] if lines else []
@@ -142,7 +143,7 @@ def _text(value: str) -> str:
 
 
 def labels(people: Sequence[Person]) -> Iterator[str]:
-    """Yield a label for each person; if two persons have the same label, the number of the line is added."""
+    """Yield a label for each person; if two persons have the same label, the line number is added."""
     known = Counter(person.label for person in people)
     for person in people:
         yield f"{person.label} (line {person.line})" if known[person.label] > 1 else person.label

@@ -30,7 +30,8 @@ from course_pkg.grading.roster.people import Person
 from course_pkg.grading.tables import delimiter_of, table_bytes
 
 WHAT = "grading worksheet"
-LARGEST = 50_000_000  # maximum bytes; the column "Online text" contains whole submissions
+# LARGEST is the maximum number of bytes; the column "Online text" contains whole submissions.
+LARGEST = 50_000_000
 IDENTIFIER, GRADE, MAXIMUM, SCALE = "Identifier", "Grade", "Maximum grade", "Scale"
 OPEN, FEEDBACK = "Grade can be changed", "Feedback comments"
 NAME, EMAIL, USERNAME, ID = "Full name", "Email address", "Username", "ID number"
@@ -77,14 +78,15 @@ AGAIN = "Download the grading worksheet again from Moodle, and do not open it in
 class Participant:
     """One row of the worksheet."""
 
-    place: int  # index of the row in the records of the file
+    place: int  # `place` is the index of the row in the file's records.
     person: Person
-    locked: bool  # whether Moodle ignores a new grade for this participant
-    maximum: float | None  # points; None if the worksheet does not contain it
+    locked: bool  # `locked` is True if Moodle ignores a new grade for this participant.
+    # `maximum` is the maximum number of points, or None if the worksheet does not contain it.
+    maximum: float | None
 
 
 class Worksheet:
-    """A worksheet that was read from a file; changes are only made in copies."""
+    """A worksheet from a file; only copies are changed."""
 
     def __init__(
         self, found: Sequence[Record], separator: str, columns: Mapping[str, int], file: str
@@ -100,9 +102,9 @@ class Worksheet:
 
     @property
     def word(self) -> str:
-        """The word before the number of a participant, in small letters.
+        """The word before the number of a participant, in lower case.
 
-        It is also the name of anonymous students.
+        Anonymous students have the same text as their name.
         """
         first = self._records[1:2]
         return folded(re.sub(r"\d+\s*\Z", "", self._value(first[0], IDENTIFIER))) if first else ""
@@ -111,7 +113,7 @@ class Worksheet:
     def takes_feedback(self) -> bool:
         """Whether the worksheet has a column for feedback.
 
-        This depends on Moodle's feedback type "Feedback comments".
+        Moodle adds this column if the feedback type "Feedback comments" is on.
         """
         return FEEDBACK in self._columns
 
@@ -126,10 +128,10 @@ class Worksheet:
     def copy(self, graded: Mapping[int, tuple[str, str]]) -> bytes:
         """Return a copy of the file with new grades and feedback (HTML).
 
-        The keys are the places of participants.
+        The keys are the indices of the participants' rows.
 
-        All other bytes of the file are unchanged. A grade is a number such as "7.5". It gets a decimal comma
-        if the maximum grade in its row has one.
+        All other bytes of the file do not change. A grade is a number such as "7.5". The grade gets a decimal
+        comma if the maximum grade in its row has a decimal comma.
         """
         changed = deepcopy(self._records)
         for place, (grade, feedback) in graded.items():
@@ -182,8 +184,8 @@ class Worksheet:
 def read_worksheet(path: Path) -> Worksheet:
     """Return the worksheet in the file at `path`.
 
-    Raises GradingError if it cannot be read, if it is not a worksheet, if it uses a scale in place of points,
-    or if a row is damaged.
+    Raises GradingError if the file cannot be read, is not a worksheet, uses a scale instead of points, or has
+    a damaged row.
     """
     try:
         text = table_bytes(path, WHAT, LARGEST).decode()
@@ -192,7 +194,7 @@ def read_worksheet(path: Path) -> Worksheet:
             f"The {WHAT} {path.name} is not in UTF-8, but Moodle writes it in UTF-8. {AGAIN}"
         ) from error
     separator = delimiter_of(text)
-    # The byte order mark stays before the name of the first column.
+    # The byte order mark is still before the name of the first column.
     found = list(records(text, separator))
     head = [clean.line(found[0].value(place)) for place in range(len(found[0].cells))] if found else []
     if found and text.startswith("\ufeff"):

@@ -1,1 +1,1 @@
-"""One run of `course grade`: its selection, its cluster, the results that it keeps, and its output."""
+"""One run of `course grade`: its selection, its cluster, earlier results, and its output."""

@@ -1,4 +1,4 @@
-"""The changes since the last run: the points of each part before and after."""
+"""The changes since the last run: the old and new points of each part."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import name_of, points
 
 FILE = "changes.csv"
-SHOWN = 40  # maximum number of printed lines; changes.csv contains all changes
+SHOWN = 40  # At most this many lines are printed; changes.csv contains all changes.
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Change:
 
 
 def changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[Change]:
-    """Return the changed points of those grades that both runs have, in the order of students and parts."""
+    """Return the changed points of grades that exist in both runs, sorted by student and part."""
     known = {(grade.student, grade.chapter): grade for grade in before if grade.chapter}
     found = []
     for grade in sorted(after, key=lambda each: (each.student, each.chapter)):
@@ -56,7 +56,7 @@ def _between(before: Grade, after: Grade) -> Iterator[Change]:
 
 
 def worth_changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[str]:
-    """Return a line for each part whose possible points, or their division among its goals, have changed."""
+    """Return a line for each part with a change in its possible points, or in the points of its goals."""
     old, new = (
         {report.check: report for grade in grades for report in grade.reports} for grades in (before, after)
     )

@@ -1,4 +1,4 @@
-"""The dask cluster of `course grade --scheduler`; it waits for workers, and notices when all have ended."""
+"""The dask cluster of `course grade --scheduler`: waits for workers, and detects when all have ended."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from course_pkg.errors import GradingError
 if TYPE_CHECKING:
     from distributed import Client
 
-PATIENCE = 20.0  # s; a scheduler has to respond, and a worker has to connect, within this time
-INTERVAL = 1.0  # s between two polls of the workers, after all tasks were submitted
+PATIENCE = 20.0  # A scheduler must respond, and a worker must connect, within this many s.
+INTERVAL = 1.0  # INTERVAL is the time in s between two polls of the workers, after all tasks were submitted.
 AGAIN = "The finished grades are kept. Correct this problem, and type the same command again."
 
 
 class Cluster:
-    """An executor that uses a dask cluster, and the number of the cluster's threads.
+    """An executor that uses a dask cluster, and the number of threads in the cluster.
 
-    `require` raises GradingError if the scheduler has ended, or if there has been no worker for `patience` s.
+    `require` raises GradingError if the scheduler has ended, or if no worker was connected for `patience` s.
     """
 
     def __init__(self, client: Client, executor: Executor, scheduler: str, patience: float) -> None:
@@ -43,16 +43,16 @@ class Cluster:
 
     @property
     def failures(self) -> tuple[type[BaseException], ...]:
-        """The exceptions that mean that the cluster could not run a task.
+        """The exceptions of a cluster that could not run a task.
 
-        `explained` returns their meaning.
+        `explained` returns an error message for such an exception.
         """
         from distributed.scheduler import KilledWorker
 
         return CancelledError, KilledWorker, ImportError, RuntimeError
 
     def explained(self, error: BaseException) -> GradingError:
-        """Return an error that says what one of the `failures` means and what the user can do."""
+        """Return an error that explains one of the `failures` and says what the user can do."""
         if isinstance(error, CancelledError):
             return self._lost()
         if isinstance(error, (ImportError, RuntimeError)):
@@ -113,7 +113,7 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
             raise no_workers(scheduler, patience) from error
         yield Cluster(client, client.get_executor(pure=False), scheduler, patience)
     finally:
-        # otherwise, a client would wait for a scheduler that has ended
+        # Without this step, a client would wait for a scheduler that has ended.
         with suppress(OSError, TimeoutError):
             client.close(timeout=1)
 

@@ -1,4 +1,4 @@
-"""The results of earlier runs; they stay in the reports unless this run replaces them."""
+"""The results of earlier runs; a result stays in the reports unless this run replaces it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from course_pkg.grading.run.selection import Selection
 class Earlier:
     """The records of earlier runs in the folder `out`.
 
-    `unreadable` counts the files there that are not records.
+    `unreadable` is the number of files in the folder that are not records.
     """
 
     out: Path
@@ -25,18 +25,18 @@ class Earlier:
     unreadable: int = 0
 
     def find(self, student: str, chapter: str) -> Grade | None:
-        """Return the earlier grade of a student for a chapter, or None; it has the points of the checks."""
+        """Return the earlier grade of a student for a chapter with the points of the checks, or None."""
         found = self._by_chapter.get((student, chapter)) if chapter else None
         return found.unreviewed() if found else None
 
     def rest(self, graded: Sequence[Grade], selected: Selection) -> list[Grade]:
         """Return the earlier grades that stay in the reports in addition to `graded`.
 
-        They have the points of the checks.
+        The earlier grades have the points of the checks.
 
-        An earlier grade that is selected is marked as absent: there is a record, but nothing was handed in
-        this time. If everything was selected, and no student handed in anything for a chapter, the chapter
-        belongs to another assignment; then its grades are not marked.
+        A selected earlier grade is marked as absent, because this run had no submission for it. If everything
+        was selected and no student submitted a chapter, the chapter belongs to another assignment, and its
+        grades are not marked.
         """
         chapters = {grade.chapter for grade in graded}
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}
@@ -54,7 +54,7 @@ class Earlier:
     def forget_files(self, graded: Sequence[Grade], selected: Selection) -> None:
         """Remove the records of files that could not be graded in an earlier run.
 
-        Only records of files that do not exist any more are removed.
+        Only records of files that no longer exist are removed.
         """
         now = {(grade.student, grade.origin) for grade in graded if not grade.chapter}
         for grade in self.grades:

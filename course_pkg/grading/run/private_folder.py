@@ -17,9 +17,9 @@ EXPECTED = f"private_NN.py, such as private_05.py, or {POINTS}"
 
 
 def require_names(folder: Path, chapters: Sequence[str]) -> None:
-    """Raise GradingError if a file in `folder` is misnamed or empty, or if none of the files can be used.
+    """Raise GradingError if a file in `folder` is misnamed or empty, or if no file can be used.
 
-    A message on stderr lists the files that are not used. `chapters` are the chapters that have checks.
+    A message on stderr lists the unused files. `chapters` contains the chapters with checks.
     """
     try:
         files = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "__")))

@@ -1,4 +1,4 @@
-"""Grades selected notebooks or parts again; the results of all other parts stay."""
+"""Grades selected notebooks or parts again; the results of all other parts do not change."""
 
 from __future__ import annotations
 
@@ -13,37 +13,37 @@ from course_pkg.grading.store import Store
 
 @dataclass(frozen=True)
 class Regrade:
-    """The selection of a run, and the earlier results that are combined with the new ones."""
+    """The selection of a run, and the earlier results that are combined with the new results."""
 
     selected: Selection
     earlier: Earlier
-    fresh: bool = False  # --fresh: the selected notebooks are graded again, even if nothing has changed
+    fresh: bool = False  # With --fresh, the selected notebooks are graded again, even if nothing has changed.
 
     @property
     def again(self) -> bool:
-        """Whether the selected notebooks are graded again even if there are stored grades."""
+        """Whether the selected notebooks are graded again even if grades are stored."""
         return self.fresh or self.selected.again
 
     def parts(self, submission: Submission) -> tuple[str, ...]:
         """Return the parts of a notebook that are graded again, or () for the whole notebook.
 
-        The whole notebook is graded if there is no earlier result, or if the student has handed in another
+        The whole notebook is graded if there is no earlier result, or if the student has submitted another
         notebook since then.
         """
         asked = self.selected.parts_of(submission.chapter)
         return asked if asked and not submission.problem and self._base(submission) else ()
 
     def completed(self, grade: Grade, parts: tuple[str, ...]) -> Grade:
-        """Return the grade with the earlier reports of all other parts, if only `parts` were graded again."""
+        """Return the grade; if only `parts` were graded, add the earlier reports of all other parts."""
         base = self.earlier.find(grade.student, grade.chapter)
         return merged(base, grade) if parts and base else grade
 
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
         """Store a new grade for later runs; it does not contain a student yet.
 
-        `alike` are the submissions that get this grade. If only `parts` were graded, their reports replace
-        those in the stored grade. A grade that was stored with other options, or by another version of the
-        checks, is removed; otherwise, the next complete run would use the old points again.
+        The submissions in `alike` get this grade. If only `parts` were graded, their reports replace the
+        reports in the stored grade. A stored grade with other options or from another version of the checks
+        is removed. Otherwise, the next complete run would use its old points.
         """
         if not parts:
             store.keep(graded)

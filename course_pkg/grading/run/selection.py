@@ -1,6 +1,6 @@
-"""The selection of a run: some students, parts or chapters, or all of them.
+"""The selection of a run: students, parts, chapters, or all of them.
 
-All other results stay as they are.
+All other results do not change.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 from course_pkg.grading.grade import IN_PACKAGES, Grade, Submission
 
-PLATFORM_ID = re.compile(r"_\d+$")  # Moodle and Canvas add this number to the end of a student's name
+PLATFORM_ID = re.compile(r"_\d+$")  # Moodle and Canvas add such a number to the end of a student's name.
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class Selection:
     def for_students(self, submissions: Sequence[Submission]) -> Selection:
         """Return the selection with the students' full names.
 
-        Raises GradingError if a name fits no student, or several students.
+        Raises GradingError if a name matches no student, or several students.
         """
         known = sorted({each.student for each in submissions if each.student})
         return replace(self, students=tuple(_student(name, known) for name in self.students))
@@ -66,7 +66,8 @@ class Selection:
 def selection(students: Sequence[str], chapters: Sequence[str], parts: Sequence[str]) -> Selection:
     """Return the selection for these options; a part also selects its chapter.
 
-    Raises UnknownCheck if a part does not exist, and GradingError if --chapters does not contain its chapter.
+    Raises UnknownCheck if a part does not exist, and GradingError if --chapters does not contain the part's
+    chapter.
     """
     checks = tuple(dict.fromkeys(find(two_digits(part)).check for part in parts))
     asked = tuple(dict.fromkeys(check.partition(".")[0] for check in checks))
@@ -78,13 +79,13 @@ def selection(students: Sequence[str], chapters: Sequence[str], parts: Sequence[
 
 
 def two_digits(number: str) -> str:
-    """Return the number of a chapter or of a part, in which the chapter has two digits: "05" for "5"."""
+    """Return the number of a chapter or part with two digits for the chapter, such as "05" for "5"."""
     chapter, dot, rest = number.strip().partition(".")
     return f"{chapter.zfill(2)}{dot}{rest}"
 
 
 def merged(base: Grade, again: Grade) -> Grade:
-    """Return `base` with the reports of `again`; `again` contains only the parts that were graded again."""
+    """Return `base` with the reports of `again`; `again` contains only the newly graded parts."""
     fresh = {report.check: report for report in again.reports}
     reports = [fresh.pop(report.check, report) for report in base.reports]
     reports = sorted([*reports, *fresh.values()], key=lambda report: list(map(int, report.check.split("."))))
@@ -103,7 +104,7 @@ def merged(base: Grade, again: Grade) -> Grade:
 
 
 def _student(name: str, known: Sequence[str]) -> str:
-    """Return the student whose name is `name`; the number that a platform adds to the name may be missing."""
+    """Return the student with this name; `name` may lack the number that a platform adds."""
     identity = clean.identity(name)
     if identity in known:
         return identity

@@ -9,11 +9,11 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.gradebook import name_of, needs_look
 
 GRADED, NEED_A_LOOK = 0, 3
-SHOWN = 10  # maximum number of names in a line
+SHOWN = 10  # SHOWN is the maximum number of names in a line.
 
 
 def status_of(graded: Sequence[Grade]) -> int:
-    """Return the exit status: GRADED, or NEED_A_LOOK if a submission needs a look."""
+    """Return the exit status: GRADED, or NEED_A_LOOK if an instructor has to examine a submission."""
     return NEED_A_LOOK if any(map(needs_look, graded)) else GRADED
 
 
@@ -24,7 +24,7 @@ def last_line(graded: Sequence[Grade]) -> str:
 
 
 def about_empty(graded: Sequence[Grade]) -> list[str]:
-    """Return a line about students whose folders are empty, or no line if there are none."""
+    """Return a line about students with empty folders, or no line if there are none."""
     names = [name_of(grade.student) for grade in graded if grade.nothing]
     return (
         [f"These students handed in nothing, because their folders are empty: {_listed(names)}."]

@@ -1,1 +1,1 @@
-"""Writes the zip with which Gradescope grades submissions by this course."""
+"""Writes the zip file for grading this course on Gradescope."""

@@ -1,7 +1,7 @@
-"""`course autograder`: writes the zip that an instructor uploads as an autograder of Gradescope.
+"""`course autograder`: writes a zip file that an instructor uploads as a Gradescope autograder.
 
-The zip contains setup.sh, run_autograder, settings.json, the folder `course` with those files of this
-checkout that git tracks and that grading needs, and perhaps the folder `private`.
+The zip contains setup.sh, run_autograder, settings.json, the folder `course` with the tracked files that
+grading needs, and an optional folder `private`.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def write_autograder(options: Options) -> int:
     refuse_inside(out, checkout)
     chapters = tuple(chosen_chapters("", options.chapters))
     settings = Settings(chapters, options.minutes, options.late_per_day, options.late_max_days)
-    if settings.policy:  # raises GradingError if a number is out of its range
+    if settings.policy:  # The property raises GradingError if a number is out of range.
         late_policy(None, options.late_per_day, options.late_max_days, ["the deadline of Gradescope"])
     files = {"settings.json": File(settings.as_json().encode())}
     for name in ("setup.sh", "run_autograder"):

@@ -1,8 +1,8 @@
 """The files of the students' edition: the files that the course needs to run, and the students' notebooks.
 
-The edition does not contain solutions, tests, example answers, grading fixtures, an instructor's private
-checks, and the site's recordings. It contains the checks, because `check()` runs on the student's computer.
-They are packed, because their source contains answers.
+The edition does not contain solutions, tests, example answers, grading fixtures, private checks, and the
+site's recordings. The edition contains the checks, because `check()` runs on the student's computer. The
+checks are packed, because their source contains answers.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ FILES = (
     *(".gitignore", "CMakeLists.txt", "LICENSE", "course", "environment.yml", "package.xml", "postBuild"),
     *("pyproject.toml", "setup.py", "start"),
 )
-# files in a chapter's folder that are left out: example answers, grading fixtures, the site's recordings, and
-# private checks
+# The pattern matches files of a chapter that are left out: example answers, grading fixtures, the site's
+# recordings, and private checks.
 LEFT_OUT = re.compile(
     r"course_pkg/chapters/(?:ch\d\d_\w+/(?:(?:answers|fixtures)(?:\.py$|/)|recordings\.json$)|private_)"
 )
@@ -48,7 +48,7 @@ class File:
 def edition_files(root: Path, released: Sequence[str], hidden: Collection[str]) -> dict[str, File]:
     """Return the files of an edition with the chapters `released`, sorted by path.
 
-    `root` is the checkout with the solutions. The edition's README does not list the commands `hidden`.
+    `root` is the checkout with the solutions. The edition's README does not list the commands in `hidden`.
     Raises AuthoringError if a solution cannot be used, and HandoutError if a file cannot be read.
     """
     found = {name: _file(root / name, packed=bool(CHECKS.fullmatch(name))) for name in _released_paths(root)}
@@ -61,7 +61,7 @@ def edition_files(root: Path, released: Sequence[str], hidden: Collection[str]) 
 
 
 def untracked_files(root: Path) -> list[str]:
-    """Return the files of the package that git does not track; the edition does not contain them."""
+    """Return the files of the package that git does not track; the edition does not contain these files."""
     listed = _git_listing(root, "--others", "--exclude-standard") or []
     return [name for name in listed if is_released(name)]
 
@@ -96,7 +96,7 @@ def tracked_files(root: Path, is_wanted: Callable[[str], bool]) -> Iterator[tupl
 
 def _released_paths(root: Path) -> Iterator[str]:
     listed = _git_listing(root, "--cached")
-    if listed is None:  # the checkout was downloaded without git's data
+    if listed is None:  # In this case, the checkout was downloaded without git's data.
         listed = [str(path.relative_to(root)) for folder in FOLDERS for path in (root / folder).rglob("*")]
         listed = [*(name for name in listed if not WRITTEN_BY_TOOLS.search(name)), *FILES]
     for name in listed:

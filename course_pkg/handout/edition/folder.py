@@ -1,4 +1,4 @@
-"""The folder of an edition: it is a git repository, and each release that changes the edition is a commit."""
+"""The folder of an edition. The folder is a git repository, and each release with a change is a commit."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from course_pkg.handout.edition.contents import File
 from course_pkg.handout.edition.git import git, git_value
 from course_pkg.setup.edition import RECORD
 
-BRANCH = "main"  # the branch of a new repository; an existing repository keeps its branch
-SHOWN = 5  # maximum number of names in a message
+BRANCH = "main"  # A new repository has this branch; the branch of an existing repository does not change.
+SHOWN = 5  # A message lists at most this many names.
 
 
 @dataclass(frozen=True)
 class Release:
-    """The short name of the new commit, or an empty string if the release changed nothing."""
+    """The short name of the new commit, or "" if nothing changed."""
 
     commit: str
     changed: int  # files
@@ -30,9 +30,9 @@ class ReleaseFolder:
     """A folder that only `course release` writes."""
 
     def __init__(self, path: Path) -> None:
-        """Read the list of files that an earlier release wrote.
+        """Read the list of files from an earlier release.
 
-        Raises HandoutError if the folder contains files but no such list.
+        Raises HandoutError if the folder contains files, but no such list.
         """
         self.path = path
         self._before = self._released_before()
@@ -44,19 +44,19 @@ class ReleaseFolder:
 
     @property
     def remote(self) -> str:
-        """The address of the repository's remote `origin`, or an empty string."""
+        """The address of the repository's remote `origin`, or ""."""
         return git_value(self.path, "remote", "get-url", "origin") if (self.path / ".git").exists() else ""
 
     def write(self, files: Mapping[str, File], message: str) -> Release:
         """Write `files`, remove all other files of an earlier release, and commit the changes.
 
-        Raises HandoutError, and changes nothing, if a file that would be overwritten has uncommitted changes,
-        or if the folder cannot be written.
+        Raises HandoutError if a file with uncommitted changes would be overwritten, or if the folder cannot
+        be written. In the first case, nothing is changed.
         """
         self._refuse_changes_by_hand(files)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            # written first, because the user may repeat an interrupted release
+            # The list is written first, so that a user can repeat an interrupted release.
             self._put(RECORD, files[RECORD])
             changed = [name for name, file in files.items() if self._put(name, file)]
             removed = [name for name in self._before if name not in files and self._remove(name)]
@@ -105,7 +105,7 @@ class ReleaseFolder:
         return present is not None and present != wanted
 
     def _put(self, name: str, file: File) -> bool:
-        """Write a file, unless the same file is already there; return whether it was written."""
+        """Write a file, unless the same file already exists; return whether it was written."""
         path = self.path / name
         mode = 0o755 if file.executable else 0o644
         same = path.is_file() and not path.is_symlink() and path.read_bytes() == file.content
@@ -122,12 +122,12 @@ class ReleaseFolder:
             return False
         path.unlink()
         for folder in path.relative_to(self.path).parents[:-1]:
-            with suppress(OSError):  # the folder contains other files
+            with suppress(OSError):  # The folder contains other files.
                 (self.path / folder).rmdir()
         return True
 
     def _commit(self, names: Sequence[str], message: str) -> str:
-        """Commit the present state of the files; return the commit's short name, or "" if nothing changed."""
+        """Commit the current state of the files; return the commit's short name, or "" if nothing changed."""
         if not (self.path / ".git").exists():
             git(self.path, "init", "--quiet", f"--initial-branch={BRANCH}", "--template=")
         listed = "".join(f"{name}\0" for name in dict.fromkeys(names))
@@ -145,7 +145,10 @@ def _stays_inside(name: str) -> bool:
 
 
 def refuse_inside(path: Path, checkout: Path) -> None:
-    """Raise HandoutError if `path` is in the checkout. The next release would contain this release."""
+    """Raise HandoutError if `path` is in the checkout.
+
+    Otherwise, the next release would contain this release.
+    """
     if path.resolve().is_relative_to(checkout.resolve()):
         raise HandoutError(
             f"{path} is inside of the course's own folder. Give a folder outside of {checkout}."

@@ -1,4 +1,4 @@
-"""Runs git in a folder. The user's hooks, and a git command that started this program, have no influence."""
+"""Runs git in a folder. The user's hooks and the variables of a calling git command have no effect."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ SETTINGS = {
     "core.fileMode": "true",
     "core.hooksPath": os.devnull,
     "commit.gpgSign": "false",
-    "safe.directory": "*",  # the instructor chose the folder, so git accepts any owner
+    "safe.directory": "*",  # The instructor chose the folder, so git accepts any owner of it.
 }
-# used if the user has configured no name and address in git
+# This identity is used if the user has configured no name and address in git.
 NO_IDENTITY = {"user.name": "course release", "user.email": "course@localhost"}
 
 
 def git(folder: Path, *arguments: str, given: str = "", identity: bool = False) -> str:
     """Run git in `folder` with the text `given` as its input, and return its output.
 
-    With `identity`, git gets a name and an address for a commit if the user has not configured them. Raises
+    With `identity`, a commit gets a default name and address if the user has not configured them. Raises
     HandoutError if git fails or is not installed.
     """
     settings = {**SETTINGS, **(_missing_identity(folder) if identity else {})}

@@ -7,8 +7,8 @@ from collections.abc import Collection, Sequence
 
 INSTRUCTORS = re.compile(r"<!-- instructors -->\n.*?<!-- end -->\n\n?", re.DOTALL)
 PATHS = re.compile(r"^## Three paths\n.*?(?=^## )", re.DOTALL | re.MULTILINE)
-CHAPTER = re.compile(r"\| (\d\d) \| \[")  # a row of the table of chapters
-COMMAND = re.compile(r"\| `\./course ([a-z-]+)")  # a row of the table of commands
+CHAPTER = re.compile(r"\| (\d\d) \| \[")  # The pattern matches a row of the table of chapters.
+COMMAND = re.compile(r"\| `\./course ([a-z-]+)")  # The pattern matches a row of the table of commands.
 LINK = re.compile(r"\[([^\]\n]+)\]\((?:\./)?(?:notebooks/)?(\d\d)_\w+\.ipynb(?:#[^)\s]*)?\)")
 NOTE = "This is the students' edition: it contains no solutions.{}"
 SOME = " It has {}."
@@ -17,7 +17,7 @@ SOME = " It has {}."
 def student_readme(text: str, released: Sequence[str], known: Sequence[str], hidden: Collection[str]) -> str:
     """Return the students' README, made from the course's README `text`.
 
-    It lists only the chapters `released` (of all chapters `known`), and it does not list the commands
+    The README lists only the chapters in `released` (`known` contains all chapters), and no commands in
     `hidden`. Everything between the comments `<!-- instructors -->` and `<!-- end -->` is removed.
     """
     kept = INSTRUCTORS.sub("", text)
@@ -33,7 +33,7 @@ def student_readme(text: str, released: Sequence[str], known: Sequence[str], hid
 def unlinked(text: str, released: Collection[str]) -> str:
     """Return Markdown without links to the notebooks of unreleased chapters.
 
-    The texts of these links stay.
+    The texts of these links do not change.
     """
     return LINK.sub(lambda link: link[0] if link[2] in released else link[1], text)
 

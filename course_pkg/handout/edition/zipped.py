@@ -1,4 +1,4 @@
-"""The zip file of an edition; the same files always give the same bytes."""
+"""The zip file of an edition. The bytes of the zip depend only on the files in it."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from course_pkg.errors import HandoutError
 from course_pkg.files import write_atomically
 from course_pkg.handout.edition.contents import File
 
-MARK = b"made by course release"  # the zip's comment
-# the time of each file in the zip, so that an unchanged edition gives an unchanged zip
+MARK = b"made by course release"  # This text is the comment of the zip file.
+# Each file in the zip has this time, so an unchanged edition gives an unchanged zip.
 TIME = (2000, 1, 1, 0, 0, 0)
 
 
 def zip_path(folder: Path) -> Path:
     """Return the path of the zip, which is next to the folder of the edition.
 
-    Raises HandoutError if this file exists and no release wrote it.
+    Raises HandoutError if this file exists and was not written by a release.
     """
     path = folder.with_name(f"{folder.name}.zip")
     if path.exists() and not _is_ours(path):
@@ -31,14 +31,14 @@ def zip_path(folder: Path) -> Path:
 
 
 def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
-    """Write `files` to the zip at `path`, in one folder called `folder` unless it is empty."""
+    """Write `files` to the zip at `path`, in a folder with the name `folder`, or in no folder if it is ""."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.comment = MARK
         for name, file in files.items():
             entry = zipfile.ZipInfo(f"{folder}/{name}" if folder else name, TIME)
             entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.create_system = 3  # 3 means Unix; with this value, unzip sets the permissions
+            entry.create_system = 3  # The value 3 means Unix; with it, unzip sets the permissions.
             entry.external_attr = (0o100755 if file.executable else 0o100644) << 16
             archive.writestr(entry, file.content)
     try:

@@ -14,23 +14,23 @@ from pathlib import Path
 from course_pkg.errors import HandoutError
 from course_pkg.grading.tables import delimiter_of
 
-COLUMN = "username"  # of a roster
-LARGEST = 4 << 20  # maximum size of a list of students (bytes)
+COLUMN = "username"  # A roster has this column.
+LARGEST = 4 << 20  # LARGEST is the maximum size of a list of students (bytes).
 
 
 @dataclass(frozen=True)
 class Home:
-    """A student's home folder, and the user whose rights are needed to read the folder."""
+    """A student's home folder, and the user with the rights to read the folder."""
 
     student: str
     path: Path
     uid: int = -1
     gid: int = -1
-    problem: str = ""  # the reason why the folder cannot be read
+    problem: str = ""  # `problem` says why the folder cannot be read.
 
 
 def homes_in(folder: Path, students: list[str] | None = None) -> list[Home]:
-    """Return the homes in `folder`, sorted by name: those of `students`, or all if `students` is None.
+    """Return the homes in `folder`, sorted by name: the homes of `students`, or all homes for None.
 
     Hidden folders, links and `lost+found` are not home folders. Raises HandoutError if `folder` cannot be
     listed.
@@ -46,14 +46,14 @@ def homes_in(folder: Path, students: list[str] | None = None) -> list[Home]:
     found = (
         _home(folder / name, name) for name in names if not name.startswith(".") and name != "lost+found"
     )
-    return [home for home in found if home.uid != 0]  # the user root is not a student
+    return [home for home in found if home.uid != 0]  # The user root is not a student.
 
 
 def groups_of(home: Home) -> list[int]:
     """Return the ids of all groups of the home's owner."""
     try:
         return os.getgrouplist(pwd.getpwuid(home.uid).pw_name, home.gid)
-    except KeyError:  # the owner is a user of a container, and this machine does not know this user
+    except KeyError:  # The owner is a user of a container, and this machine does not know the user.
         return [home.gid]
 
 

@@ -1,9 +1,9 @@
 """Reads a student's work in a child process that has only the rights of this student.
 
-If root runs `course collect`, the child gives up all rights of root before it reads the home folder. It can
-read only what the student can read. Therefore, a link or a folder that changes meanwhile cannot lead to a
-file that the student may not see. If another user runs `course collect`, the child has the rights of that
-user.
+If root runs `course collect`, the child gives up all rights of root before it reads the home folder. The
+child can read only files that the student can read. Therefore, a link, or a folder that changes during the
+reading, cannot lead to a file that the student may not read. If another user runs `course collect`, the child
+has the rights of that user.
 """
 
 from __future__ import annotations
@@ -23,10 +23,11 @@ from course_pkg.handout.homes.listing import Home, groups_of
 from course_pkg.handout.homes.work import Problem, WorkFile, work_in
 from course_pkg.waiting import Deadline
 
-# s for one home; a network folder that does not answer must not stop the collection of the others
+# Reading one home may take this many s, so a network folder without a response cannot stop the whole
+# collection.
 TIMEOUT = 60.0
-ALTOGETHER = 200 << 20  # maximum bytes of one student's work
-HEADER = 64 << 10  # maximum bytes of a header
+ALTOGETHER = 200 << 20  # ALTOGETHER is the maximum number of bytes of one student's work.
+HEADER = 64 << 10  # Each header of the child's data has at most this many bytes.
 CHUNK = 1 << 20
 
 
@@ -35,10 +36,10 @@ def read_home(
 ) -> tuple[list[WorkFile], list[str]]:
     """Return the work in the course's `folder` of a home.
 
-    The second result has a sentence about each thing that could not be collected.
+    The second result contains a sentence about each file or folder that could not be collected.
 
-    `notebooks` maps the name of each notebook's file to its chapter; `asked` are the names of the packages
-    that parts require. The child process ends after at most `timeout` s.
+    `notebooks` maps the name of each notebook's file to its chapter; `asked` contains the names of the
+    packages that parts require. The child process ends after at most `timeout` s.
     """
     reader, writer = os.pipe()
     pid = os.fork()
@@ -65,10 +66,12 @@ def read_home(
 
 
 def become(home: Home) -> None:
-    """Give up all rights except those of the home's owner; do nothing if this process does not run as root.
+    """Give up all rights except the rights of the home's owner.
 
-    After this, no process of the owner can trace this process, because this process has changed its user
-    (ptrace(2)). Raises PermissionError if this process still has rights of root.
+    Do nothing if this process does not run as root.
+
+    After the change of the user, no process of the owner can trace this process (ptrace(2)). Raises
+    PermissionError if this process still has rights of root.
     """
     if os.geteuid() != 0:
         return
@@ -82,7 +85,7 @@ def become(home: Home) -> None:
 def _serve(writer: int, home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]) -> None:
     """Send the work through a pipe, and exit."""
     try:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends this process
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # The parent process ends this process.
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
         os.closerange(3, writer)
         os.closerange(writer + 1, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
@@ -105,7 +108,7 @@ def _send(pipe: BinaryIO, found: WorkFile | Problem) -> None:
 
 
 class _Pipe:
-    """The parent's end of the pipe: it reads lines and blocks of bytes before a deadline."""
+    """The parent's side of the pipe: reads lines and blocks of bytes before a deadline."""
 
     def __init__(self, descriptor: int, timeout: float) -> None:
         self._descriptor = descriptor
@@ -113,7 +116,7 @@ class _Pipe:
         self._kept = bytearray()
 
     def line(self) -> bytes:
-        """Return the next line, or an empty line at the end of the data."""
+        """Return the next line, or b"" after the last line."""
         while b"\n" not in self._kept:
             if len(self._kept) > HEADER:
                 raise HandoutError("the process that reads the folder sent no valid data")
@@ -141,7 +144,7 @@ class _Pipe:
 
 
 def _received(pipe: _Pipe) -> Iterator[WorkFile | Problem]:
-    """Yield everything that the child sends; raise HandoutError if the child ends too early."""
+    """Yield all data that the child sends; raise HandoutError if the child ends too early."""
     left = ALTOGETHER
     while line := pipe.line():
         header = json.loads(line)
@@ -163,7 +166,7 @@ def _received(pipe: _Pipe) -> Iterator[WorkFile | Problem]:
 
 
 def _stays_inside(file: WorkFile) -> bool:
-    """Return whether the file's path stays in the student's folder.
+    """Return whether the file's path is inside the student's folder.
 
     The student can choose any file name, such as "../x".
     """

@@ -3,7 +3,8 @@
 SUBMISSIONS/<student>/NN_topic.ipynb
 SUBMISSIONS/<student>/<package>/package.xml
 
-Each notebook and each whole package is replaced in one step: a reader sees either the old or the new version.
+Each notebook and each whole package is replaced in one step, so a reader never sees a mixture of old and new
+files.
 """
 
 from __future__ import annotations
@@ -18,11 +19,11 @@ from course_pkg.handout.homes.work import WorkFile
 
 
 def store(folder: Path, files: Sequence[WorkFile]) -> None:
-    """Write the work of one student to `folder`, and keep the modification times of the files.
+    """Write the work of one student to `folder` with the modification times of the files.
 
     Other notebooks and packages in the folder are not changed. Raises OSError if a file cannot be written.
     """
-    for draft in folder.glob(".*.collecting"):  # a collection that was killed left this folder
+    for draft in folder.glob(".*.collecting"):  # A killed collection left this folder.
         shutil.rmtree(draft, ignore_errors=True)
     for file in (each for each in files if not each.package):
         write_atomically(folder / file.path, file.content)

@@ -1,9 +1,9 @@
-"""times.csv: the time of the last change of each collected file, which a deadline needs.
+"""times.csv: the time of the last change of each collected file; deadlines need these times.
 
-Its columns are student, chapter, file and time. The file is a path in the folder of submissions. The time is
-the file's modification time in ISO 8601 with a time zone. A package has a row for each of its files, and a
-row for its folder with the time of its newest file. If several chapters require the package, each of these
-chapters has all of these rows.
+The columns are student, chapter, file and time. The column `file` contains a path in the folder of
+submissions. The column `time` contains the file's modification time in ISO 8601 with a time zone. A package
+has a row for each of its files, and a row for its folder with the time of its newest file. If several
+chapters require the package, the table has these rows for each chapter.
 """
 
 from __future__ import annotations
@@ -45,9 +45,9 @@ class TimesTable:
     """The table of times in a folder of submissions."""
 
     def __init__(self, folder: Path) -> None:
-        """Read it.
+        """Read the table.
 
-        Raises HandoutError if the folder contains files but not this table.
+        Raises HandoutError if the folder contains files, but not this table.
         """
         self._path = folder / TIMES
         self._rows = self._read(folder)
@@ -71,7 +71,7 @@ class TimesTable:
             if lines and lines[0] == COLUMNS:
                 return [Row(*line) for line in lines[1:] if len(line) == len(COLUMNS)]
         except (OSError, ValueError, csv.Error):
-            pass  # a row with another format gets the same message below
+            pass  # A row with another format gets the error message below.
         raise HandoutError(
             f"{folder} exists, and `course collect` did not make it (it has no {TIMES} with the columns "
             f"{', '.join(COLUMNS)}), so nothing was collected. Give a new or an empty folder."

@@ -1,7 +1,7 @@
 """A student's work in a home folder: the chapters' notebooks, and the catkin packages that parts require.
 
-Each folder and file is opened relative to its parent folder, and links are not followed. Therefore, it is
-harmless if a folder is replaced by a link meanwhile. The number and the size of the files are limited.
+Each folder and file is opened relative to its parent folder, and links are not followed. Therefore, replacing
+a folder with a link during the reading is harmless. The number and the size of the files are limited.
 """
 
 from __future__ import annotations
@@ -18,12 +18,13 @@ from course_pkg.grading.intake import archive, packages
 from course_pkg.grading.intake.packages import MANIFEST
 from course_pkg.workspace.fault import manifest_tags
 
-NOTEBOOKS, SOURCES = "notebooks", "workspace/src"  # relative to the course's folder
-DEPTH = 12  # folders within folders
-ENTRIES = 5_000  # maximum number of files and folders of a workspace that are examined
-# ns, the year 2100; a file's time can be any number, and larger numbers are not valid dates
+NOTEBOOKS, SOURCES = "notebooks", "workspace/src"  # These paths are relative to the course's folder.
+DEPTH = 12  # Folders can be nested to this depth.
+ENTRIES = 5_000  # At most this many files and folders of a workspace are examined.
+# This time in ns is in the year 2100. A file's time can be any number, but larger numbers are not valid
+# dates.
 LATEST = 4_102_444_800 * 10**9
-TRIES = 3  # number of attempts to read a file that changes while it is read
+TRIES = 3  # If a file changes while it is read, this many attempts are made.
 
 
 @dataclass(frozen=True)
@@ -34,10 +35,10 @@ class WorkFile:
     it.
     """
 
-    path: str  # NN_topic.ipynb, or the path inside the package
+    path: str  # `path` is NN_topic.ipynb, or the path inside the package.
     content: bytes = field(repr=False)
-    modified: int  # ns since 1970; the file's owner can set this time
-    # ns since 1970, the time of the last write, move or other change; users cannot set this time
+    modified: int  # The time is in ns since 1970; the file's owner can set this time.
+    # The time (ns since 1970) of the last write, move or other change. Users cannot set this time.
     changed: int
     executable: bool = False
     package: str = ""
@@ -51,7 +52,7 @@ class WorkFile:
 
 @dataclass(frozen=True)
 class Problem:
-    """Something that was not collected, with the reason as a sentence."""
+    """A file or folder that was not collected, with the reason as a sentence."""
 
     reason: str
 
@@ -62,19 +63,20 @@ class Refused(HandoutError):
 
 @dataclass
 class Walk:
-    """A search in a workspace: the packages to look for, the packages found, and the remaining limits."""
+    """A search in a workspace: the packages to find, the packages found, and the remaining limits."""
 
     asked: frozenset[str]
-    found: set[str] = field(default_factory=set)  # names of the folders of the packages
+    found: set[str] = field(default_factory=set)  # The set contains the names of the packages' folders.
     entries: int = ENTRIES
 
 
 def work_in(
     home: str, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]
 ) -> Iterator[WorkFile | Problem]:
-    """Yield the work in the course's `folder` of a home folder; it is read with this process's rights.
+    """Yield the work in the course's `folder` of a home folder, read with the rights of this process.
 
-    `notebooks` maps the name of each notebook's file to its chapter; `asked` are the names of the packages.
+    `notebooks` maps the name of each notebook's file to its chapter; `asked` contains the names of the
+    packages.
     """
     try:
         with _opened(home) as top, _opened(folder, top) as course:
@@ -87,7 +89,7 @@ def work_in(
 
 
 def _notebooks(course: int, notebooks: Mapping[str, str]) -> Iterator[WorkFile | Problem]:
-    """Yield the notebooks in the folder `notebooks`, and then those in the course's folder itself."""
+    """Yield the notebooks in the folder `notebooks`, and then the notebooks in the course's folder itself."""
     done: set[str] = set()
     for place in (NOTEBOOKS, ""):
         try:
@@ -133,15 +135,15 @@ def _below(folder: int, name: str, depth: int, walk: Walk) -> Iterator[WorkFile 
         try:
             with _opened(item, folder) as inner:
                 yield from _below(inner, item, depth - 1, walk)
-        except OSError as error:  # in most cases, it is a file
+        except OSError as error:  # In most cases, the path is a file.
             if item in walk.asked:
                 yield Problem(_reason(f"the package {item}", error))
 
 
 def _package(folder: int, name: str, walk: Walk) -> Iterator[WorkFile | Problem]:
-    """Yield the files of a package that parts require, and the files left out.
+    """Yield the files of a required package, and a problem for each file that is left out.
 
-    Or the reason why nothing is collected.
+    If nothing can be collected, yield only the reason.
     """
     label = f"the package {name}"
     files: list[WorkFile] = []
@@ -183,7 +185,7 @@ def _fill(folder: int, prefix: str, files: list[WorkFile], problems: list[str], 
 
 
 class NotRegular(Refused):
-    """A link, a pipe or a device in place of a file."""
+    """A link, a pipe or a device instead of a file."""
 
 
 def _read(folder: int, name: str, largest: int) -> WorkFile:
@@ -211,7 +213,7 @@ def _read(folder: int, name: str, largest: int) -> WorkFile:
 def _opened(path: str, above: int | None = None) -> Iterator[int]:
     """Open the folder `path`, relative to the open folder `above`, without following a link.
 
-    "" means `above` itself.
+    If `path` is "", open `above` itself.
     """
     flags = os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC
     if above is None:

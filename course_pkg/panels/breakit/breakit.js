@@ -3,7 +3,7 @@ import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "..
 import { block, lookTitle } from "./parts.js";
 
 const STATES = { new: "not answered", wrong: "no right answer yet", shown: "answer looked at", solved: "solved" };
-const SLOW = 1500; // ms; if the kernel has not handled a click by then, the panel says why
+const SLOW = 1500; // If the kernel has not handled a click after this many ms, the panel shows the reason.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -59,7 +59,7 @@ class LabView {
       onclick: (/** @type {Event} */ event) => this.#ask(/** @type {HTMLElement} */ (event.currentTarget), { kind: "open", case: number }) });
   }
 
-  /** The Tab key stops once in the row of cases; the arrow keys go from case to case. @param {KeyboardEvent} event */
+  /** The Tab key moves to the row of cases; the arrow keys move from case to case. @param {KeyboardEvent} event */
   #arrow(event) {
     const at = this.buttons.indexOf(/** @type {HTMLElement} */ (document.activeElement));
     const steps = { ArrowRight: at + 1, ArrowDown: at + 1, ArrowLeft: at - 1, ArrowUp: at - 1, Home: 0, End: this.buttons.length - 1 };
@@ -200,7 +200,7 @@ class LabView {
     this.slow = setTimeout(() => say(this.status, "Waiting for the kernel: it is busy with another cell."), SLOW);
   }
 
-  /** The kernel has handled a click. */
+  /** Shows that the kernel has handled a click. */
   #taken() {
     clearTimeout(this.slow);
     this.#draw();
@@ -218,7 +218,7 @@ function settled(open) {
   return ["right", "shown"].includes(open.verdict?.state);
 }
 
-/** Returns a group of options, of which the student picks one. @param {string} title @param {() => void} changed */
+/** Returns a group of radio buttons. @param {string} title @param {() => void} changed */
 function question(title, changed) {
   const name = freshId("ros-question");
   const list = h("div", { class: "ros-options" });

@@ -10,12 +10,12 @@ from course_pkg.faults.catalogue import every_fault, select
 from course_pkg.faults.fault import Fault
 from course_pkg.panels.store import Store
 
-OPTIONS = 5  # diagnoses to choose from, including the right one
+OPTIONS = 5  # A case has this many diagnoses to choose from, including the right one.
 
 
 @dataclass(frozen=True)
 class Case:
-    """A fault, and its number in the list; the number does not reveal the fault."""
+    """A fault with its number in the list of cases; the number does not reveal the fault."""
 
     number: int
     fault: Fault
@@ -27,10 +27,10 @@ class Case:
 class CaseRecord:
     """The student's answers to one case.
 
-    `key` is the name of the case's fault, and `tries` counts the answers.
+    `key` is the name of the fault, and `tries` is the number of answers.
 
-    `first` says whether the first answer was right, and `solved` whether any answer was right. `shown` says
-    whether the student looked at the solution before a right answer.
+    `first` is True if the first answer was right, and `solved` is True if any answer was right. `shown` is
+    True if the student opened the solution before a right answer.
     """
 
     key: str
@@ -41,14 +41,14 @@ class CaseRecord:
 
     @property
     def state(self) -> str:
-        """The state of the case: "new", "wrong", "shown" or "solved"."""
+        """The state of the case is "new", "wrong", "shown" or "solved"."""
         if self.solved:
             return "solved"
         return "shown" if self.shown else "wrong" if self.tries else "new"
 
 
 class CaseStore(Store[CaseRecord]):
-    """The answers in one file, by the name of the fault."""
+    """The student's answers in one file; the key of a record is the name of the fault."""
 
     record = CaseRecord
     file = "cases.json"
@@ -69,7 +69,7 @@ def cases(*chosen: str) -> tuple[Case, ...]:
 
 
 def fault_with(diagnosis: str) -> Fault | None:
-    """Return the fault with this diagnosis, or None if there is none."""
+    """Return the fault with this diagnosis, or None."""
     return next((fault for fault in every_fault() if fault.diagnosis == diagnosis), None)
 
 
@@ -88,7 +88,7 @@ def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
 
 
 def _could_be(fault: Fault, other: Fault) -> bool:
-    """Return whether `other` has a similar symptom, and its diagnosis is wrong for `fault`."""
+    """Return whether `other` has a similar symptom, but its diagnosis is wrong for `fault`."""
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
     return other.look.split()[0] == fault.look.split()[0] and not same
 

@@ -1,7 +1,6 @@
-"""The state of the lab.
+"""The state of the panel "Break it".
 
-This module needs no page and no kernel: the caller passes the functions `stage` and `use`. `stage` and `use`
-are functions of its caller.
+This module runs without a page and without a kernel: the caller passes the functions `stage` and `use`.
 """
 
 from __future__ import annotations
@@ -19,8 +18,8 @@ from course_pkg.panels.breakit.cases import Case, CaseRecord, CaseStore, fault_w
 from course_pkg.panels.breakit.worker import Worker
 from course_pkg.ros.explain.explanation import taught
 
-STEP = 30.0  # s, timeout of each step when a case is recorded
-LOG = 8  # maximum number of stored outputs of tools, in addition to the symptom
+STEP = 30.0  # In a recording of a case, each step has this timeout in s.
+LOG = 8  # The panel stores the symptom and at most this many outputs of tools.
 
 
 class ToolUse(TypedDict):
@@ -35,7 +34,10 @@ class ToolUse(TypedDict):
 
 
 class Verdict(TypedDict, total=False):
-    """The result of an answer, or the solution; `server` is the program of the server, if there is one."""
+    """The result of an answer, or the solution.
+
+    `server` is the program of the server, if the case has a server.
+    """
 
     state: Literal["right", "half", "wrong", "shown"]
     words: str
@@ -67,7 +69,7 @@ class Listed(TypedDict):
 
 
 class Score(TypedDict):
-    """The number of cases (`of`), of solved cases, and of cases that were solved with the first answer."""
+    """The number of all cases (`of`), of solved cases, and of cases with a right first answer."""
 
     solved: int
     first: int
@@ -82,15 +84,15 @@ class Overview(TypedDict):
 
 
 class Scene(Protocol):
-    """A fault that can be caused on the graph and undone."""
+    """A fault that the lab can cause on the graph and undo."""
 
     keeper: Program | None
 
     def cause(self) -> None:
-        """Cause the fault."""
+        """Cause the fault on the graph."""
 
     def undo(self) -> None:
-        """Undo the fault."""
+        """Undo the fault on the graph."""
 
 
 SceneType = TypeVar("SceneType", bound=Scene)
@@ -99,9 +101,9 @@ SceneType = TypeVar("SceneType", bound=Scene)
 class LabModel(Generic[SceneType]):
     """Causes the fault of a case, shows its symptom, runs tools, checks the answer, and undoes the fault.
 
-    One worker thread makes all changes to the graph, in the order of the calls. It calls `changed` from any
-    thread, with the keyword arguments `cases`, `score`, `case` and `trouble`. `stage` returns the scene of a
-    fault. `use` runs a tool on a scene and returns its output.
+    One worker thread makes all changes to the graph, in the order of the calls. The model calls `changed`
+    from any thread, with the keyword arguments `cases`, `score`, `case` and `trouble`. `stage` returns the
+    scene of a fault. `use` runs a tool on a scene and returns its output.
     """
 
     def __init__(
@@ -139,7 +141,7 @@ class LabModel(Generic[SceneType]):
         return {"cases": listed, "score": {"solved": len(solved), "first": first, "of": len(listed)}}
 
     def open(self, number: int) -> None:
-        """Undo the current fault and cause the fault of case `number`; `changed` receives its symptom."""
+        """Undo the current fault and cause the fault of case `number`; `changed` receives the symptom."""
         case = self._cases[number]
         with self._turn:
             if self._state.get("phase") in ("causing", "looking"):
@@ -197,7 +199,7 @@ class LabModel(Generic[SceneType]):
             self._report_all()
 
     def play(self, name: str, tools: Iterable[str]) -> None:
-        """Cause the fault `name`, run `tools`, and undo the fault, so that a saved page shows the outputs."""
+        """Cause the fault `name`, run the tools, and undo the fault: a saved page then shows the outputs."""
         number = next(number for number, case in self._cases.items() if case.fault.name == name)
         self.open(number)
         self._worker.finish(STEP)
@@ -207,7 +209,7 @@ class LabModel(Generic[SceneType]):
         self.close()
 
     def undo(self) -> None:
-        """Return at once; the worker thread undoes the current fault when the running job has ended."""
+        """Let the worker thread undo the current fault after the running job. The call returns at once."""
         with self._turn:
             if self._state.get("phase") in ("over", None):
                 return
@@ -215,7 +217,7 @@ class LabModel(Generic[SceneType]):
         self._worker.do(self._undo)
 
     def close(self, timeout: float = 15.0) -> None:
-        """Undo the current fault, and wait until this is done, but for at most `timeout` s."""
+        """Undo the current fault; wait at most `timeout` s until the fault is undone."""
         self.undo()
         self._worker.finish(timeout)
 
@@ -289,7 +291,7 @@ def _shown(number: int, tool: str, seen: Seen) -> ToolUse:
 def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -> Verdict:
     """Return the result of an answer.
 
-    For a wrong answer, it contains the symptom that this answer would cause.
+    For a wrong answer, the result contains the symptom that the chosen diagnosis would cause.
     """
     if right and right_remedy:
         return _solution(fault, "right", "Right.")

@@ -1,4 +1,4 @@
-/* One output of a case: the program or command that was run, and what it printed. */
+/* One output of a case: a program or command, and the text that it printed. */
 import { h } from "../kit.js";
 
 /** @typedef {{number: number, tool: string, shown: string, said: string, verdict: string, waiting: boolean}} Look */

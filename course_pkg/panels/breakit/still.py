@@ -25,7 +25,7 @@ VERDICTS = {"right": GOOD, "half": ACCENT, "wrong": ERROR, "shown": ACCENT}
 
 
 def still(state: State) -> str:
-    """Return the picture of the list of cases and, if a case is open, of this case."""
+    """Return the picture of the list of cases and of the open case, if a case is open."""
     cases, score, case = state["cases"], state["score"], state.get("case") or {}
     paper = Paper(f"The lab Break it: {len(cases)} cases, {score['solved']} of them solved")
     paper.put("Break it", EDGES, paper.y + PLAIN.height / 2, Style(12.0, bold=True, colour=ACCENT))

@@ -1,4 +1,4 @@
-"""The widget of the panel "Break it"; its text/plain is the same for every student."""
+"""The widget of the panel "Break it"; its text/plain output is the same for every student."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ HERE = Path(__file__).parent
 class BreakIt(Panel):
     """Cases with a real fault on the running graph: the student finds the fault from its symptom.
 
-    `chosen` are names of faults or of the groups "serving", "calling" and "masters"; without a name, the
-    panel shows all cases. A fault is undone when another case begins, when the last page that shows the panel
-    is closed, and when the kernel ends. The page receives the name of a case's fault only after the student's
-    answer. Raises UnknownFault if a name is neither a fault nor a group.
+    `chosen` contains names of faults or of the groups "serving", "calling" and "masters". If `chosen` is
+    empty, the panel shows all cases. The panel undoes a fault when another case begins, when no page shows
+    the panel any more, and when the kernel ends. The page receives the name of the fault only after the
+    student's answer. Raises UnknownFault if a name is neither a fault nor a group.
     """
 
     front_end: ClassVar[Path] = HERE / "breakit.js"
@@ -42,7 +42,7 @@ class BreakIt(Panel):
         self.publish(**self._model.overview())
 
     def record(self, cases: Mapping[str, Iterable[str]]) -> None:
-        """Run cases and use tools in each, for a page without a kernel; the page shows the last case.
+        """Run cases with tools for a page without a kernel; the page shows the last case.
 
         `cases` maps names of faults to names of tools: {"stale": ["services", "ping"]}.
         """
@@ -70,7 +70,7 @@ class BreakIt(Panel):
     def close(self) -> None:
         """Remove the panel from every page and undo the current fault, which takes up to 0.3 s."""
         super().close()
-        if hasattr(self, "_model"):  # the constructor may have raised an error
+        if hasattr(self, "_model"):  # The attribute is missing if the constructor raised an error.
             self._model.close()
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""A thread for the panel's long jobs, such as causing a fault; a page must not wait for them."""
+"""A thread for the panel's long jobs, such as causing a fault."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 
 class Worker:
-    """Runs jobs one after the other on a thread, which ends when no job is left.
+    """Runs jobs one after the other on a thread; the thread ends when no job is left.
 
     If a job raises an error, the thread calls `failed` with this error.
     """
@@ -33,7 +33,7 @@ class Worker:
             self._jobs.clear()
 
     def finish(self, timeout: float) -> bool:
-        """Wait for at most `timeout` s until all jobs are done; return whether all are done."""
+        """Wait at most `timeout` s until all jobs are done; return whether all jobs are done."""
         thread = self._thread
         if thread is not None and thread is not threading.current_thread():
             thread.join(timeout)

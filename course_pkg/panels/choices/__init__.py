@@ -1,1 +1,1 @@
-"""The choices panel: the student chooses one of a few options for each case, and then reads the reasons."""
+"""The choices panel: the student chooses an option for each case, and then reads the reasons."""

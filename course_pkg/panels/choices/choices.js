@@ -17,9 +17,9 @@ class ChoicesView {
   constructor(model) {
     this.model = model;
     this.live = true;
-    this.asked = false; // whether the button was pressed before all cases were decided
+    this.asked = false; // true if the button was pressed before the student decided all cases
     /** @type {Map<number, string>} */
-    this.sent = new Map(); // options by case that the kernel has not confirmed yet
+    this.sent = new Map(); // the options by case that the kernel has not confirmed yet
     this.rows = model.get("cases").map((/** @type {string} */ text, /** @type {number} */ number) => this.#row(text, number));
     this.status = h("p", { class: "ros-standing", role: "status", "aria-live": "polite", tabindex: "-1" });
     this.button = h("button", { type: "button", class: "ros-main", onclick: () => this.#press() });

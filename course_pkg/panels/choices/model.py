@@ -1,6 +1,6 @@
 """The model of the choices panel: the student decides all cases and then reads the reasons.
 
-It needs no kernel.
+This module runs without a kernel.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Whether the student chose the expected option in a case."""
+    """The result for one case: whether the student chose the expected option."""
 
     chosen: str
     fits: bool
@@ -34,11 +34,11 @@ class Verdict:
 
 @dataclass(frozen=True)
 class ChoiceRecord:
-    """The choices for one table of cases. `chosen` and `first` map the text of a case to an option.
+    """The choices for one table of cases. `chosen` and `first` map the text of a case to the chosen option.
 
-    `compared` is the time (ISO 8601 in UTC) at which the reasons were first shown, or "" if they were never
-    shown. `first` contains the choices at that time; only these choices count. `fit` is the number of
-    expected options among these choices. `shown` says whether the panel shows the reasons at present.
+    `compared` is the time (ISO 8601 in UTC) when the reasons were first shown; it is "" before that time.
+    `first` contains the choices at the time `compared`; later choices do not count. `fit` is the number of
+    expected options in `first`. `shown` is True while the panel shows the reasons.
     """
 
     key: str
@@ -52,7 +52,7 @@ class ChoiceRecord:
 
     @property
     def standing(self) -> str:
-        """One sentence: how many choices were made, or how many of the first choices are expected options."""
+        """One sentence with the number of choices, or of expected options in the first choices."""
         if not self.compared:
             return f"{len(self.chosen)} of {self.cases} cases decided."
         return f"{self.fit} of {len(self.first)} of your first choices fit."
@@ -61,7 +61,7 @@ class ChoiceRecord:
 class ChoiceStore(Store[ChoiceRecord]):
     """The student's choices in one file; each record has a key.
 
-    The first edition of the course used `choices.json`. This class neither reads nor changes that file.
+    The first edition of the course stored choices in `choices.json`. This class does not use that file.
     """
 
     record = ChoiceRecord
@@ -72,7 +72,7 @@ class ChoiceStore(Store[ChoiceRecord]):
 class ChoicesModel:
     """The cases with their options, and the record of the student's choices.
 
-    Raises NotAChoice if the answer of a case is not among the options, or if a case is given twice.
+    Raises NotAChoice if the answer of a case is not among the options, or if two cases are equal.
     """
 
     def __init__(
@@ -92,13 +92,13 @@ class ChoicesModel:
 
     @property
     def record(self) -> ChoiceRecord:
-        """The stored record, or an empty one if nothing is stored."""
+        """The stored record, or an empty record."""
         fresh = ChoiceRecord(self.key, self.question)
         return replace(self._store.read().get(self.key, fresh), question=self.question, cases=len(self.cases))
 
     @property
     def chosen(self) -> list[str]:
-        """The option that was chosen for each case; "" if no option was chosen."""
+        """The chosen option of each case, or "" for a case without a choice."""
         kept = self.record.chosen
         return [kept[case.text] if kept.get(case.text) in self.options else "" for case in self.cases]
 
@@ -118,9 +118,9 @@ class ChoicesModel:
         return self._store.write(replace(record, chosen={**record.chosen, self.cases[number].text: option}))
 
     def compare(self) -> ChoiceRecord:
-        """Show the reasons if every case is decided.
+        """Show the reasons if the student has chosen an option for every case.
 
-        The first time, the choices are also stored as `first`.
+        The first call also stores the choices as `first`.
         """
         record = self.record
         if "" in self.chosen:
@@ -132,7 +132,7 @@ class ChoicesModel:
         return self._store.write(replace(record, shown=True))
 
     def again(self) -> ChoiceRecord:
-        """Hide the reasons and delete the choices, but keep `first`."""
+        """Hide the reasons and delete the choices, but do not delete `first`."""
         return self._store.write(replace(self.record, chosen={}, shown=False))
 
     def _check(self) -> None:

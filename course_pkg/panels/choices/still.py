@@ -16,7 +16,7 @@ from course_pkg.panels.paper import (
     prose,
 )
 
-INDENT = 24.0  # px from the number of a case to its text
+INDENT = 24.0  # The text of a case begins this many px to the right of its number.
 
 
 def still(state: State) -> str:

@@ -1,4 +1,4 @@
-"""The widget of the choices panel; its text/plain is the same for every student."""
+"""The widget of the choices panel; its text/plain output is the same for every student."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ HERE = Path(__file__).parent
 
 
 class _First(TypedDict, total=False):
-    """`fit` of the `of` first choices are the expected options.
+    """The first choices: `of` is their number, and `fit` is the number of expected options among them.
 
-    `now` says whether they are still the present choices.
+    `now` is True if the current choices are the first choices.
     """
 
     fit: int
@@ -36,7 +36,7 @@ class _State(TypedDict):
 class Choices(Panel):
     """A table of cases: the student chooses an option for each, and then reads the reasons.
 
-    The page gets the expected options and the reasons only when it has to show them.
+    The page does not get the expected options and the reasons before it shows them.
     """
 
     front_end: ClassVar[Path] = HERE / "choices.js"
@@ -97,8 +97,8 @@ def choose(
 ) -> Choices:
     """Return a panel in which the student chooses one of `options` for each case.
 
-    `key` is `chapter.name`. Each case is a tuple (case, answer, reason); the panel shows text between
-    backticks as code. Without arguments, the panel has ten cases, and the options are a topic, a service and
-    an action. Raises NotAChoice if an answer is not an option, or if two cases are equal.
+    `key` is `chapter.name`. Each case is a tuple (case, answer, reason). The panel shows text between
+    backticks as code. Without arguments, the panel has ten cases with the options topic, service and action.
+    Raises NotAChoice if an answer is not an option, or if two cases are equal.
     """
     return Choices(key, question, options, cases)

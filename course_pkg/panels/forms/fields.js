@@ -29,7 +29,7 @@ export class FieldsForm {
     this.#build(draft);
   }
 
-  /** Writes a draft into the form. If only texts differ, the controls stay. @param {any} draft */
+  /** Writes a draft into the form. If only texts differ, the controls are not replaced. @param {any} draft */
   fill(draft) {
     if (same(draft, this.draft)) return;
     if (!same(shape(draft), shape(this.draft))) return this.#build(draft);
@@ -37,7 +37,7 @@ export class FieldsForm {
     for (const [path, control] of this.controls) write(control.input, read(this.draft, path));
   }
 
-  /** Shows the errors: at fields that the student has already left or, if `all` is true, at all fields.
+  /** Shows the errors: at all fields if `all` is true, and otherwise at fields that the student has already left.
    * @param {Record<string, string>} errors @param {boolean} all */
   mark(errors, all) {
     for (const [path, control] of this.controls) {
@@ -190,7 +190,7 @@ function hint(field) {
 function blank(field) {
   if (field.kind === "array") return Array.from({ length: field.length ?? 0 }, () => blank(/** @type {Field} */ (field.item)));
   if (field.kind === "message") return Object.fromEntries((field.fields ?? []).map((part) => [part.name, blank(part)]));
-  return typeof field.default === "string" ? field.default : "0"; // a time is typed in seconds
+  return typeof field.default === "string" ? field.default : "0"; // The student types a time in seconds.
 }
 
 /** @param {HTMLInputElement} input @param {string} text */

@@ -9,34 +9,34 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-CONTROLS = 16  # maximum number of elements with a separate input field; a longer array is one line of text
-LIMIT = 200  # maximum number of rows of a table
-ELEMENTS = 32  # maximum number of elements of an array in a table
+CONTROLS = 16  # An array with more elements than this has one line of text instead of separate input fields.
+LIMIT = 200  # A table has at most this many rows.
+ELEMENTS = 32  # A table shows at most this many elements of an array.
 _NANO = 10**9
 
-Draft: TypeAlias = dict[str, StringTree]  # the text of each field in a form
+Draft: TypeAlias = dict[str, StringTree]  # A draft contains the text of each field in a form.
 Values: TypeAlias = Mapping[str, Plain]
 
 
 class Check(TypedDict, total=False):
     """The result of checking a form: an error for each wrong field, or the equivalent commands.
 
-    `refused` is the number of clicks on a button that the form refused. The page compares this number with
-    the previous one to notice each refused click.
+    `refused` is the number of clicks on a button that the form refused. The page compares `refused` with its
+    previous value to notice a refused click.
     """
 
     errors: dict[str, str]
     refused: int
-    shell: str  # equivalent commands for a service
+    shell: str  # The equivalent terminal commands for a service call.
     python: str
-    once: str  # the equivalent command that publishes once
+    once: str  # The equivalent command publishes one message.
     often: str
 
 
 class Row(TypedDict):
     """A row of a table of values.
 
-    If the value has several parts, `text` is empty, and the parts are in the next rows with a larger `depth`.
+    A value with several parts has an empty `text`; its parts are in the next rows, with a larger `depth`.
     """
 
     depth: int
@@ -54,7 +54,7 @@ class MessageForm:
         self._commands = commands
 
     def errors(self, draft: Draft) -> dict[str, str]:
-        """Return the error messages by field path; there is at most one for each top-level field."""
+        """Return the error messages by field path, with at most one message for each top-level field."""
         wrong: dict[str, str] = {}
         given = {**self.blank, **draft}
         for name in self.blank:
@@ -88,18 +88,18 @@ class MessageForm:
         return {**draft, **{name: formatted[name] for name in values}}
 
     def formatted(self, values: Values) -> Draft:
-        """Return values as the strings that the form shows."""
+        """Return values as strings for the input fields of the form."""
         return compact(self.message.fields, self.message.format(values))
 
 
 def correction(error: FieldError) -> str:
-    """Return the text next to a wrong field: the problem, and the allowed values."""
+    """Return the text that the page shows next to a wrong field: the problem, and the allowed values."""
     hint = f"; {error.hint}" if error.hint else ""
     return f"{error.problem[:1].upper()}{error.problem[1:]}. Give {error.allowed}{hint}."
 
 
 def compact(fields: Sequence[Field], strings: Mapping[str, StringTree]) -> Draft:
-    """Return a string tree in which a time is a number of seconds, and a long array is one line.
+    """Return a copy with each time as a number of seconds, and with each long array as one line.
 
     Only arrays of numbers or booleans become one line.
     """
@@ -132,7 +132,7 @@ def _seconds(secs: int, nsecs: int) -> str:
 
 
 def rows(fields: Sequence[Field], strings: Mapping[str, StringTree], limit: int = LIMIT) -> list[Row]:
-    """Return a table of a string tree: a row for each value, at most `limit` rows."""
+    """Return a table of a string tree with a row for each value, but at most `limit` rows."""
     lines = list(islice(_fields(fields, strings, 0), limit + 1))
     if len(lines) > limit:
         lines[limit - 1 :] = [Row(depth=0, name="…", type="", text="more values than are shown here")]

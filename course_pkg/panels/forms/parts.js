@@ -1,4 +1,4 @@
-/* Parts that panels show next to a form: a message as a table, and a command to copy. */
+/* Elements that panels show next to a form: a message as a table, and a command to copy. */
 import { copyButton, h } from "../kit.js";
 
 /** @param {string} label @param {HTMLElement} pre @param {string} what */

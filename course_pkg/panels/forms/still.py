@@ -1,4 +1,4 @@
-"""The elements that several still pictures have: a form, a table of values, and commands."""
+"""Drawing functions that several still pictures use: for a form, a table of values, and commands."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 from course_pkg.panels.paper import CODE, EDGES, FAINT, FAINT_CODE, HEADING, Column, Paper, State
 
-MOST = 16  # maximum number of rows of a form or of a table
-FIELD = 250.0  # px, width of an input field
-INDENT = 14.0  # px for each level of nesting
+MOST = 16  # A form or a table has at most this many rows.
+FIELD = 250.0  # An input field is this many px wide.
+INDENT = 14.0  # Each level of nesting moves a row to the right by this many px.
 
 
 def draw_form(paper: Paper, fields: Sequence[State], draft: State, empty: str, room: float = FIELD) -> None:

@@ -12,22 +12,22 @@ from course_pkg.panels.graph.picture import Kind, Picture, Shape, namespaces
 if TYPE_CHECKING:
     from course_pkg.ros.trace.activity import Activity, Traffic
 
-# s: time for measuring a steady rate, and time in which a change of the rate is noticed
+# The rate is measured over LONG s. A change of the rate is noticed after SHORT s.
 LONG, SHORT = 30.0, 3.9
-LEAST = 1.5  # s; a rate is not reliable if it is measured over a shorter time
-LATE = 0.05  # s; a busy node may report its counts late by this time
-SHOWN = 12  # maximum number of connections of a topic, or of callers of a service, in the details
+LEAST = 1.5  # A rate that was measured over a shorter time than this (s) is not reliable.
+LATE = 0.05  # A busy node may report its counts with a delay of up to this many s.
+SHOWN = 12  # The details list at most this many connections of a topic, or callers of a service.
 UNCONNECTED = "not connected: do both have the same type?"
 
 Key = tuple[str, str, str, int]
-Pair = list[str]  # a label and its value
+Pair = list[str]  # A pair contains a label and its value.
 
 
 class Caller(TypedDict):
     """A node that called a service, with the number of its calls.
 
     `last` is the time of the latest call (s since the epoch), and `running` is the number of unfinished
-    calls. `gone` says whether the node has left the graph.
+    calls. `gone` is True if the node has left the graph.
     """
 
     node: str
@@ -47,11 +47,11 @@ class CallLine(TypedDict):
 
 
 class ActivityState(TypedDict, total=False):
-    """The activity that the page shows; each dict has the keys of the shapes.
+    """The activity that the page shows; the keys of each dict are the keys of shapes.
 
-    `notes` are short texts below the names of topics, with at most 12 letters each. `details` are pairs of a
-    label and a value. `callers` lists the nodes that called each service. A service whose server does not
-    report its callers is missing. `calls` are lines to draw.
+    `notes` are the short texts below the names of topics, with at most 12 letters each. `details` contains
+    pairs of a label and a value. `callers` lists the nodes that called each service. If a server does not
+    report its callers, `callers` has no entry for its service. `calls` contains the lines to draw.
     """
 
     notes: dict[str, str]
@@ -61,16 +61,17 @@ class ActivityState(TypedDict, total=False):
 
 
 class RateMeter:
-    """The rate of one connection."""
+    """Measures the rate of one connection."""
 
     def __init__(self) -> None:
         self._counts: deque[tuple[float, int]] = deque()
         self._shown: float | None = None
 
     def read(self, at: float, messages: int) -> None:
-        """Add a count: the number of messages until the time `at` (s)."""
+        """Add a count: the number of messages from the beginning until the time `at` (s)."""
         if self._counts and messages < self._counts[-1][1]:
-            # a smaller count: the publisher was restarted, and its new connection has the same number
+            # A smaller count means that the publisher was restarted, and the new connection got the same
+            # number.
             self._counts.clear()
         self._counts.append((at, messages))
         while at - self._counts[0][0] > LONG:
@@ -80,7 +81,7 @@ class RateMeter:
 
     @property
     def rate(self) -> float | None:
-        """Messages per second, rounded to the reliable digits; None as long as there are too few counts."""
+        """Messages per second, rounded to the reliable digits; None if there are too few counts."""
         return self._shown
 
     def _forget_former_rate(self) -> None:
@@ -107,7 +108,7 @@ class RateMeter:
 
 
 def plainest(rate: float, tolerance: float) -> float:
-    """Return the number with the fewest digits whose difference from the rate is at most `tolerance`."""
+    """Return the number with the fewest digits that differs from the rate by at most `tolerance`."""
     if rate <= 0:
         return 0.0
     for digits in range(3):
@@ -125,13 +126,13 @@ def rate_text(rate: float) -> str:
 
 
 class Rates:
-    """The rates of all connections of a graph."""
+    """Measures the rates of all connections of a graph."""
 
     def __init__(self) -> None:
         self._meters: dict[Key, RateMeter] = {}
 
     def read(self, activity: Activity) -> None:
-        """Add all counts that were read at one time, and remove connections that have ended."""
+        """Add all counts that were read at the same time, and remove connections that have ended."""
         meters = {_key(each): self._meters.get(_key(each)) or RateMeter() for each in activity.traffic}
         for each in activity.traffic:
             meters[_key(each)].read(activity.at, each.messages)
@@ -159,7 +160,7 @@ class _Ends:
 
 
 class GraphActivity:
-    """Computes the activity for the page from counts that are read repeatedly."""
+    """Computes the activity that the page shows from repeated counts."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None
@@ -167,7 +168,7 @@ class GraphActivity:
         self._carried: dict[str, list[Traffic]] = defaultdict(list)
 
     def read(self, activity: Activity) -> None:
-        """Add all counts that were read at one time."""
+        """Add all counts that were read at the same time."""
         self.seen = activity
         self._rates.read(activity)
         self._carried.clear()
@@ -177,9 +178,9 @@ class GraphActivity:
     def state(self, picture: Picture, alive: Container[str], box: Callable[[str], str]) -> ActivityState:
         """Return the activity for the page.
 
-        `alive` are the names of all nodes on the graph, including nodes that the panel does not show. `box`
-        returns the key of the visible shape for a key: the same key, or the key of the folded namespace that
-        contains the shape.
+        `alive` contains the names of all nodes on the graph, including nodes that the panel does not show.
+        `box` maps the key of a shape to the key of the visible shape: a folded namespace replaces the shapes
+        in it.
         """
         ends = _Ends(picture)
         topics = {each.key: self._topic(each, ends) for each in picture.shapes if each.kind is Kind.TOPIC}
@@ -211,7 +212,7 @@ class GraphActivity:
     def _note(self, publishers: list[str], carried: list[Traffic]) -> str:
         """Return the rate of a topic.
 
-        It is the sum over the publishers of the rate of their fastest connection.
+        For each publisher, the fastest connection counts; the result is the sum of these rates.
         """
         assert self.seen is not None
         if self.seen.silent.intersection(publishers):

@@ -1,13 +1,13 @@
-/* The lines of calls, from the caller to the service. This code draws them, not graphviz. */
+/* The lines of calls, from the caller to the service. This code, and not graphviz, draws the lines. */
 
 const SVG = "http://www.w3.org/2000/svg";
-const BENDS = [0.15, -0.15, 0.3, -0.3, 0.5, -0.5]; // relative to the length, to both sides; the first bend that crosses the fewest shapes is used
+const BENDS = [0.15, -0.15, 0.3, -0.3, 0.5, -0.5]; // bends to both sides, divided by the length of the line; the bend that crosses the fewest shapes is used
 const SAMPLES = 16;
 
 /** @typedef {{x: number, y: number}} Point */
 /** @typedef {Point & {wide: number, high: number}} Place the centre, and half of the width and height */
 
-/** Returns the place of a shape in the drawing. @param {Element} shape @returns {Place} */
+/** Returns the position and size of a shape in the drawing. @param {Element} shape @returns {Place} */
 export function place(shape) {
   const outline = /** @type {SVGGraphicsElement} */ (shape.querySelector("ellipse, rect:last-of-type, polygon"));
   const { x, y, width, height } = outline.getBBox();
@@ -39,7 +39,7 @@ function way(from, to, bend) {
   return { start: border(from, top), top, end: border(to, top) };
 }
 
-/** Returns where the line from the centre of a shape to a point crosses the border of the shape.
+/** Returns the point where the line from a shape's centre to `point` crosses the shape's border.
  * @param {Place} shape @param {Point} point @returns {Point} */
 function border(shape, point) {
   const [dx, dy] = [point.x - shape.x, point.y - shape.y];

@@ -2,9 +2,9 @@
 import { freshId, h, say, setAttribute } from "../kit.js";
 import { callLine, place } from "./calls.js";
 
-const SMALLEST = 0.65; // smallest automatic scale; at a smaller scale, names cannot be read
+const SMALLEST = 0.65; // The automatic scale is not smaller than this, because smaller names cannot be read.
 const STEP = 1.25;
-const FADE = 30; // s for which a finished call is shown
+const FADE = 30; // A finished call is shown for this many s.
 
 export class Canvas {
   /** @param {(key: string, folded: boolean | null) => void} picked is called after a click on a shape */
@@ -22,12 +22,12 @@ export class Canvas {
     this.tools = h("div", { class: "ros-tools", role: "group", "aria-label": "Size of the drawing", hidden: true },
       this.#tool("−", "Smaller", () => this.#resize(this.scale / STEP)), this.#tool("+", "Larger", () => this.#resize(this.scale * STEP)),
       this.#tool("Fit", "Fit: show the whole drawing", () => this.#resize(this.#whole())));
-    // Only a change of the width matters, because this code sets the height itself.
+    // Only a change of the width needs a reaction, because this code itself sets the height.
     let width = 0;
     new ResizeObserver(() => {
       if (width === (width = this.el.clientWidth)) return;
       this.#fit();
-      this.#drawCalls(); // the drawing may just have become visible
+      this.#drawCalls(); // The drawing may have become visible.
     }).observe(this.el);
   }
 
@@ -45,7 +45,7 @@ export class Canvas {
 
   /** Marks the chosen shape and its lines. @param {string} key */
   choose(key) {
-    this.chosen = key; // even if this shape is not drawn now, because it may come back
+    this.chosen = key; // The shape may be missing now and return later.
     for (const shape of this.#shapes()) {
       const chosen = shape.getAttribute("data-key") === this.chosen;
       shape.classList.toggle("ros-chosen", chosen);
@@ -75,9 +75,9 @@ export class Canvas {
     this.#drawCalls();
   }
 
-  /** Draws fading lines from callers to services. They do not change the layout, so nothing else moves. */
+  /** Draws fading lines from callers to services. The lines do not change the layout. */
   #drawCalls() {
-    if (!this.el.clientWidth) return; // a drawing that is not visible has no size, so the ends of a line would be unknown
+    if (!this.el.clientWidth) return; // An invisible drawing has no size, so the ends of the lines are unknown.
     const now = this.clock ?? Date.now() / 1000;
     this.el.classList.toggle("ros-stopped", this.clock !== null);
     const shapes = [...this.el.querySelectorAll(".ros-shape")];

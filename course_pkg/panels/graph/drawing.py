@@ -1,4 +1,4 @@
-"""Draws a layout as SVG. The functions have no side effects; the colours come from a style sheet."""
+"""Draws a layout as SVG."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from course_pkg.panels.graph.layout import Framed, Layout, Placed, Point, Routed
 from course_pkg.panels.graph.picture import Kind
 
 MARGIN = 12.0
-ARROW = 9.0  # length of an arrowhead (px)
-CORNER = 12.0  # width of the two pointed ends of a service (px)
-CARD = 4.0  # offset of the second rectangle that marks a folded namespace (px)
-# distance from the middle of a shape to its name, and to the line below the name (px)
+ARROW = 9.0  # An arrowhead is this many px long.
+CORNER = 12.0  # Each of the two pointed ends of a service's shape is this many px wide.
+CARD = 4.0  # A folded namespace has a second rectangle with this offset (px).
+# Distances (px) from the middle of a shape to its name, and to the second line.
 ABOVE, BELOW = -7.0, 10.0
-TITLE = 13.0  # distance from the top of a frame to the middle of its name (px)
+TITLE = 13.0  # The middle of a frame's name is this many px below the top of the frame.
 
 
 def svg(
@@ -30,8 +30,8 @@ def svg(
 ) -> str:
     """Return the drawing as SVG; `notes` are the texts below the names of topics, by the key of the topic.
 
-    In a page, each shape is a button with an accessible name; its `data-key` is the key of the shape. With
-    `still`, the result is a complete file with a style sheet and a text alternative.
+    In a page, each shape is a button with an accessible name; its attribute `data-key` is the key of the
+    shape. With `still`, the result is a complete file with a style sheet and a text alternative.
     """
     return _Drawing(notes or {}, still).of(layout, title, description)
 
@@ -92,7 +92,7 @@ class _Drawing:
         mark = "▸ " if shape.kind is Kind.SPACE else ""
         name = SubElement(group, "text", _numbers(x=x, y=y + (ABOVE if low else 0)))
         name.text = mark + placed.label
-        # without this space, a screen reader joins the last word of the name and the first word of the note
+        # Without this space, a screen reader joins the last word of the name and the first word of the note.
         name.tail = " "
         if low:
             under = SubElement(group, "text", {"class": "ros-note", **_numbers(x=x, y=y + BELOW)})
@@ -113,7 +113,7 @@ class _Drawing:
 def _named(kind: str, label: str, name: str) -> str:
     """Return the accessible name of a button.
 
-    It contains the visible label, because speech input needs it.
+    Speech input needs the visible label in the accessible name.
     """
     return f"{kind} {name}" if label == name else f"{kind} {name}: {label}"
 
@@ -155,7 +155,7 @@ def _hexagon(x: float, y: float, wide: float, high: float) -> str:
 
 
 def _arrow(before: Point, tip: Point) -> str:
-    """Return the corners of an arrowhead; its tip is at `tip`, and the line comes from `before`."""
+    """Return the corners of an arrowhead at `tip`; `before` is the previous point of the line."""
     angle = math.atan2(tip[1] - before[1], tip[0] - before[0])
     sides = [angle + math.pi - 0.42, angle + math.pi + 0.42]
     corners: Sequence[Point] = [

@@ -5,7 +5,7 @@ import { Canvas } from "./canvas.js";
 import { recordingOf } from "./recording.js";
 import { pairs } from "./sentences.js";
 
-const TICK = 250; // ms of a recording between two drawings of the fading lines
+const TICK = 250; // While a recording plays, the fading lines are drawn every TICK ms.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -110,7 +110,7 @@ class GraphView {
     const parts = fact ? [h("div", { class: "ros-what" }, h("span", { class: "ros-muted", text: `${fact.kind} ` }), h("code", { class: "ros-name", text: fact.name })),
       ...pairs(fact, this.#activity(), now)] : [h("span", { class: "ros-muted", text: some ? "Click a shape for its details." :
       this.moment ? "Nothing was on the graph then." : "Nothing is on the graph yet. Start a node; it appears here by itself." })];
-    // The details are replaced only if they differ. So a selection and the position of a screen reader stay.
+    // The details are replaced only if they differ. Otherwise, a selection and the position of a screen reader would be lost.
     const said = parts.map((part) => part.textContent).join("\n");
     if (said !== this.said) this.details.replaceChildren(...parts);
     this.said = said;
@@ -152,7 +152,7 @@ class GraphView {
     this.#drawDetails();
   }
 
-  /** Shows the end of a recording; null means that the present graph is shown.
+  /** Shows the end of a recording; null means that the panel shows the current graph.
    * @param {import("./recording.js").Recording | null} recording */
   #turnTo(recording) {
     const was = this.recording;
@@ -176,14 +176,14 @@ class GraphView {
     if (!now || (now === before && step === this.step)) return;
     this.moment = now;
     this.step = step;
-    setAttribute(this.details, "aria-live", this.replay.playing ? "off" : "polite"); // during play, a screen reader would announce too much
+    setAttribute(this.details, "aria-live", this.replay.playing ? "off" : "polite"); // While the recording plays, a screen reader would read too much.
     if (before?.scene === now.scene) return this.#drawActivity();
-    // During play, the canvas keeps its height, so that the text below it does not jump up and down.
+    // While the recording plays, the height of the canvas is constant, so the text below does not jump.
     this.canvas.el.style.minHeight = `${this.canvas.el.offsetHeight}px`;
     this.#drawAll();
   }
 
-  /** Returns the time of the shown moment in s since the epoch, or null for the present. */
+  /** Returns the time of the shown moment in s since the epoch, or null for the current time. */
   #clock() {
     return this.recording && this.moment ? this.recording.clock(this.replay.time) : null;
   }
@@ -195,7 +195,7 @@ class GraphView {
 
   /** @returns {import("./sentences.js").Activity} */
   #activity() {
-    return this.#get("activity") ?? {}; // missing in a panel that an older release saved
+    return this.#get("activity") ?? {}; // A panel that an older release saved has no activity.
   }
 
   #toggle() {

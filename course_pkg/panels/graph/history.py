@@ -1,4 +1,4 @@
-"""A recording of everything that a graph panel showed; a page without a kernel can play it."""
+"""A recording of all states of a graph panel; a page without a kernel can play it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from course_pkg.panels.graph.model import Scene
 
 MOMENTS = 150
-BYTES = 200_000  # maximum size of a whole recording as JSON
+BYTES = 200_000  # The JSON text of a recording has at most this many bytes.
 
 
 class HistoryState(TypedDict, total=False):
@@ -40,9 +40,9 @@ class _Moment(NamedTuple):
 
 
 class History:
-    """The latest changes of the panel: at most `moments` entries, with at most `size` bytes as JSON.
+    """The latest changes of the panel: at most `moments` entries, with at most `size` bytes of JSON.
 
-    It records only between start() and stop().
+    Changes are recorded only between start() and stop().
     """
 
     def __init__(self, moments: int = MOMENTS, size: int = BYTES) -> None:
@@ -53,18 +53,18 @@ class History:
     def start(self, at: float, scene: Scene, activity: ActivityState) -> None:
         """Start a new recording at `at` (s since the epoch).
 
-        Its first entry is the given scene and activity.
+        The first entry of the recording is the given scene and activity.
         """
         self._moments.clear()
         self.running = True
         self.add(at, scene, activity)
 
     def stop(self) -> None:
-        """End the recording, and keep its entries."""
+        """End the recording, but do not delete its entries."""
         self.running = False
 
     def add(self, at: float, scene: Scene, activity: ActivityState) -> None:
-        """Record the scene and the activity that the panel shows since `at` (s since the epoch)."""
+        """Record that the panel has shown this scene and activity since `at` (s since the epoch)."""
         if not self.running:
             return
         sized = self._sized(scene)
@@ -72,7 +72,7 @@ class History:
             last = self._moments[-1]
             if last.sized is sized and last.activity == activity:
                 return
-            at = max(at, last.at)  # a user may have set the system clock back
+            at = max(at, last.at)  # A user may have set the system clock back.
         self._moments.append(_Moment(at, sized, activity, _size(activity)))
         while len(self._moments) > self._most or self._weight() > self._room:
             self._moments.popleft()

@@ -1,4 +1,4 @@
-"""The positions of the shapes and the routes of the lines, as graphviz computes them."""
+"""Computes the positions of the shapes and the routes of the lines with graphviz."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from typing import TypedDict
 from course_pkg.errors import DrawingFailed
 from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
 
-CHARACTER = 7.3  # width of a letter in a fixed-width font of 12 px (px)
-# px; a shape contains one or two lines of text
+CHARACTER = 7.3  # A letter of the fixed-width font (12 px) is this many px wide.
+# The heights (px) are sufficient for one or two lines of text in a shape.
 HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}
-# px, added to the width of the name
+# A shape is wider than its name by this many px.
 ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}
-NOTE = 11 / 12  # size of the text below a name, divided by the size of the name
-ROOM = 12  # number of letters for which there is always room below a topic's name
+NOTE = 11 / 12  # The font size of the second line, divided by the font size of the name.
+ROOM = 12  # A topic's shape has space for at least this many letters below the name.
 LONGEST = 36
 PER_INCH = 72.0
-WIDE, TALL = 1000.0, 1400.0  # size of a page (px)
+WIDE, TALL = 1000.0, 1400.0  # A page has this width and this height (px).
 
 Point = tuple[float, float]
 
@@ -55,7 +55,7 @@ class Placed:
 
 @dataclass(frozen=True)
 class Routed:
-    """A line as a chain of cubic curves (px): the start point, then three points for each curve."""
+    """A line as a chain of cubic Bézier curves (px): the start point, then three points for each curve."""
 
     line: Line
     points: tuple[Point, ...]
@@ -86,9 +86,9 @@ class Layout:
 def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
     """Return the layout that graphviz computes for a picture.
 
-    The arrows point from left to right. They point from top to bottom if the first layout is too wide for a
-    page and the second one is clearly easier to read. Raises DrawingFailed if graphviz is missing, fails, or
-    takes longer than `timeout` s.
+    The arrows point from left to right. If this layout is too wide for a page and a layout from top to bottom
+    is clearly easier to read, the arrows point from top to bottom. Raises DrawingFailed if graphviz is
+    missing, fails, or takes longer than `timeout` s.
     """
     if not picture.shapes:
         return Layout()
@@ -184,9 +184,9 @@ def _script(picture: Picture, direction: str) -> str:
 
 
 def _clusters(frames: Sequence[Frame], numbers: Mapping[str, int]) -> Iterator[str]:
-    """Yield the frames as nested clusters.
+    """Yield the frames as nested clusters in the language of graphviz.
 
-    The frames are sorted by name, so an inner frame comes after the outer frame.
+    The frames are sorted by name, so an outer frame comes before its inner frames.
     """
     around: list[str] = []
     for number, frame in enumerate(frames):
@@ -200,18 +200,21 @@ def _clusters(frames: Sequence[Frame], numbers: Mapping[str, int]) -> Iterator[s
 
 
 def _size(shape: Shape) -> tuple[float, float]:
-    """Return the width and height (px) of a shape; they depend on its texts."""
+    """Return the width and height (px) of a shape; the size depends on the texts in it."""
     note = ROOM if shape.kind is Kind.TOPIC else len(_note(shape))
     letters = max(len(_label(shape.name)), note * NOTE)
     return letters * CHARACTER + ELBOW[shape.kind], HEIGHT[shape.kind]
 
 
 def _note(shape: Shape) -> str:
-    """Return the second line of a shape; a folded namespace shows how many shapes it contains."""
+    """Return the second line of a shape.
+
+    For a folded namespace, the line contains the number of its shapes.
+    """
     return dict(shape.facts).get("holds", "") if shape.kind is Kind.SPACE else ""
 
 
 def _label(name: str) -> str:
-    """Return the name; if it is too long for a shape, return only its beginning and its end."""
+    """Return the name; if the name is too long, return its beginning and its end, with "…" between them."""
     half = LONGEST // 2
     return name if len(name) <= LONGEST else f"{name[: half - 1]}…{name[-half:]}"

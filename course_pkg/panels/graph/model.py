@@ -1,4 +1,7 @@
-"""The state of a graph panel, without a page or ROS: it turns snapshots into a drawing and details."""
+"""The state of a graph panel: snapshots of the graph become a drawing and details.
+
+This module uses neither a page nor ROS.
+"""
 
 from __future__ import annotations
 
@@ -25,15 +28,18 @@ from course_pkg.types import Field, message_type, service_type
 if TYPE_CHECKING:
     from course_pkg.ros import Activity, Snapshot
 
-REFUSED = "refused"  # the value of `reach` for a node that is registered although its process has ended
-SHOWN = 12  # maximum number of listed fields of a type
+REFUSED = "refused"  # A node has this value of `reach` if it is registered although its process has ended.
+SHOWN = 12  # The details of a type list at most this many fields.
 
-Pair = tuple[str, str]  # a label and its text
+Pair = tuple[str, str]  # A pair contains a label and its text.
 Describe = Callable[[Kind, str], list[Pair]]
 
 
 class Fact(TypedDict):
-    """The details of a shape; the page shows them after a click on it, and in the list below the drawing."""
+    """The details of a shape.
+
+    The page shows them after a click on the shape, and in a list below the drawing.
+    """
 
     key: str
     kind: str
@@ -43,14 +49,14 @@ class Fact(TypedDict):
 
 
 class Space(TypedDict):
-    """A namespace on the page: an open frame, or one box if it is folded."""
+    """A namespace on the page: an open frame, or one box if the namespace is folded."""
 
     name: str
     folded: bool
 
 
 class Scene(TypedDict):
-    """The parts of the panel's state that are large and rarely change."""
+    """The large, rarely changing values of the panel's state."""
 
     drawing: str
     facts: list[Fact]
@@ -82,7 +88,7 @@ def fields_of(kind: Kind, name: str) -> list[Pair]:
 def _fields(shape: Shape, describe: Describe, known: dict[Pair, list[Pair]]) -> list[Pair]:
     name = dict(shape.facts).get("type", "")
     if "/" not in name:
-        return []  # the type is unknown
+        return []  # The type is unknown.
     what = (shape.kind.value, name)
     if what not in known:
         known[what] = describe(shape.kind, name)
@@ -97,7 +103,7 @@ def _field_list(fields: Iterable[Field]) -> str:
 
 def _entry(shape: Shape, fields: list[Pair]) -> Fact:
     kept = list(shape.facts)
-    # The fields follow directly after the label "type".
+    # The fields come directly after the label "type".
     at = next((number for number, (label, _) in enumerate(kept, start=1) if label == "type"), 0)
     return {
         "key": shape.key,
@@ -109,11 +115,11 @@ def _entry(shape: Shape, fields: list[Pair]) -> Fact:
 
 
 class GraphModel:
-    """Turns snapshots into a drawing, and draws again only if the picture has changed.
+    """Turns snapshots into a drawing; the graph is drawn again only if the picture has changed.
 
     `changed` is called with keyword arguments: `drawing` (SVG, or "" if graphviz cannot draw), `facts` (the
     details of each shape and namespace), `spaces` (the shown namespaces), `activity` (see ActivityState), and
-    `trouble` (an error message, or ""). `own` is the kernel's node, which can be hidden.
+    `trouble` (an error message, or ""). `own` is the kernel's node; the reader can hide this node.
     """
 
     def __init__(
@@ -143,12 +149,12 @@ class GraphModel:
         self.activity: ActivityState = {}
 
     def see(self, snapshot: Snapshot) -> None:
-        """Store a new snapshot of the graph; draw it if the picture has changed."""
+        """Store a new snapshot of the graph, and draw the graph if the picture has changed."""
         self.snapshot = snapshot
         self._draw()
 
     def count(self, activity: Activity) -> None:
-        """Store the counts of messages and calls; this never changes the drawing."""
+        """Store the counts of messages and calls; this method never changes the drawing."""
         with self._turn:
             self._counts.read(activity)
             if self._shown is not None and (state := self._activity_now()) != self.activity:
@@ -156,7 +162,7 @@ class GraphModel:
                 self._changed(activity=state)
 
     def lose(self, reason: str) -> None:
-        """Keep the last picture, and show `reason`: why the panel cannot read the graph."""
+        """Keep the last picture, and show the reason why the panel cannot read the graph."""
         with self._turn:
             self._shown = None
             self.scene = {**self.scene, "trouble": reason}
@@ -181,10 +187,10 @@ class GraphModel:
         return svg(self._layout, title=title, description=words, notes=notes, still=True)
 
     def _draw(self) -> None:
-        """Draw the picture if it differs from the previous one.
+        """Draw the picture if it differs from the previous picture.
 
-        The method does not hold the lock while graphviz runs, because the page would have to wait for it. If
-        another call begins to draw during that time, this call drops its own result.
+        The page must not wait for graphviz, so the method releases the lock while graphviz runs. If another
+        thread begins to draw during that time, this call discards its own result.
         """
         with self._turn:
             if self.snapshot is None:
@@ -215,7 +221,7 @@ class GraphModel:
         return self._counts.state(self._whole, alive, self._box)
 
     def _box(self, key: str) -> str:
-        """Return the key of the visible shape for `key`; a folded namespace hides the shapes in it."""
+        """Return the key of the visible shape for `key`: a folded namespace replaces the shapes in it."""
         boxes = [each for each in (self._shown or Picture()).shapes if each.kind is Kind.SPACE]
         name = key.split(" ", 1)[1]
         return next((each.key for each in boxes if name.startswith(each.name)), key)

@@ -1,4 +1,4 @@
-"""The graph as shapes and lines that have no positions yet; layout.py gives them positions."""
+"""The graph as shapes and lines without positions; layout.py computes the positions."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from course_pkg.ros import Snapshot
 
-CROWD = 30  # number of shapes; if a picture has more, its namespaces are folded at first
+CROWD = 30  # If a picture has more shapes than this, its namespaces are folded at first.
 NOISE_NODES = frozenset({"/rosout"})
 NOISE_TOPICS = frozenset({"/rosout", "/rosout_agg"})
 NOISE_SERVICES = ("/get_loggers", "/set_logger_level")
@@ -22,7 +22,7 @@ class Kind(str, Enum):
     NODE = "node"
     TOPIC = "topic"
     SERVICE = "service"
-    SPACE = "namespace"  # a namespace that is folded into one box
+    SPACE = "namespace"  # The shape of a folded namespace.
 
 
 PLURALS = {Kind.NODE: "nodes", Kind.TOPIC: "topics", Kind.SERVICE: "services"}
@@ -39,13 +39,13 @@ class Shape:
 
     @property
     def key(self) -> str:
-        """The kind and the name; a topic and a service may have the same name."""
+        """The kind and the name; a topic and a service can have the same name."""
         return f"{self.kind.value} {self.name}"
 
 
 @dataclass(frozen=True)
 class Line:
-    """A connection between two shapes; `both` means that data flows in both directions, as for a service."""
+    """A connection between two shapes; `both` is True if data flows in both directions, as for a service."""
 
     tail: str
     head: str
@@ -72,7 +72,7 @@ class Frame:
 class Picture:
     """All shapes, lines and frames.
 
-    They are sorted by name only, and an outer frame comes before its inner frames.
+    The shapes, lines and frames are sorted by name only, and an outer frame comes before its inner frames.
     """
 
     shapes: tuple[Shape, ...] = ()
@@ -83,8 +83,9 @@ class Picture:
 def picture(snapshot: Snapshot, *, noise: bool = False, hide: Iterable[str] = ()) -> Picture:
     """Return the shapes and lines of a snapshot.
 
-    Without `noise`, /rosout and the logger services of every node are left out. `hide` are names of nodes to
-    leave out. Their services, and the topics that only these nodes use, are left out, too.
+    If `noise` is False, /rosout and the logger services of every node are left out. `hide` contains the names
+    of nodes that are left out. The services of hidden nodes, and the topics that only hidden nodes use, are
+    also left out.
     """
     hidden = frozenset(hide) | (frozenset() if noise else NOISE_NODES)
     shapes = [
@@ -137,7 +138,7 @@ def _with_roles(shape: Shape, lines: Iterable[Line]) -> Shape:
 
 
 def graph_text(snapshot: Snapshot, *, noise: bool = False) -> str:
-    """Return a text with the topics and services of each node; the same graph always gives the same text."""
+    """Return a text with the topics and services of each node. The text is the same for equal graphs."""
     shown = picture(snapshot, noise=noise)
     types = {shape.key: dict(shape.facts).get("type", "") for shape in shown.shapes}
     paragraphs = []
@@ -177,11 +178,11 @@ def _ends(lines: Iterable[Line]) -> set[str]:
 
 
 def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
-    """Return the picture with some namespaces as folded boxes, and with frames around the others.
+    """Return the picture with some namespaces as folded boxes, and with frames around all other namespaces.
 
-    `choices` maps a namespace to True if the reader folded it, or to False if the reader unfolded it. If the
-    reader chose neither, a namespace is folded if the picture has more than `CROWD` shapes. It is not folded
-    if it contains more than half of them.
+    `choices` maps a namespace to True if the reader folded it, or to False if the reader unfolded it. Without
+    a choice, a namespace is folded if the picture has more than `CROWD` shapes. However, a namespace with
+    more than half of all shapes is not folded.
     """
     spaces = namespaces(picture)
     crowded = len(picture.shapes) > CROWD
@@ -190,8 +191,8 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
         for name, members in spaces.items()
         if choices.get(name, crowded and 2 * len(members) <= len(picture.shapes))
     }
-    # The names are sorted from long to short, and a later name replaces an earlier one. Therefore, a shape in
-    # two folded namespaces belongs to the box of the outer namespace.
+    # The loop goes from long to short names, and an entry of a shorter name overwrites an earlier entry.
+    # Therefore, a shape in two folded namespaces belongs to the box of the outer namespace.
     box = {key: name for name in sorted(closed, key=len, reverse=True) for key in spaces[name]}
 
     def shown(key: str) -> str:
@@ -206,7 +207,7 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
 def namespaces(picture: Picture) -> dict[str, frozenset[str]]:
     """Return the keys of the shapes in each namespace, such as "/turtle1/".
 
-    The namespace has at least two shapes.
+    Only namespaces with at least two shapes are returned.
 
     If several namespaces have the same shapes, only the innermost one is returned.
     """
@@ -227,7 +228,7 @@ def space(name: str, picture: Picture, members: frozenset[str]) -> Shape:
     inside = [each for each in picture.shapes if each.key in members]
     kinds = {kind: [each.name for each in inside if each.kind is kind] for kind in PLURALS}
     facts = [("holds", ", ".join(_count(kind, len(names)) for kind, names in kinds.items() if names))]
-    # Topics are left out here, because activity.py adds them together with their rates.
+    # Topics are left out here, because activity.py adds the topics with their rates.
     facts += [(PLURALS[kind], ", ".join(kinds[kind])) for kind in (Kind.NODE, Kind.SERVICE) if kinds[kind]]
     if lost := [each.name for each in inside if not each.reachable]:
         facts.append(("does not answer", ", ".join(lost)))
@@ -248,7 +249,7 @@ def _open(
 
 
 def _lines(picture: Picture, shown: Callable[[str], str]) -> tuple[Line, ...]:
-    """Return each line between two visible shapes once, without lines whose ends are in the same box."""
+    """Return each visible line once; a line inside one folded box is left out."""
     moved = {Line(shown(each.tail), shown(each.head), each.both) for each in picture.lines}
     kept = (each for each in moved if each.tail != each.head)
     return tuple(sorted(kept, key=lambda each: (each.tail, each.head, each.both)))

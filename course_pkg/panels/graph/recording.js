@@ -1,4 +1,4 @@
-/* The recording that a page without a kernel plays: what the panel showed, and when. */
+/* The recording that a page without a kernel plays: the states of the panel and their times. */
 
 /** @typedef {{drawing: string, facts: object[], spaces: object[], trouble: string}} Scene
  * @typedef {{began: number, length: number, scenes: Scene[], moments: [number, number, object][]}} History */
@@ -17,7 +17,7 @@ export class Recording {
     this.moments = history.moments.map(([, scene, activity]) => ({ ...history.scenes[scene], scene, activity }));
   }
 
-  /** Returns what the panel showed at a time (ms). @param {number} time @returns {Scene & {scene: number, activity:
+  /** Returns the state of the panel at a time (ms). @param {number} time @returns {Scene & {scene: number, activity:
    * object}} */
   at(time) {
     const next = this.starts.findIndex((start) => start > time);

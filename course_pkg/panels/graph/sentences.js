@@ -45,7 +45,7 @@ function calls(caller, now) {
   return caller.running && !caller.gone ? `${count}, waits for the response` : `${when(caller.last, now)}, ${count}`;
 }
 
-/** Returns how long ago a call was, in steps, so that the text changes seldom. A saved picture shows the time of day.
+/** Returns how long ago a call was, in steps, because the text should change rarely. A saved picture shows the time of day.
  * @param {number} last in s since the epoch @param {number | null} now */
 function when(last, now) {
   if (now === null) return `at ${new Date(1000 * last).toTimeString().slice(0, 8)}`;

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element, fromstring
 from course_pkg.panels.graph.drawing import ABOVE
 from course_pkg.panels.paper import CODE, EDGES, FAINT, GROUND, MONO, MUTED, TEXT, WIDTH, Paper, State, number
 
-# The fill colour and the edge colour of each shape, as in the light theme of drawing.css.
+# Each shape has a fill colour and an edge colour from the light theme of drawing.css.
 SHAPES = {
     "ros-node": ("#e7f0fc", "#3a78c9"),
     "ros-topic": ("#f1f2f4", "#6b7580"),
@@ -22,12 +22,12 @@ LEGEND = (
 )
 STREAM, CALL = SHAPES["ros-topic"][1], SHAPES["ros-service"][1]
 ROLES = ("publishes", "subscribes", "serves")
-# the suffix that rospy and roscpp add to the name of an anonymous node
+# The pattern matches the suffix that rospy and roscpp add to the name of an anonymous node.
 NUMBERED = re.compile(r"_\d+_\d{10,}")
 
 
 def still(state: State) -> str:
-    """Return the picture without rates and recent calls, because they differ in each run."""
+    """Return the picture without rates and recent calls, because these values differ in each run."""
     drawing, trouble = state.get("drawing", ""), state.get("trouble", "")
     if not drawing:
         return _without_drawing(state, trouble)
@@ -36,7 +36,7 @@ def still(state: State) -> str:
     wide, high = (float(root.get(side, "0")) for side in ("width", "height"))
     paper = Paper(f"The ROS graph: {counts}", max(WIDTH, wide + 2 * EDGES))
     scale = 1.0
-    if wide + 2 * EDGES > 2 * WIDTH:  # the letters of a wider picture would be too small to read
+    if wide + 2 * EDGES > 2 * WIDTH:  # The letters of a wider picture would be too small to read.
         scale = (2 * WIDTH - 2 * EDGES) / wide
         paper.width = 2 * WIDTH
     if trouble:
@@ -92,7 +92,7 @@ def _roles(state: State) -> str:
 
 
 def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
-    """Return a copy of an element with colours as attributes, without the elements that only a page needs."""
+    """Return a copy with colours as attributes, without the elements that only an interactive page needs."""
     own = frozenset(element.get("class", "").split())
     around = classes | own
     tag = _tag(element)
@@ -101,14 +101,14 @@ def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
     made.text = NUMBERED.sub("…", element.text or "") if tag == "text" else None
     made.extend(_plain(child, around) for child in element if not _only_live(child))
     if "ros-topic" in own:
-        # the name moves to the middle, because the copy has no rate below the name
+        # The copy has no rate below the name, so the name moves to the middle.
         for name in made.findall("text"):
             name.set("y", number(float(name.get("y", "0")) - ABOVE))
     return made
 
 
 def _only_live(element: Element) -> bool:
-    """Return whether only a page needs an element: a title for screen readers, calls, or an empty note."""
+    """Return whether only an interactive page needs an element: a title, calls, or an empty note."""
     classes = element.get("class", "").split()
     return (
         _tag(element) == "title"
@@ -153,5 +153,5 @@ def _text(root: Element, tag: str) -> str:
 
 
 def _tag(element: Element) -> str:
-    """Return the name of an element without its namespace."""
+    """Return the name of an element without its XML namespace."""
     return element.tag.rpartition("}")[2]

@@ -1,4 +1,4 @@
-"""The graph panel as a widget."""
+"""The widget of the graph panel."""
 
 from __future__ import annotations
 
@@ -16,17 +16,18 @@ from course_pkg.panels.poller import Poller
 from course_pkg.ros import Activity, ActivityPoller, Node, Snapshot, look, this_node
 
 HERE = Path(__file__).parent
-SILENT = "silent"  # the value of `reach` for a node that accepts connections but does not answer
-PAUSE = 2.0  # s between two readings of the nodes' counters
+SILENT = "silent"  # A node has this value of `reach` if it accepts connections but does not answer.
+PAUSE = 2.0  # The panel reads the nodes' counters every PAUSE s.
 
 
 class GraphPanel(Panel):
     """A picture of the graph: the nodes, their topics, and their services.
 
-    The panel updates the picture while a page shows it; with `live=False` the first picture stays. It shows
-    the rates of topics and the latest callers of services. With `noise`, it also shows /rosout and the logger
-    services of every node. `node` is the kernel's own node, which the reader can hide; by default it is the
-    node of join(). The panel records all pictures, so that a page without a kernel can play them.
+    The panel updates the picture while a page shows the panel; with `live=False`, the first picture does not
+    change. The picture shows the rates of topics and the latest callers of services. If `noise` is True, the
+    picture also shows /rosout and the logger services of every node. `node` is the kernel's own node; the
+    reader can hide it. By default, `node` is the node of join(). The panel records all pictures, so that a
+    page without a kernel can play them.
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"
@@ -62,14 +63,14 @@ class GraphPanel(Panel):
         return self._model.still()
 
     def shown(self) -> None:
-        """Start to follow the graph and to record the pictures."""
+        """Start to read the graph repeatedly and to record the pictures."""
         if self.live:
             self._record()
             self._snapshots.start()
             self._counts.start()
 
     def hidden(self) -> None:
-        """Stop following the graph, and send the recording to the page, for saved pages without a kernel."""
+        """Stop reading the graph, and send the recording to the page, for saved pages without a kernel."""
         self._snapshots.stop()
         self._counts.stop()
         with self.turn:
@@ -95,7 +96,7 @@ class GraphPanel(Panel):
 
     def _record(self) -> None:
         with self.turn:
-            if not self._history.running:  # another view of the panel may have started the recording
+            if not self._history.running:  # Another view of the panel may have started the recording.
                 self.publish(history={})
                 self._history.start(time.time(), *self._showing())
 
@@ -103,9 +104,9 @@ class GraphPanel(Panel):
         return self._model.scene, self._model.activity
 
     def _look(self) -> Snapshot:
-        """Return a snapshot.
+        """Return a snapshot of the graph.
 
-        Take a second snapshot if a node has become silent: the machine may just be busy.
+        If a node does not answer, take a second snapshot, because the machine may be busy.
         """
         before, now = self._model.snapshot, look()
         awake = {node.name for node in before.nodes if node.reachable} if before else set()

@@ -1,1 +1,1 @@
-"""The prediction panels: the student predicts a result before the run, and then compares both."""
+"""The prediction panels: the student predicts a result, and then compares it with the run."""

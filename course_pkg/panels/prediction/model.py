@@ -1,6 +1,6 @@
 """The model of a prediction: the student's answer before the run, and the result of the run.
 
-It needs no page and no kernel.
+This module runs without a page and without a kernel.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ class Prediction:
     """A prediction with the student's answer and, after the comparison, the result.
 
     Times are ISO 8601 in UTC; "" means that there is no answer or no comparison yet. `answer` is the latest
-    answer. `first` is the answer at the time of the comparison; if `answer` differs from it, the student
+    answer. `first` is the answer at the time of the comparison. If `answer` differs from `first`, the student
     changed it later.
     """
 
@@ -36,7 +36,7 @@ class Prediction:
 
     @property
     def right(self) -> bool:
-        """Whether the prediction is equal to the result, either as strings or as numbers."""
+        """Whether the prediction equals the result, either as a string or as a number."""
         predicted, actual = self.first.strip().casefold(), self.actual.strip().casefold()
         try:
             return float(predicted) == float(actual)
@@ -57,10 +57,10 @@ class Prediction:
 
 
 class PredictionStore(Store[Prediction]):
-    """The predictions in one file, by key.
+    """The predictions in one file; each record has a key.
 
-    The first edition of the course used `predictions.json`, with other chapter numbers in its keys: there,
-    `08.…` belongs to another chapter. Therefore, the course neither reads nor changes that file.
+    The first edition of the course stored predictions in `predictions.json`, with other chapter numbers.
+    Therefore, this class does not use that file.
     """
 
     record = Prediction
@@ -79,11 +79,11 @@ class PredictionModel:
 
     @property
     def record(self) -> Prediction:
-        """The stored record, or an empty one if nothing is stored."""
+        """The stored record, or an empty record."""
         return self._store.read().get(self.key, Prediction(self.key, self.question))
 
     def answer(self, answer: str) -> Prediction:
-        """Store an answer; an empty answer deletes the previous one."""
+        """Store an answer; an empty answer deletes the previous answer."""
         answer = answer.strip()
         answered = now() if answer else ""
         return self._store.write(
@@ -91,7 +91,7 @@ class PredictionModel:
         )
 
     def compare(self, actual: object) -> Prediction:
-        """Store the result of the run; the present answer becomes the prediction."""
+        """Store the result of the run; the current answer becomes the prediction."""
         record = self.record
         if record.compared and record.actual == str(actual):
             return record

@@ -1,4 +1,4 @@
-"""The still picture of a question, of a comparison, or of the table of a chapter."""
+"""The still picture of a question, a comparison, or the table of a chapter."""
 
 from __future__ import annotations
 

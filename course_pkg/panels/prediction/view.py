@@ -1,7 +1,7 @@
 """The widgets of predictions.
 
-Their text/plain is the same for every student, so that notebooks can be compared. The student's answer is
-only in the widget.
+The text/plain output of the widgets is the same for every student, so notebooks can be compared. Only the
+widget shows the student's answer.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class _ChoiceRow(_Row):
 
 
 class ChapterPart(TypedDict):
-    """A part of a chapter: its id, its state as text, and the symbol for this state."""
+    """A part of a chapter: its id, its state as text, and a symbol for the state."""
 
     check: str
     state: str
@@ -43,7 +43,7 @@ class ChapterPart(TypedDict):
 
 
 class ChapterRow(TypedDict):
-    """The student's progress in a chapter: the sums, the parts, the next step, and problems with results."""
+    """The student's progress in a chapter: totals, parts, the next step, and problems with results."""
 
     text: str
     parts: list[ChapterPart]
@@ -59,9 +59,9 @@ class _PredictionPanel(Panel):
 
 
 class Question(_PredictionPanel):
-    """A question before the run.
+    """A panel with a question before the run.
 
-    The student selects one of `choices`, or types any text if there are none.
+    The student selects one of `choices`; if `choices` is empty, the student types any text.
     """
 
     question = Unicode().tag(sync=True)
@@ -139,7 +139,7 @@ class Predictions(_PredictionPanel):
 
 
 def predict(key: str, question: str, choices: Sequence[str] = ()) -> Question:
-    """Return a panel that asks a question before the run; without choices, the student may type any text.
+    """Return a panel with a question before the run. Without choices, the student may type any text.
 
     `key` is `chapter.name`.
     """

@@ -1,6 +1,6 @@
-"""The state of a service panel, without a page, a kernel or ROS; `connect` returns a Caller.
+"""The state of a service panel, without a page, a kernel or ROS.
 
-It needs no page, no kernel and no ROS: `connect` returns a Caller.
+`connect` is a function that returns a Caller.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from course_pkg.types import ServiceType, service_type
 if TYPE_CHECKING:
     import genpy
 
-HISTORY = 20  # calls in the history
+HISTORY = 20  # The history contains at most this many calls.
 LOGGER_SERVICES = ("/get_loggers", "/set_logger_level")
 
 
@@ -39,7 +39,7 @@ class Caller(Protocol):
         """Send a request message and return the response message; wait for at most `timeout` s."""
 
     def cancel(self) -> None:
-        """End the running call: it raises CallCancelled."""
+        """End the running call; the call then raises CallCancelled."""
 
     def close(self) -> None:
         """Close the connection to the service."""
@@ -60,7 +60,7 @@ class Offer:
 
 
 class _Fresh(TypedDict):
-    """The part of the state that a new form replaces."""
+    """The values of the state that a new form replaces."""
 
     form: FormState
     draft: Draft
@@ -68,11 +68,11 @@ class _Fresh(TypedDict):
 
 
 class ServiceModel:
-    """Selects a service, checks the form, calls the service, and keeps a history of the calls.
+    """Selects a service, checks the form, calls the service, and stores a history of the calls.
 
-    The model calls `changed` after each change, and in each phase of a call. Its keyword arguments are
-    `services`, `form`, `draft`, `check`, `outcome` and `history`. The model holds the lock `turn` while it
-    changes its state, but not during a call.
+    The model calls `changed` after each change, and in each phase of a call. The keyword arguments of
+    `changed` are `services`, `form`, `draft`, `check`, `outcome` and `history`. The model acquires the lock
+    `turn` for each change of its state, but not for a call.
     """
 
     def __init__(
@@ -102,7 +102,7 @@ class ServiceModel:
     def offer(self, offers: Iterable[Offer]) -> None:
         """Store the services on the graph.
 
-        The selection stays, even if the selected service has left the graph.
+        The selection does not change, even if the selected service has left the graph.
         """
         with self._turn:
             self.offers = tuple(sorted(offers, key=lambda each: (each.tool, each.name)))
@@ -131,9 +131,9 @@ class ServiceModel:
                 self._changed(check=self.form.checked(draft))
 
     def fill(self, values: Values) -> None:
-        """Write values into the form; the other fields stay unchanged.
+        """Write values into the form; the other fields do not change.
 
-        Raises FieldError if a value is not valid for its field; then the form is unchanged.
+        Raises FieldError if a value is not valid for its field. In this case, the form does not change.
         """
         with self._turn:
             form = self._need_form()
@@ -156,7 +156,7 @@ class ServiceModel:
     def call(self, deadline: str) -> Outcome:
         """Call the service on this thread with the request in the form.
 
-        Raises the same errors as the call.
+        Raises the same errors as the service call.
         """
         with self._turn:
             form = self._need_form()
@@ -171,7 +171,7 @@ class ServiceModel:
         return outcome
 
     def record(self, inputs: Iterable[Values], deadline: str) -> list[Entry]:
-        """Call the service once for each of `inputs`; return the history's entries for saved pages."""
+        """Call the service once for each of `inputs`; return the entries of the history for saved pages."""
         kept: list[Entry] = []
         for values in inputs:
             with self._turn:

@@ -1,4 +1,4 @@
-/* Finds a recorded response. Requests are equal if their values are equal, even if they are typed differently. */
+/* Finds a recorded response. Requests with equal values are equal, even if the reader typed the values differently. */
 
 /** @param {{draft: any}[]} recording @param {import("../forms/fields.js").Field[]} fields @param {any} draft @returns {any} */
 export function recorded(recording, fields, draft) {

@@ -14,16 +14,18 @@ from course_pkg.types import MessageSchema, Plain, ServiceType, rospy_line, ross
 if TYPE_CHECKING:
     import genpy
 
-DEADLINE = "@deadline"  # "@" cannot be part of a field's name
+DEADLINE = "@deadline"  # A field's name cannot contain "@".
 LONGEST = 3600.0  # s
 
 Phase = Literal["idle", "running", "done", "failed", "cancelled"]
 
 
 class FormState(TypedDict, total=False):
-    """The selected service, its node and type. `problem` says why there is no form.
+    """The selected service, its node and type, and the fields of the form.
 
-    "" means that there is one.
+    `problem` says why there is no form, and is
+
+    "" if there is a form.
     """
 
     service: str
@@ -35,7 +37,7 @@ class FormState(TypedDict, total=False):
 
 
 class Failure(TypedDict, total=False):
-    """An error with its message, and the course's explanation if there is one."""
+    """The error message of a call, with the course's explanation if there is one."""
 
     name: str
     words: str
@@ -45,7 +47,10 @@ class Failure(TypedDict, total=False):
 
 
 class Outcome(TypedDict, total=False):
-    """The phase of a call. After its end, also its time, its duration (ms), and the response or the error."""
+    """The phase of a call.
+
+    After the call, the outcome also contains the time, the duration (ms), and the response or the error.
+    """
 
     phase: Phase
     number: int
@@ -56,9 +61,9 @@ class Outcome(TypedDict, total=False):
 
 
 class Entry(TypedDict, total=False):
-    """A call in the history: one line for the request, and one line for the response.
+    """A call in the history: one line of text for the request, and one line for the response.
 
-    A recorded call also has `check` and `outcome`; a page without a kernel shows them.
+    A recorded call also has `check` and `outcome`, because a page without a kernel shows them.
     """
 
     phase: Phase
@@ -94,7 +99,7 @@ class RequestForm(MessageForm):
 def seconds(text: str) -> float:
     """Return the timeout (s) that the student typed.
 
-    Raises FieldError if it is not a number or is out of range.
+    Raises FieldError if the text is not a number or the number is out of range.
     """
     try:
         value = float(text)

@@ -4,9 +4,9 @@ import { command, valueTable } from "../forms/parts.js";
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { recorded } from "./recording.js";
 
-const SETTLE = 120; // ms; the draft is sent if no key was pressed for this time
-const LONG = 8; // fields; if a form has more of them, the response is below the form instead of beside it
-const SLOW = 1500; // ms; if a click has no answer by then, the panel says why
+const SETTLE = 120; // The draft is sent if no key was pressed for this many ms.
+const LONG = 8; // If a form has more fields than this, the response is below the form instead of beside it.
+const SLOW = 1500; // If a click has no answer after this many ms, the panel shows the reason.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement, signal?: AbortSignal}} context */
 function render({ model, el }) {
@@ -20,7 +20,7 @@ class ServiceView {
   /** @param {import("../kit.js").Model} model @param {AbortSignal} signal */
   constructor(model, signal) {
     this.model = model;
-    this.live = true; // assumed until the kernel fails to answer, so that "No kernel" does not flash at first
+    this.live = true; // true until the kernel does not answer; otherwise, "No kernel" would appear for a moment
     this.waiting = false;
     this.refused = model.get("check").refused ?? 0;
     this.request = new FieldsForm(() => this.#edited(), "This request has no fields: just call.");
@@ -180,7 +180,7 @@ class ServiceView {
   #drawButtons() {
     const running = this.model.get("outcome").phase === "running";
     const answers = this.live || this.model.get("recording").length > 0;
-    // The attribute `disabled` is not used, because a button would lose the keyboard focus.
+    // The attribute `disabled` is not used, because a disabled button loses the keyboard focus.
     setAttribute(this.callButton, "aria-disabled", running || this.waiting || !answers ? "true" : null);
     setAttribute(this.cancelButton, "aria-disabled", running && this.live ? null : "true");
     this.picker.disabled = !this.live;
@@ -247,7 +247,7 @@ class ServiceView {
 
   #call() {
     if (disabled(this.callButton)) return;
-    this.#save(); // the kernel handles messages in order: first the typed texts, then the call
+    this.#save(); // The kernel handles messages in order: first the typed texts, then the call.
     if (!this.live) return this.#replay();
     this.waiting = true;
     this.#drawButtons();
@@ -272,7 +272,7 @@ class ServiceView {
     if (!disabled(this.cancelButton)) send(this.model, { kind: "cancel" });
   }
 
-  /** The kernel has handled a click. */
+  /** Shows that the kernel has handled a click. */
   #settle() {
     this.waiting = false;
     clearTimeout(this.slow);

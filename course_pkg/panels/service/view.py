@@ -25,10 +25,10 @@ HERE = Path(__file__).parent
 class ServicePanel(Panel):
     """A form for calling any service on the graph.
 
-    `service` is the name of the service; with None, the reader selects one on the page. `deadline` is the
-    maximum time of a call in s. `kind` is the type; it is only needed for a type that was made in the
-    notebook and is in no package. While a page shows the panel, it lists the services on the graph; it shows
-    the error of a failed call.
+    `service` is the name of the service. With None, the reader selects a service on the page. `deadline` is
+    the maximum time of a call in s. `kind` is the type. `kind` is needed only for a type that was made in the
+    notebook and belongs to no package. While a page shows the panel, the panel lists the services on the
+    graph.
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"
@@ -74,14 +74,14 @@ class ServicePanel(Panel):
     def call(self, **values: Plain) -> genpy.Message | None:
         """Fill in the form, call the service, and return the response message.
 
-        Raises the same errors as the call.
+        Raises the same errors as the service call.
         """
         self._model.fill(values)
         self._model.call(self.deadline)
         return self.response
 
     def record(self, inputs: Iterable[Values]) -> None:
-        """Call the service once for each of `inputs`, and keep the outcomes for pages without a kernel."""
+        """Call the service once for each of `inputs`, and store the outcomes for pages without a kernel."""
         self.publish(recording=self._model.record(inputs, self.deadline))
 
     def shown(self) -> None:

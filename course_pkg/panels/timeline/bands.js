@@ -1,9 +1,9 @@
-/* Gathers events that are too close together into bands. It is a pure function of a scene and of its zoom. */
+/* Joins events that are too close to each other into bands. */
 
 /** @typedef {{events: number[], left: number, right: number, key: number, count: number, what: string}} Band */
 
-const CLOSE = 3; // px; events that are narrower and closer are not drawn one by one
-const MANY = 5; // calls or messages that make a band
+const CLOSE = 3; // Events are not drawn separately if they are narrower and closer than this many px.
+const MANY = 5; // A band contains at least this many calls or messages.
 const BANDS = { lookup: "calls", connect: "calls", request: "calls", wait: "calls", response: "calls", handler: "requests", publish: "messages", callback: "callbacks" };
 
 /** Returns the bands of the events in view. Events of the chosen exchange are not put into bands.

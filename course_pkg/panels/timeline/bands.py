@@ -1,4 +1,4 @@
-"""Joins events that are too close to each other into bands; bands.js does the same for the page."""
+"""Joins events that are close to each other into bands; bands.js does this for the page."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 
 from course_pkg.panels.timeline.scene import Event, Scene
 
-CLOSE = 3.0  # px; events that are narrower and closer than this are not drawn separately
-MANY = 5  # least number of calls or messages in a band
+# Events are not drawn separately if they are narrower than this and closer together than this (px).
+CLOSE = 3.0
+MANY = 5  # A band contains at least this many calls or messages.
 CALLS, REQUESTS = "calls", "requests"
 WHAT = {
     "lookup": CALLS,
@@ -23,7 +24,7 @@ WHAT = {
 
 @dataclass
 class Band:
-    """Close events of one kind: the start and end of the band (px), and the number of calls or messages."""
+    """A group of close events of one kind: the start and end (px), and the number of calls or messages."""
 
     what: str
     kind: str

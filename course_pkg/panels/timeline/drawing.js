@@ -6,8 +6,8 @@ import { cross, diamond, head, ring, tick, torn } from "./marks.js";
 /** @typedef {import("./scene.js").Scene} Scene */
 /** @typedef {{from: number, to: number}} View */
 
-const MARK = 14; // px; a narrower event is a small mark, and a wider one a bar with a text
-const APART = { message: 8, call: 3 }; // px; if arrows between the same two lanes are closer, some are left out
+const MARK = 14; // An event that is narrower than this (px) is a small mark; a wider event is a bar with a text.
+const APART = { message: 8, call: 3 }; // If arrows between the same two lanes are closer than this (px), some arrows are left out.
 const AXIS = 26; // px
 const COLOURS = ["text", "muted", "line", "ground", "raised", "error", "handler", "handler-edge", "wait-edge", "callback", "callback-edge"];
 const BLOCKED = ["lookup", "connect", "wait"];
@@ -66,7 +66,7 @@ export class Drawing {
       const [top, high] = scene.place(each);
       if (y < top - 2 || y > top + high + 2) continue;
       const [left, right] = [this.x(scene.start[each]), this.x(scene.end[each])];
-      const off = Math.max(left - x, x - right, 0) - (right - left < 6 ? 0.5 : 0); // a small mark has priority over the bar below it
+      const off = Math.max(left - x, x - right, 0) - (right - left < 6 ? 0.5 : 0); // A small mark has priority over the bar below.
       if (off < distance || (off === distance && best >= 0 && scene.depth[each] > scene.depth[best])) [best, distance] = [each, off];
     }
     return best;
@@ -104,7 +104,7 @@ export class Drawing {
   /** @param {CanvasRenderingContext2D} pen @param {{x: number}[]} ticks */
   #drawGround(pen, ticks) {
     const [{ width }, { height }] = [this, this.scene];
-    pen.fillStyle = this.colours.raised; // outside of the recording
+    pen.fillStyle = this.colours.raised; // This colour marks the time outside the recording.
     const [first, last] = [this.x(0), this.x(this.scene.length)];
     if (first > 0) pen.fillRect(0, 0, first, height);
     if (last < width) pen.fillRect(last, 0, width - last, height);
@@ -195,7 +195,7 @@ export class Drawing {
       pen.fillStyle = what === "calls" ? this.#hatched(pen) : this.colours[message ? "callback" : "handler"];
       pen.strokeStyle = this.colours[what === "calls" ? "wait-edge" : message ? "callback-edge" : "handler-edge"];
       pen.lineWidth = 1;
-      pen.setLineDash([2, 2]); // dashed, because a band is many short events and not one long one
+      pen.setLineDash([2, 2]); // A dashed line shows that a band is not one long event.
       pen.fillRect(from, y + high / 4, to - from, high / 2);
       pen.strokeRect(from, y + high / 4, to - from, high / 2);
       pen.setLineDash([]);
@@ -308,7 +308,7 @@ function canvas(name) {
   return element;
 }
 
-/** Makes a hidden element that has the colour of a variable in the present theme. @param {string} name */
+/** Makes a hidden element that has the colour of a variable in the current theme. @param {string} name */
 function probe(name) {
   const element = document.createElement("i");
   element.hidden = true;

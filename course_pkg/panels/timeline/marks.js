@@ -1,4 +1,4 @@
-/* The small shapes of a timeline. Each function draws one of them at a position (px). */
+/* The small shapes of a timeline. Each function draws one shape at a position (px). */
 
 /** @param {CanvasRenderingContext2D} pen @param {number} x1 @param {number} y1 @param {number} x2 @param {number} y2 */
 export function head(pen, x1, y1, x2, y2) {

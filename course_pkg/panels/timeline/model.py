@@ -1,8 +1,7 @@
-"""The data of a timeline: each property of the events is a list of numbers; each node has rows.
+"""The data of a timeline: the events, with a list of numbers for each property, and the rows of each node.
 
 A saved page contains all these data, so their size is limited. If there are more than 4,000 events, the data
-contain the calls and then as many messages as possible, in the order of time. A note says how many events are
-left out.
+contain all calls, and messages until the limit is reached. A note states how many events are left out.
 """
 
 from __future__ import annotations
@@ -31,10 +30,10 @@ from course_pkg.ros.trace.recording import (
 if TYPE_CHECKING:
     from course_pkg.ros import Recording
 
-MOST = 4000  # events; about 200 kB in a saved page
+MOST = 4000  # The data contain at most this many events, which take about 200 kB in a saved page.
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
-TICKS = 1e6  # ticks per second: the times of the state are whole microseconds
-# the end of an event that was not finished; an event that ended before the recording is not recorded
+TICKS = 1e6  # The state has times in whole microseconds, so one second has this many ticks.
+# An event with this end was not finished.
 OPEN = -1
 
 
@@ -46,7 +45,7 @@ class Lane(TypedDict):
 
 
 class Columns(TypedDict):
-    """The events, as one list for each property.
+    """The events, with one list for each property.
 
     The lists from `name` to `note` contain indices of `strings`.
     """
@@ -67,9 +66,9 @@ class Columns(TypedDict):
 class TimelineState(TypedDict):
     """A recording for the page; times are in µs from its start.
 
-    `strings` is the list to which the indices of the events refer. `arrows` are pairs of indices of events.
-    `idle` are the nodes without an event. `unrecorded` are the nodes that could not be recorded, each with
-    the reason.
+    The indices of the events refer to the list `strings`. `arrows` contains pairs of indices of events.
+    `idle` contains the nodes without an event. `unrecorded` contains the nodes that could not be recorded,
+    each with the reason.
     """
 
     length: int
@@ -85,18 +84,18 @@ class TimelineState(TypedDict):
 
 
 class StringTable:
-    """A list of different strings, in which each string has a number."""
+    """A list of different strings; each string has an index."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {"": 0}
 
     def number(self, text: str) -> int:
-        """Return the number of a string; a new string is added to the list."""
+        """Return the index of a string; a new string is added to the list."""
         return self._numbers.setdefault(text, len(self._numbers))
 
     @property
     def strings(self) -> list[str]:
-        """All strings, by number."""
+        """All strings, sorted by index."""
         return list(self._numbers)
 
 
@@ -147,7 +146,9 @@ class _Thread:
 
 
 def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
-    """Return the row of each event, and its depth: the number of events of its thread that contain it.
+    """Return the row and the depth of each event.
+
+    The depth is the number of earlier events in the same thread that had not ended when the event began.
 
     All events of a thread are in one row. Several threads can use the same row, one after another.
     """
@@ -156,7 +157,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
     for number, event in enumerate(events):
         nodes[event.node][event.thread].take(number, event)
     for threads in nodes.values():
-        free: list[float] = []  # the time from which each row is free
+        free: list[float] = []  # Each row is free from this time on.
         for thread in sorted(threads.values(), key=lambda each: each.start):
             row = next((row for row, end in enumerate(free) if end < thread.start), len(free))
             free[row : row + 1] = [thread.end]
@@ -165,7 +166,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
 
 
 def _place(thread: _Thread, row: int, events: Sequence[Event], rows: list[int], depths: list[int]) -> None:
-    around: list[float] = []  # the ends of the events that contain the current event
+    around: list[float] = []  # The list contains the ends of the events that contain the current event.
     for number in sorted(thread.numbers, key=lambda each: (events[each].start, -_end(events[each]))):
         while around and around[-1] <= events[number].start:
             around.pop()
@@ -178,7 +179,7 @@ def _end(event: Event) -> float:
 
 
 def arrows(events: Sequence[Event]) -> list[list[int]]:
-    """Return [from, to] for each request, response and message if both ends were recorded."""
+    """Return [from, to] for each request, response and message with both ends in the recording."""
     parts: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
     for number, event in enumerate(events):
         parts[event.key][event.kind].append(number)
@@ -189,8 +190,8 @@ def arrows(events: Sequence[Event]) -> list[list[int]]:
 def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[int]]:
     """Return the arrows of one call or of one message.
 
-    The arrow of a response or an error goes from the end of the handler to the caller. There is no such arrow
-    if the caller stopped waiting before.
+    The arrow of a response or an error goes from the end of the handler to the caller. If the caller had
+    already stopped waiting, there is no such arrow.
     """
     found = [[message, callback] for message in part[PUBLISH] for callback in part[CALLBACK]]
     for handler in part[HANDLER]:

@@ -1,11 +1,11 @@
-/* The data of a timeline: events in typed columns, and the positions of lanes and rows. It needs no page. */
+/* The data of a timeline: events in typed columns, and the positions of lanes and rows. This module uses no page. */
 
 /** @typedef {{length: number, kinds: string[], lanes: {node: string, rows: number}[], columns: Record<string, number[]>, strings: string[],
  *   arrows: [number, number][], waits: {calls: any[], streams: any[]}, idle: string[], unrecorded: [string, string][], notes: string[]}} Recorded */
 
-const HEAD = 22; // px, height of a lane's name
-const GAP = 12; // px between lanes
-const ROWS = [[16, 20, 3], [32, 12, 2], [52, 8, 2], [Infinity, 4, 1]]; // maximal number of rows, px of a row, px between two rows
+const HEAD = 22; // The name of a lane is this many px high.
+const GAP = 12; // The distance between two lanes is this many px.
+const ROWS = [[16, 20, 3], [32, 12, 2], [52, 8, 2], [Infinity, 4, 1]]; // Each entry: maximum number of rows, height of a row (px), distance between two rows (px).
 
 /** All times are in µs. */
 export class Scene {
@@ -67,7 +67,7 @@ export class Scene {
     return this.recorded.lanes[this.lane[each]].node;
   }
 
-  /** Returns the upper edge and the height of an event, which is smaller inside other events. @param {number} each */
+  /** Returns the upper edge and the height of an event; an event inside another event has a smaller height. @param {number} each */
   place(each) {
     const inset = Math.min(this.depth[each] * 3, this.row / 2 - 2);
     const y = this.top[this.lane[each]] + HEAD + this.rows[each] * (this.row + this.between);

@@ -3,7 +3,7 @@ import { numeral } from "../kit.js";
 
 /** @typedef {import("./scene.js").Scene} Scene */
 
-const SENTENCES = 8; // sentences about waiting; all further ones are only counted
+const SENTENCES = 8; // At most this many sentences about waiting are shown; the text gives the number of all others.
 
 /** Returns a span of time (µs) as text. @param {number} span */
 export function duration(span) {
@@ -36,7 +36,7 @@ export function sentence(scene, each) {
   return says[/** @type {keyof says} */ (kind)]();
 }
 
-/** Returns the parts of the exchange of an event, with the duration of each. @param {Scene} scene @param {number} each
+/** Returns the steps of the exchange of an event, each with its duration. @param {Scene} scene @param {number} each
  * @returns {[string, string][]} */
 export function parts(scene, each) {
   return (scene.exchanges.get(scene.key[each]) ?? []).filter((part) => !["request", "response", "error"].includes(scene.kindOf(part)))
@@ -49,7 +49,7 @@ function heard(scene, each) {
   return callbacks ? `${counted(callbacks, "callback")} got it.` : "The recording shows no callback that got it.";
 }
 
-/** Returns a sentence for each caller and each publisher: for which nodes it waited.
+/** Returns a sentence for each caller and each publisher about the nodes for which it waited.
  * @param {Scene} scene @returns {{waits: boolean, text: string}[]} */
 export function waiting(scene) {
   const { calls, streams } = scene.recorded.waits;

@@ -1,10 +1,10 @@
-/* The timeline: the drawing, the chosen event as text, sentences about waiting, and a table. It needs no kernel. */
+/* The timeline: the drawing, the chosen event as text, sentences about waiting, and a table. The timeline needs no kernel. */
 import { freshId, h, prose, say, setAttribute } from "../kit.js";
 import { Drawing } from "./drawing.js";
 import { Scene } from "./scene.js";
 import { counted, duration, moment, parts, sentence, waiting } from "./sentences.js";
 
-const FINEST = 50; // µs, the shortest time that the width of the page shows
+const FINEST = 50; // The width of the page shows at least this time in µs.
 const HINT = "Drag to move. Ctrl + wheel zooms, and so do + and −; ← and → move, ↑ and ↓ go from event to event, 0 shows all.";
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
@@ -78,10 +78,10 @@ class TimelineView {
   #listen() {
     this.observer = new ResizeObserver(([entry]) => {
       this.drawing.resize(Math.floor(entry.contentRect.width));
-      this.#drawNow(); // otherwise, the page would show no drawing for a moment
+      this.#drawNow(); // Without this, the page would show no drawing for a moment.
     });
     this.observer.observe(this.window);
-    this.paper = window.matchMedia("print"); // print has other colours
+    this.paper = window.matchMedia("print"); // A printed page has other colours.
     this.paper.addEventListener("change", this.#drawNow);
     this.themes = new MutationObserver(() => this.#drawSoon());
     for (const element of [document.documentElement, document.body]) this.themes.observe(element, { attributes: true });
@@ -99,7 +99,7 @@ class TimelineView {
     const sideways = event.shiftKey ? event.deltaY : event.deltaX;
     if (event.ctrlKey) this.#zoom(Math.exp(Math.max(-100, Math.min(100, event.deltaY)) * 0.005), event.offsetX);
     else if (sideways) this.#move(sideways / this.drawing.width);
-    else return; // without a key, the wheel scrolls the page
+    else return; // Without a key, the wheel scrolls the page.
     event.preventDefault();
   }
 
@@ -218,7 +218,7 @@ class TimelineView {
     setAttribute(this.thinned, "hidden", !this.drawing.thinned);
   };
 
-  /** Makes the rows of the table when it is opened for the first time, because thousands of rows take time. */
+  /** Makes the rows of the table when it is opened for the first time, because thousands of rows would take too long. */
   #fillTable() {
     if (!this.table.open || this.body.childElementCount) return;
     const { scene } = this;

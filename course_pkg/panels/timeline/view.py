@@ -20,7 +20,7 @@ HERE = Path(__file__).parent
 class Timeline(Panel):
     """A sequence diagram of a recording: each node has rows, and time runs from left to right.
 
-    Its argument is the recording of a block that has ended: `with node.record() as recording: …`.
+    The argument is the recording of a block that has ended: `with node.record() as recording: …`.
     """
 
     front_end: ClassVar[Path] = HERE / "timeline.js"
@@ -35,7 +35,7 @@ class Timeline(Panel):
 
     @property
     def text(self) -> str:
-        """Sentences that say which node waited for which node; they are the same in every run."""
+        """Sentences about which node waited for which node. The sentences are the same in every run."""
         return timeline_text(self._recording)
 
     def __repr__(self) -> str:

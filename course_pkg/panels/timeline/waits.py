@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
 
 class Wait(TypedDict):
-    """The calls of one node to one service; `blocked` (the sum of the waits) and `longest` are in s.
+    """The calls of one node to one service. The unit of `blocked` (the sum of all waits) and `longest` is s.
 
-    `open` is the number of calls that were not finished.
+    `open` is the number of unfinished calls.
     """
 
     node: str
@@ -30,7 +30,7 @@ class Wait(TypedDict):
 class Stream(TypedDict):
     """The messages of one node on one topic.
 
-    `alone` counts those that were published without a subscriber.
+    `alone` is the number of messages that were published without a subscriber.
     """
 
     node: str
@@ -41,7 +41,7 @@ class Stream(TypedDict):
 
 
 class Waits(TypedDict):
-    """The calls, sorted by the longest wait, and the streams of messages."""
+    """The calls, with the longest wait first, and the streams of messages."""
 
     calls: list[Wait]
     streams: list[Stream]
@@ -50,7 +50,7 @@ class Waits(TypedDict):
 def waits_of(recording: Recording) -> Waits:
     """Return the waits of a recording.
 
-    A wait that was not finished is counted until the end of the recording.
+    An unfinished wait ends at the end of the recording.
     """
     calls: dict[tuple[str, str], list[Event]] = defaultdict(list)
     streams: dict[tuple[str, str], list[Event]] = defaultdict(list)
@@ -99,10 +99,10 @@ def _stream(node: str, topic: str, events: list[Event], receivers: dict[str, set
 
 
 def timeline_text(recording: Recording) -> str:
-    """Return one sentence on each line: which node waited for which node, without times.
+    """Return one sentence per line about which node waited for which node, without times.
 
-    Calls come first, and the lines are sorted. Therefore, the text is the same in every run with the same
-    events.
+    The lines about calls come before the lines about messages, and both groups are sorted. Therefore, the
+    text is the same in every run with the same events.
     """
     return "\n".join(sentences(waits_of(recording)))
 

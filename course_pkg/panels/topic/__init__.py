@@ -1,1 +1,1 @@
-"""The topic panel: it publishes and receives messages, and explains what happens to each message."""
+"""The topic panel: it publishes and receives messages, and explains the result for each message."""

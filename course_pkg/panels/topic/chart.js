@@ -11,11 +11,11 @@ import { h, say } from "../kit.js";
 const SPACE = "http://www.w3.org/2000/svg";
 const X = "time since the subscription began (s)";
 const HEIGHT = 264; // px
-const TOP = 28; // px for the name of the vertical axis
-const BOTTOM = 44; // px for the ticks and the name of the horizontal axis
-const LETTER = 6.8; // px, about the width of a digit of 12 px
-const APART = 8; // px; if points are this far apart on average, the line has markers
-const R = 4; // px, the radius of a marker
+const TOP = 28; // The name of the vertical axis has this many px.
+const BOTTOM = 44; // The ticks and the name of the horizontal axis have this many px.
+const LETTER = 6.8; // A digit of 12 px is about this many px wide.
+const APART = 8; // If the average distance between points is at least this many px, the line has markers.
+const R = 4; // The radius of a marker is this many px.
 
 export class Chart {
   constructor() {
@@ -88,7 +88,7 @@ export class Chart {
     this.#read(this.#nearest((event.clientX - frame.left) * scale, (event.clientY - frame.top) * scale));
   }
 
-  /** Returns the nearest point; the vertical distance counts less than the horizontal one.
+  /** Returns the nearest point; the horizontal distance counts more than the vertical distance.
    * @param {number} x @param {number} y */
   #nearest(x, y) {
     const far = this.data.points.map((/** @type {Point} */ point) => {

@@ -28,19 +28,19 @@ from course_pkg.ros.topic.field_paths import measurement, numbers
 from course_pkg.ros.topic.reports import Connections, Report
 from course_pkg.types import MessageSchema, MessageType, message_type, publisher_lines, rostopic_line, schema
 
-BURST = 1000  # number of messages in a burst
+BURST = 1000  # A burst contains this many messages.
 NAME = r"(/[A-Za-z]\w*)+"  # http://wiki.ros.org/Names
 ACTIONS = ("publish", "burst", "repeat")
-RATE, QUEUE = "@rate", "@queue"  # "@" cannot be part of a field's name
+RATE, QUEUE = "@rate", "@queue"  # A field's name cannot contain "@".
 SLOWEST, FASTEST = 0.1, 100.0  # 1/s
-LONGEST = 10_000  # maximum length of a publisher's queue (messages)
+LONGEST = 10_000  # A publisher's queue has at most this many messages.
 
 
 @dataclass(frozen=True)
 class Settings:
     """The publisher's settings as texts: the rate, the queue size, and whether the topic is latched.
 
-    `path` is the field to plot, or "" for none.
+    `path` is the field that the panel plots, or "" for none.
     """
 
     rate: str = "10"
@@ -50,18 +50,24 @@ class Settings:
 
     @classmethod
     def of_page(cls, given: Mapping[str, str | bool]) -> Settings:
-        """Return the settings from the content of a page's message."""
+        """Return the settings from a message of the page."""
         rate, queue, path = (str(given.get(name, "")) for name in ("rate", "queue", "path"))
         return cls(rate, queue, bool(given.get("latch")), path)
 
     @property
     def hertz(self) -> float:
-        """The rate in messages per second. Raises FieldError if it is not a number or is out of range."""
+        """The rate in messages per second.
+
+        Raises FieldError if the rate is not a number or is out of range.
+        """
         return _number(RATE, self.rate, SLOWEST, FASTEST, f"a rate from {SLOWEST:g} to {FASTEST:g} Hz")
 
     @property
     def size(self) -> int:
-        """The queue size in messages; 0 means no limit. Raises FieldError if it is not valid."""
+        """The queue size in messages; 0 means that the queue has no limit.
+
+        Raises FieldError if the queue size is not valid.
+        """
         allowed = f"a whole number from 0 (no limit) to {LONGEST}"
         size = _number(QUEUE, self.queue, 0, LONGEST, allowed)
         if size != int(size):
@@ -70,9 +76,9 @@ class Settings:
 
 
 class About(TypedDict, total=False):
-    """The topic, and the fields of its type; the numeric fields can be plotted.
+    """The topic, and the fields of its type; the page can plot the numeric fields.
 
-    `problem` says why there is no form; "" means that there is one.
+    `problem` says why there is no form, and is "" if there is a form.
     """
 
     topic: str
@@ -86,10 +92,11 @@ class About(TypedDict, total=False):
 class TopicModel:
     """One topic: its type, the message in the form, the publisher's settings, and the received messages.
 
-    `kind` is the type; with None, the type of the first publisher is used. The model calls `changed` after
-    each change. Its keyword arguments are `about`, `settings`, `draft`, `check`, `connections`, `publisher`,
-    `subscription`, `messages`, `latest`, `curve` and `trouble`. `command` sends a command to the topic
-    process, if there is one. Raises NotATopic if `topic` is not a valid name.
+    `kind` is the type of the messages. With None, the panel uses the type of the first publisher. The model
+    calls `changed` after each change. The keyword arguments of `changed` are `about`, `settings`, `draft`,
+    `check`, `connections`, `publisher`, `subscription`, `messages`, `latest`, `curve` and `trouble`.
+    `command` sends a command to the topic process, if there is one. Raises NotATopic if `topic` is not a
+    valid name.
     """
 
     def __init__(
@@ -130,7 +137,7 @@ class TopicModel:
     def process_began(self) -> None:
         """Send the type and the plotted field to a new topic process.
 
-        Only the previous process received them.
+        A new process does not know them yet.
         """
         with self._turn:
             self._own, self._log, self._subscription = "", MessageLog(), {"count": 0, "statistics": {}}
@@ -167,7 +174,7 @@ class TopicModel:
                 self._changed(messages=self._log.entries, latest=self._log.latest)
 
     def see(self, connections: Connections) -> None:
-        """Store the present publishers and subscribers of the topic."""
+        """Store the current publishers and subscribers of the topic."""
         with self._turn:
             self._connections = connections
             if self.kind is None:
@@ -193,7 +200,7 @@ class TopicModel:
             self._changed(check=self._checked())
 
     def act(self, action: str, draft: Draft, settings: Settings) -> None:
-        """Publish once, in a burst, or at a rate; do nothing if a text in the form has an error."""
+        """Publish once, in a burst, or at a rate; do nothing if the form has an error."""
         with self._turn:
             if not self._form or action not in ACTIONS:
                 return
@@ -216,7 +223,7 @@ class TopicModel:
         self._command("stop")
 
     def withdraw(self) -> None:
-        """End the publisher."""
+        """Unregister the publisher."""
         self._command("withdraw")
 
     def _checked(self) -> Check:
@@ -233,7 +240,7 @@ class TopicModel:
         return {**check, "errors": {**check["errors"], **wrong}, "refused": self._refusals}
 
     def _commands(self, values: Values) -> Check:
-        """Return the commands that publish these values once and at a rate; {} if a setting has an error."""
+        """Return the commands for publishing these values once and at a rate, or {} if a setting is wrong."""
         assert self.kind is not None
         settings = self.settings
         try:
@@ -248,7 +255,7 @@ class TopicModel:
         }
 
     def _type_on_the_graph(self) -> str:
-        """Return the type of a publisher; if there is no publisher, return the type that the master knows."""
+        """Return the type of a publisher. Without a publisher, return the type that the master knows."""
         types = [each["type"] for each in self._connections.get("publishers", ())]
         known = (*types, self._connections.get("type", ""))
         return next((each for each in known if each and each != ANY), "")

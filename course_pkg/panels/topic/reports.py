@@ -12,22 +12,22 @@ from course_pkg.ros.topic.connections import ANY
 from course_pkg.ros.topic.reports import Connections, Figures, MessageReport, Peer, PublisherReport, Source
 from course_pkg.types import MessageType
 
-SHORT = 8  # number of digits of an MD5 that is enough to distinguish two types
-KEPT = 10  # number of listed messages
-LINES = 40  # maximum number of rows in the table of the latest message
+SHORT = 8  # This many digits of an MD5 are enough to distinguish two types.
+KEPT = 10  # The panel lists at most this many messages.
+LINES = 40  # The table of the latest message has at most this many rows.
 
 FindType = Callable[[str], MessageType]
 
 
 class PublisherState(PublisherReport, total=False):
-    """A report of the publisher for the page, with a sentence and the name of the panel's node."""
+    """A report about the publisher, with a sentence for the page and the name of the panel's node."""
 
     words: str
     own: str
 
 
 class SubscriptionState(TypedDict):
-    """The number of received messages, and statistics about their timing."""
+    """The number of received messages, and statistics about the times between them."""
 
     count: int
     statistics: Figures
@@ -44,7 +44,7 @@ class ShownMessage(TypedDict):
 
 
 class MessageLog:
-    """The latest messages of a topic, each in one line, and the last message as a table."""
+    """The latest messages of a topic in one line each, and the last message as a table."""
 
     def __init__(self) -> None:
         self._entries: deque[ShownMessage] = deque(maxlen=KEPT)
@@ -52,11 +52,11 @@ class MessageLog:
 
     @property
     def entries(self) -> list[ShownMessage]:
-        """The messages; the latest message comes first."""
+        """The messages, with the latest message first."""
         return list(self._entries)
 
     def add(self, messages: Iterable[MessageReport], kind: MessageType | None) -> None:
-        """Add new messages; the oldest message comes first."""
+        """Add new messages; in `messages`, the oldest message comes first."""
         for each in messages:
             lines = _rows(each, kind)
             self._entries.appendleft(
@@ -88,7 +88,7 @@ def _remark(message: MessageReport, kind: MessageType | None) -> str:
 def published(report: PublisherReport, own: str) -> str:
     """Return a sentence about the last published message.
 
-    `own` is the panel's node, which also subscribes.
+    `own` is the name of the panel's node; this node also subscribes to the topic.
     """
     count = report.get("published", 0)
     if not count:
@@ -118,7 +118,7 @@ def _rate(report: PublisherReport) -> str:
 
 
 def mismatches(kind: MessageType, connections: Connections, own: str, find: FindType) -> list[str]:
-    """Return a sentence for each node with another type than `kind`; rospy does not report this error."""
+    """Return a sentence for each node with another type than `kind`. rospy does not report such an error."""
     sources = {source["node"]: source for source in connections.get("sources", ())}
     return [
         *_of_publishers(kind, connections.get("publishers", ()), sources, own, find),
@@ -180,7 +180,7 @@ def _peer(node: str, own: str) -> str:
 
 
 def _all(names: list[str]) -> str:
-    """Return the names as a list in one text, such as "a, b and c"."""
+    """Return the names as one text, such as "a, b and c"."""
     *most, last = names
     return f"{', '.join(most)} and {last}" if most else last
 

@@ -9,7 +9,7 @@ from course_pkg.panels.paper import CODE, EDGES, ERROR, FAINT, HEADING, PLAIN, P
 
 
 def still(state: State) -> str:
-    """Return the picture of the panel before a message was published or received."""
+    """Return the picture of the panel before a message is published or received."""
     about, connections = state["about"], state.get("connections", {})
     message = about.get("message", {})
     kind = f" of type {message['name']}" if message else ""

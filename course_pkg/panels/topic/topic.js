@@ -6,10 +6,10 @@ import { freshId, h, kernelLink, same, say, send, setAttribute } from "../kit.js
 import { Chart } from "./chart.js";
 import { deliveries, figures, names, number, seconds, setting } from "./parts.js";
 
-const SETTLE = 120; // ms; typed texts are sent if no key was pressed for this time
-const SLOW = 1500; // ms; if the kernel has not handled a click by then, the panel says why
-const AGEING = 250; // ms between two updates of the messages' ages
-const SPAN = 20; // s that the chart shows
+const SETTLE = 120; // Typed texts are sent if no key was pressed for this many ms.
+const SLOW = 1500; // If the kernel has not handled a click after this many ms, the panel shows the reason.
+const AGEING = 250; // The ages of the messages are updated every AGEING ms.
+const SPAN = 20; // The chart shows this many s.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -204,7 +204,7 @@ class TopicView {
 
   #drawLatest() {
     const rows = this.model.get("latest");
-    // The list of messages already shows all of a message with one field.
+    // For a message with one field, the list of messages already shows all values.
     this.latest.replaceChildren(...(rows.length > 1 ? [valueTable(rows, "")] : []));
   }
 
@@ -266,7 +266,7 @@ class TopicView {
     this.slow = setTimeout(() => say(this.waiting, "Waiting for the kernel: it is busy with another cell."), SLOW);
   }
 
-  /** The kernel has handled a click. */
+  /** Shows that the kernel has handled a click. */
   #settle() {
     clearTimeout(this.slow);
     say(this.waiting, "");

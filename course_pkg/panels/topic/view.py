@@ -1,4 +1,4 @@
-"""The widget of the topic panel: it runs a topic process as long as a page shows the panel."""
+"""The widget of the topic panel. A topic process runs while a page shows the panel."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ HERE = Path(__file__).parent
 
 
 class TopicPanel(Panel):
-    """A form that publishes on a topic, once or at a rate, and a view of the topic's messages.
+    """A form for publishing on a topic, once or at a rate, and a view of the received messages.
 
-    `kind` is the type, such as "std_msgs/Float64"; without it, the panel takes the type of the first
-    publisher. As long as a page shows the panel, it has a separate node. Raises UnknownType if there is no
+    `kind` is the type, such as "std_msgs/Float64". Without `kind`, the panel uses the type of the first
+    publisher. While a page shows the panel, the panel has a separate node. Raises UnknownType if there is no
     such type, and NotATopic if `topic` is not a valid name.
     """
 
@@ -82,7 +82,7 @@ class TopicPanel(Panel):
         return f"TopicPanel({self._topic!r})"
 
     def _look(self) -> None:
-        """Find the nodes on the topic before a page shows the panel, because a saved page also shows them."""
+        """Find the nodes on the topic before a page shows the panel: a saved page also shows the nodes."""
         try:
             self._model.see(find_connections(MasterClient(master_uri()), self._topic))
         except GraphError as error:
@@ -105,7 +105,7 @@ class TopicPanel(Panel):
             if process is not self._process:
                 return
             if report.get("trouble") and process.master != master_uri():
-                self.hidden()  # the kernel uses another master now
+                self.hidden()  # The kernel now uses another master.
                 self.shown()
             else:
                 self._model.report(report)

@@ -1,8 +1,9 @@
 """Derives the state of a turtle's pen from its poses and from the colour under the turtle.
 
-turtlesim publishes neither the state of the pen nor calls of `clear` and `reset`. But it publishes the colour
-of the background or the line under the turtle. Under a slow turtle, or one that does not move, this is the
-colour of its own line. Under a fast turtle, this is the colour in front of its line.
+turtlesim publishes neither the state of the pen nor calls of `clear` and `reset`. However, turtlesim
+publishes the colour of the background or line under the turtle. Under a slow or resting turtle, this colour
+is the colour of the turtle's own line. Under a fast turtle, this colour is the colour in front of the
+turtle's line.
 """
 
 from __future__ import annotations
@@ -10,16 +11,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-Colour = tuple[int, int, int]  # red, green, blue
+Colour = tuple[int, int, int]  # The numbers are red, green and blue, from 0 to 255.
 
-USUAL: Colour = (179, 184, 255)  # the colour of every pen at the start
-HOME = 5.544444561  # m, x and y of the first turtle at the start
-# Up to this speed (m/s), the line always reaches under the turtle: the turtle moves 0.8 px per tick, and the
+USUAL: Colour = (179, 184, 255)  # Every pen has this colour at the start.
+HOME = 5.544444561  # The first turtle starts at this x and y (m).
+# Up to this speed (m/s), the line always reaches under the turtle. The turtle moves 0.8 px per tick, and the
 # pen is 3 px wide.
 SLOW = 1.1
-BRISK = 3.0  # m/s; up to this speed, the line often reaches under the turtle
-STILL = 1e-4  # m; a turtle that moves less between two observations is at rest
-# number of successive observations, all at rest or all moving, after which the line is under the turtle
+BRISK = 3.0  # Up to this speed (m/s), the turtle is often above the line that it draws.
+STILL = 1e-4  # A turtle is at rest if it moves less than this (m) between two observations.
+# After this many successive observations at rest, or in motion, the line is under the turtle.
 SETTLED = 2
 
 
@@ -35,33 +36,34 @@ class Observation:
 
 
 class Finding(Enum):
-    """What an observation tells about the pen and the paper."""
+    """A conclusion from one observation about the pen and the background."""
 
     NOTHING = "nothing"
-    UNDRAWN = "undrawn"  # the pen was up since the previous observation
-    CLEARED = "cleared"  # the paper is empty again
-    RESET = "reset"  # the paper is empty, and the turtles are in their initial state
+    UNDRAWN = "undrawn"  # The pen was up since the previous observation.
+    CLEARED = "cleared"  # All lines were erased.
+    RESET = "reset"  # All lines were erased, and the turtles are in their initial state.
 
 
 @dataclass
 class Pen:
-    """The pen of one turtle; `colour` is None while the pen is up.
+    """The pen of one turtle.
 
     `colour` is its colour while it is down, and None while it is up.
 
-    `sure` says whether the latest observation proved the state of the pen.
+    `sure` is True if the latest observation proved the state of the pen.
     """
 
     background: Colour
     colour: Colour | None = USUAL
     sure: bool = False
-    _moved: bool = False  # whether the turtle has moved since the paper or the pen was new
-    _still: int = 0  # number of consecutive observations at rest
-    _going: int = 0  # number of consecutive observations in motion
+    # `_moved` is True if the turtle has moved since the lines were erased or the pen was changed.
+    _moved: bool = False
+    _still: int = 0  # `_still` is the number of consecutive observations at rest.
+    _going: int = 0  # `_going` is the number of consecutive observations in motion.
     _last: Observation | None = None
 
     def observe(self, seen: Observation) -> Finding:
-        """Store an observation, and return what it tells about the pen and the paper."""
+        """Store an observation, and return the conclusion about the pen and the background."""
         last, self._last = self._last, seen
         self.sure = False
         if last is None:

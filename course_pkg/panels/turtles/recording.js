@@ -1,15 +1,15 @@
-/* The turtles at a time of a recording: their places, and the paper with their trails. */
+/* The turtles at a time of a recording: their positions, and the paper with their trails. */
 
 /** @typedef {any[]} Row
  * @typedef {{background: number[], names: string[], palette: number[][], rows: Row[], length: number, edition: number}} Recording
  * @typedef {{x: number, y: number, theta: number}} Place */
 
-export const SIDE = 500; // px of the simulator's own paper
-export const DELAY = 150; // ms by which the picture is late, so that the next place of each turtle is already known
-const WORLD = 11088.889; // mm
-const PEN = 3; // px; no topic carries the width of a pen, so this is the default width
+export const SIDE = 500; // The simulator's paper is this many px wide and high.
+export const DELAY = 150; // The picture is this many ms late, so the next position of each turtle is already known.
+const WORLD = 11088.889; // The world is this many mm wide and high.
+const PEN = 3; // A pen has this default width in px, because no topic contains the width.
 
-/** Plays the rows up to a time. It knows the place of each turtle and draws the lines on the paper. */
+/** Plays the rows up to a time: stores the position of each turtle, and draws the lines on the paper. */
 export class Player {
   /** @param {CanvasRenderingContext2D} paper */
   constructor(paper) {
@@ -42,7 +42,7 @@ export class Player {
     this.time = time;
   }
 
-  /** Returns the places of the turtles, also between two rows. @returns {[number, Place][]} */
+  /** Returns the positions of the turtles, also between two rows. @returns {[number, Place][]} */
   places() {
     return [...this.here].map(([turtle, row]) => [turtle, between(row, this.#next(turtle), this.time)]);
   }
@@ -111,7 +111,7 @@ function colour(rgb) {
   return `rgb(${rgb.join(" ")})`;
 }
 
-/** Returns the place of a turtle between two rows. @param {Row} row @param {Row | null} next @param {number} time
+/** Returns the position of a turtle between two rows. @param {Row} row @param {Row | null} next @param {number} time
  * @returns {Place} */
 function between(row, next, time) {
   const part = next && next[0] > row[0] ? Math.min(Math.max((time - row[0]) / (next[0] - row[0]), 0), 1) : 0;

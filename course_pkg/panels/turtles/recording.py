@@ -1,4 +1,4 @@
-"""A recording of turtles, as rows that a page can draw and play. It needs neither ROS nor Jupyter.
+"""A recording of turtles, as rows that a page can draw and play. This module uses neither ROS nor Jupyter.
 
 A row begins with a time (ms since the recording began) and a turtle (its index in `names`):
 
@@ -20,8 +20,8 @@ Place = tuple[int, int, int, int, int, int]
 Change = tuple[int, int, str] | tuple[int, int, str, int]
 Row = Place | Change
 
-MOST = 6000  # maximum number of rows; they take 150 kB in a saved page
-STEP = (5, 5, 10)  # mm, mm, mrad; a smaller movement adds no row
+MOST = 6000  # A recording has at most this many rows, which take about 150 kB in a saved page.
+STEP = (5, 5, 10)  # The units are mm, mm and mrad; a smaller movement adds no row.
 BACKGROUND: Colour = (69, 86, 255)
 UP = -1
 
@@ -39,20 +39,20 @@ class RecordingState(TypedDict):
 
 @dataclass
 class _Track:
-    """One turtle: its pen, its last row, and its latest position if no row was added for this position."""
+    """One turtle: its pen, its last row, and its latest position if this position has no row."""
 
     number: int
     pen: Pen
     last: Place
     skipped: Place | None = None
-    known: int = 0  # ms: the last time at which the state of the pen was certain
+    known: int = 0  # At this time (ms), the state of the pen was last certain.
 
 
 @dataclass
 class TurtleRecording:
-    """The rows are in the order of time; there are at most MOST.
+    """The rows of a recording in the order of time, with at most MOST rows.
 
-    If there are more, every second position of each turtle is removed.
+    If there are more rows, every second position of each turtle is removed.
 
     `edition` increases when earlier rows change.
     """
@@ -84,7 +84,7 @@ class TurtleRecording:
             track.skipped = row
             return
         if track.skipped is not None:
-            self._add((*track.skipped[:5], UP))  # the turtle did not move before this time
+            self._add((*track.skipped[:5], UP))  # The turtle did not move before this time.
         track.last, track.skipped = row, None
         self._add(row)
 

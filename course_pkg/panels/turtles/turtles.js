@@ -4,8 +4,8 @@ import { Replay, watch } from "../replay.js";
 import { drawTurtle } from "./body.js";
 import { DELAY, Player, SIDE } from "./recording.js";
 
-const TABLE = 250; // ms between updates of the table
-const KEPT = 5000; // ms between two states that are saved with the notebook
+const TABLE = 250; // The table is updated every TABLE ms.
+const KEPT = 5000; // The state for the saved notebook is updated every KEPT ms.
 const BODIES = ["#2f7d32", "#b3541e", "#6a3d9a", "#00695c", "#a01c5d", "#5d4a00", "#37474f", "#8e1b1b"];
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
@@ -26,7 +26,7 @@ class TurtleView {
     this.visible = true;
     this.frame = 0;
     this.frames = 0;
-    this.lag = 0; // ms by which the recording's clock is ahead of the page's
+    this.lag = 0; // The recording's clock is this many ms ahead of the page's clock.
     this.tabled = -TABLE;
     this.kept = 0;
     this.#build();
@@ -99,7 +99,7 @@ class TurtleView {
     this.lag = Math.abs(lag - this.lag) > 1000 ? lag : Math.max(lag, this.lag - 1);
     if (performance.now() - this.kept > KEPT) {
       this.kept = performance.now();
-      this.model.set("recorded", copy(this.player.recording)); // not sent to the kernel: JupyterLab saves this value with the notebook
+      this.model.set("recorded", copy(this.player.recording)); // JupyterLab saves this value with the notebook; it is not sent to the kernel.
     }
   }
 
@@ -132,7 +132,7 @@ class TurtleView {
     this.#draw();
   }
 
-  /** Draws repeatedly as long as something can move. */
+  /** Draws repeatedly while a turtle can move. */
   #run() {
     if (this.frame || !this.visible) return;
     this.frame = requestAnimationFrame((now) => this.#step(now));

@@ -23,27 +23,27 @@ from course_pkg.ros.topic.bulk_reader import BulkReader
 HERE = Path(__file__).parent
 TYPES = ("turtlesim/Pose", "turtlesim/Color")
 POSE = struct.Struct("<5f")
-SEND = 0.1  # s between messages to the page
-KEEP = 5.0  # s between two saved states if no page shows the panel
-ALONE = 300.0  # s; if no page shows the panel for this time, the recording stops
+SEND = 0.1  # The panel sends messages to the page every SEND s.
+KEEP = 5.0  # If no page shows the panel, the panel saves its state every KEEP s.
+ALONE = 300.0  # The recording stops if no page has shown the panel for this time (s).
 
 
 class Page(Enum):
     """Whether a page shows the panel."""
 
     NONE = "none"
-    PAUSED = "paused"  # a page contains the panel, but the reader scrolled it out of view
+    PAUSED = "paused"  # A page contains the panel, but the reader has scrolled the panel out of view.
     OPEN = "open"
 
 
 class TurtlePanel(Panel):
     """All turtles of the graph with their trails.
 
-    The simulator is this course's own or the original turtlesim.
+    The simulator can be the course's own simulator or the original turtlesim.
 
-    The panel subscribes only to the poses and the colour sensors. From their messages, it derives the states
-    of the pens, and calls of `clear` and `reset`. It records from the beginning, even if no page shows it; a
-    page can play the recording.
+    The panel subscribes only to the poses and the colour sensors. The panel derives the states of the pens,
+    and calls of `clear` and `reset`, from these messages. The panel records from the beginning, even if no
+    page shows it. A page can play the recording.
     """
 
     front_end: ClassVar[Path] = HERE / "turtles.js"
@@ -58,24 +58,25 @@ class TurtlePanel(Panel):
         self._colours: dict[str, Colour] = {}
         self._lock = threading.Lock()
         self._page = Page.NONE
-        self._sent = self._edition = 0  # the number of rows that the page has, and their edition
+        # The number of rows that the page has received, and the edition of these rows.
+        self._sent = self._edition = 0
         self._last_sent = self._last_kept = self._left = self._began
         self._reader = BulkReader(TYPES, self._received, self._missing, self._polled)
         self.publish(recorded=self._recording.state())
         self._reader.start()
 
     def shown(self) -> None:
-        """Send the whole recording to the page; each new row follows later."""
+        """Send the whole recording to the page; new rows follow later."""
         self._reader.start()
         self._send_all()
 
     def hidden(self) -> None:
-        """Save the recording; without a page, the panel continues to record for ALONE s."""
+        """Save the recording. Without a page, the panel continues to record for ALONE s."""
         self._page, self._left = Page.NONE, time.monotonic()
         self._keep()
 
     def received(self, kind: str, content: PageMessage) -> None:  # noqa: ARG002
-        """Handle a message from the page: it needs missing rows, or the panel has left the visible area."""
+        """Handle a message from the page: rows are missing, or the panel is no longer in the visible area."""
         if kind == "resend":
             self._send_all()
         elif kind == "pause":
@@ -152,7 +153,7 @@ class TurtlePanel(Panel):
 
 
 def _background() -> Colour:
-    """Return the background colour: from the simulator's parameters, or the default colour."""
+    """Return the background colour from the simulator's parameters, or the default colour."""
     try:
         own = MasterClient(master_uri(), 0.5).get_param("/turtlesim", {})
     except GraphError:

@@ -1,4 +1,7 @@
-"""The state of a type browser, without a page or ROS: all types on this machine, and the open type."""
+"""The state of a type browser: all types on this machine, and the open type.
+
+This module runs without a page and without ROS.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +30,8 @@ from course_pkg.types import (
 if TYPE_CHECKING:
     from course_pkg.ros import Snapshot
 
-Catalogue = tuple[tuple[str, ...], tuple[str, ...]]  # service types, message types
+# A catalogue contains the service types and the message types.
+Catalogue = tuple[tuple[str, ...], tuple[str, ...]]
 TOOLS = {"srv": "rossrv", "msg": "rosmsg"}
 CHANGED = (
     "The file has changed since the type was built. The panel shows the built type, which programs "
@@ -41,7 +45,7 @@ NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH, so the panel shows 
 
 
 class FieldNode(TypedDict):
-    """A field; `fields` are the fields of a nested message, of a time, or of the elements of an array."""
+    """A field; `fields` contains the inner fields of a nested message, a time, or an element of an array."""
 
     name: str
     type: str
@@ -59,10 +63,12 @@ class Part(TypedDict):
 
 
 class TypeState(TypedDict):
-    """A type for the page; `problem` says why it cannot be read, and `warning` is a note for the reader.
+    """A type for the page.
 
-    A type that cannot be read still has a file path and the text of the file. `lines` are commands that the
-    reader can copy.
+    `problem` says why the type cannot be read, and `warning` is a note for the reader.
+
+    The file path and the text of the file are set even if the type cannot be read. `lines` contains commands
+    that the reader can copy.
     """
 
     name: str
@@ -85,7 +91,8 @@ class PackageTypes(TypedDict):
     msg: list[str]
 
 
-Use = dict[str, str | list[str]]  # a service or topic: its name, and for each role the names of its nodes
+# A use is a service or topic with its name and, for each role, the names of the nodes.
+Use = dict[str, str | list[str]]
 Offers = dict[DefinitionKind, dict[str, list[Use]]]
 
 
@@ -95,7 +102,7 @@ def catalogue() -> Catalogue:
 
 
 def described(name: str, half: DefinitionKind) -> TypeState:
-    """Return the page's state for the type `name`."""
+    """Return the state of the type `name` for the page."""
     file = _file(name, half)
     state: TypeState = {
         "name": name,
@@ -126,7 +133,7 @@ def described(name: str, half: DefinitionKind) -> TypeState:
 
 
 def lines(name: str, half: DefinitionKind) -> list[dict[str, str]]:
-    """Return the commands for a terminal and the lines of Python that the reader can copy."""
+    """Return the terminal commands and the lines of Python that the reader can copy."""
     package, _, short = name.partition("/")
     tool = TOOLS[half]
     return [
@@ -162,7 +169,7 @@ def offers(snapshot: Snapshot) -> Offers:
 
 
 class TypeModel:
-    """Lists all types, shows one type, and lists the present services or topics of this type.
+    """Lists all types, shows one type, and lists the services or topics with this type.
 
     `changed` is called with keyword arguments: `packages` (the types of each package), `described` (the open
     type), and `offers` (the services and topics of each type on the graph).
@@ -183,7 +190,7 @@ class TypeModel:
         self._described: TypeState | None = None
 
     def update(self, known: Catalogue) -> None:
-        """Store all present types, and read the open type again, because its file may have changed."""
+        """Store all present types. Read the open type again, because its file may have changed."""
         with self._turn:
             if known != self._known:
                 self._known = known
@@ -191,7 +198,7 @@ class TypeModel:
             self._show()
 
     def open(self, name: str, half: DefinitionKind | None = None) -> None:
-        """Show a type. Open a type.
+        """Show a type.
 
         Without `half`, a service type has priority over a message type with the same name.
         """
@@ -201,7 +208,7 @@ class TypeModel:
 
     @property
     def file(self) -> str:
-        """The path of the open type's file; "" if it has no file or no type is open."""
+        """The file path of the open type, or "" if no type is open or the type has no file."""
         return self._described["file"] if self._described else ""
 
     def see(self, snapshot: Snapshot) -> None:
@@ -226,7 +233,7 @@ def _file(name: str, half: DefinitionKind) -> Path | None:
     try:
         return definition_file(name, half)
     except InterfaceError:
-        return None  # the text is not a valid name of a type
+        return None  # The text is not a valid name of a type.
 
 
 def _warning(found: ServiceType | MessageType, half: DefinitionKind, file: Path | None) -> str:

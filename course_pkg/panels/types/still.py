@@ -20,7 +20,7 @@ from course_pkg.panels.paper import (
 
 HALVES = {"srv": "service type", "msg": "message type"}
 INDENT = 16.0  # px
-MOST = 40  # maximum number of fields of a part
+MOST = 40  # A request, a response or a message shows at most this many fields.
 
 
 def still(state: State) -> str:

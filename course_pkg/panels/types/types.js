@@ -65,7 +65,7 @@ class TypeView {
     /** @type {Described} */
     const type = this.model.get("described");
     if (!type.name) return this.about.replaceChildren(h("p", { class: "ros-muted ros-nothing", text: "Pick a type from the list to see its fields." }));
-    if (this.name !== type.name) this.unfolded = new Set(type.problem ? ["text"] : []); // the error is in the text
+    if (this.name !== type.name) this.unfolded = new Set(type.problem ? ["text"] : []); // The error is in the text of the file.
     this.name = type.name;
     const what = type.half === "srv" ? "service type" : "message type";
     const parts = [h("div", { class: "ros-what" }, h("h3", {}, h("code", { text: type.name })), " ", h("span", { class: "ros-muted", text: what })),
@@ -104,7 +104,7 @@ class TypeView {
     }));
   }
 
-  /** Returns a section to unfold. It stays unfolded when the type is read again. @param {string} path @param {(Node |
+  /** Returns a section to unfold. An unfolded section does not change when the type is read again. @param {string} path @param {(Node |
    * string)[]} title
    * @param {...(HTMLElement | null)} inside */
   #fold(path, title, ...inside) {

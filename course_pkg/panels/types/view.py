@@ -14,17 +14,19 @@ from course_pkg.panels.types.model import Catalogue, TypeModel, catalogue
 from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
-PAUSE = 3.0  # s between two checks of the files
-SHARE = 50  # reading a thousand packages takes long, so this may use at most a 50th of the time
+PAUSE = 3.0  # The browser checks the files every PAUSE s.
+# Reading all packages uses at most one SHARE-th of the time, because it is slow on a large machine.
+SHARE = 50
 
-Files = tuple[Catalogue, int]  # the types, and the time (ns) at which the file of the open type was written
+# The tuple contains the types and the time (ns) when the file of the open type was written.
+Files = tuple[Catalogue, int]
 
 
 class TypeBrowser(Panel):
     """All service and message types on this machine, with their fields, and their services or topics.
 
     `name` is the type that is open at the beginning, such as "std_srvs/SetBool". While a page shows the
-    browser, it reads changed files and follows the graph.
+    browser, the browser reads changed files and the graph.
     """
 
     front_end: ClassVar[Path] = HERE / "types.js"
@@ -40,7 +42,7 @@ class TypeBrowser(Panel):
         super().__init__()
         self._name = name
         self._known: Catalogue = ((), ())
-        self._not_before = 0.0  # s of time.monotonic()
+        self._not_before = 0.0  # The unit is s, as in time.monotonic().
         self._model = TypeModel(self.publish, turn=self.turn)
         self._graph: Poller[Snapshot] = Poller(look, self._seen, self._failed)
         self._files: Poller[Files] = Poller(self._list, self._listed, self.complain, every=PAUSE)
@@ -51,12 +53,12 @@ class TypeBrowser(Panel):
             self._graph.once()
 
     def shown(self) -> None:
-        """Start to watch the files and the graph."""
+        """Start to read the files and the graph repeatedly."""
         self._files.start()
         self._graph.start()
 
     def hidden(self) -> None:
-        """Stop watching the files and the graph."""
+        """Stop reading the files and the graph."""
         self._files.stop()
         self._graph.stop()
 
@@ -69,7 +71,7 @@ class TypeBrowser(Panel):
         return f"TypeBrowser({self._name!r})" if self._name else "TypeBrowser()"
 
     def _list(self) -> Files:
-        """Return all types, and the time (ns) at which the open type's file was written."""
+        """Return all types, and the time (ns) when the file of the open type was written."""
         began = time.monotonic()
         if began >= self._not_before:
             self._known = catalogue()

@@ -1,1 +1,1 @@
-"""The wire view: the bytes of a real call, explained one by one."""
+"""The wire view: an explanation of each byte of a real call."""

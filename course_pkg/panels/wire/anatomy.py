@@ -1,4 +1,4 @@
-"""Splits TCPROS bytes: a stream into frames, and a header, a request or a reply into pieces.
+"""Splits a stream of TCPROS bytes into frames, and a header, a request or a reply into pieces.
 
 Sources: http://wiki.ros.org/ROS/TCPROS (the framing, the ok byte),
 http://wiki.ros.org/ROS/Connection%20Header (the fields), and http://wiki.ros.org/msg (the order of a
@@ -29,9 +29,9 @@ from course_pkg.types import Field, Kind, MessageType
 from course_pkg.types.fields import integer_range
 from course_pkg.types.numbers import float32
 
-ERROR = 400  # maximum number of shown characters of an error message
-ITEMS = 8  # number of elements of an array that are shown separately
-# the format characters of `struct` for signed integers; capital letters are for unsigned integers
+ERROR = 400  # At most this many characters of an error message are shown.
+ITEMS = 8  # The first elements of an array, up to this number, are shown separately.
+# Format characters of `struct` for signed integers; capital letters are for unsigned integers.
 CODES = {1: "b", 2: "h", 4: "i", 8: "q"}
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
 
@@ -39,9 +39,9 @@ Pieces = list[PieceState]
 
 
 class Frame(NamedTuple):
-    """One message of the stream; `at` is its offset.
+    """One message of the stream; `at` is its offset in the stream.
 
-    If a message was cut off, the frame ends at the end of the stream.
+    An incomplete message ends at the end of the stream.
     """
 
     at: int
@@ -65,7 +65,7 @@ def requests(stream: bytes) -> Iterator[Frame]:
 
 
 def replies(stream: bytes) -> Iterator[Frame]:
-    """Yield the replies that a server sent after its header, each with its ok byte."""
+    """Yield the replies that a server sent after its header; each reply includes its ok byte."""
     yield from _frames(stream, 1)
 
 
@@ -78,7 +78,7 @@ def _frames(stream: bytes, extra: int) -> Iterator[Frame]:
 
 
 def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
-    """Return the frame that begins at `at`; its length field comes after `extra` bytes."""
+    """Return the frame at `at`; its length field comes after `extra` bytes."""
     if at >= len(stream):
         return None
     if at + extra + 4 > len(stream):
@@ -88,19 +88,19 @@ def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
 
 
 def header_pieces(data: bytes) -> Pieces:
-    """Return the pieces of a connection header: its length, and for each field a length and name=value."""
+    """Return the pieces of a connection header: its length, and a length and name=value for each field."""
     reader = Reader(data)
     try:
         reader.number(LENGTH, "length of the whole header")
         while reader.rest:
             _header_field(reader)
     except ShortOfBytes:
-        pass  # close() adds the remaining bytes
+        pass  # close() adds the remaining bytes.
     return reader.close()
 
 
 def request_pieces(data: bytes, kind: MessageType | None) -> Pieces:
-    """Return the pieces of a request: its length field, and its fields."""
+    """Return the pieces of a request: its length field and its message fields."""
     reader = Reader(data)
     try:
         reader.number(LENGTH, "length of the request")
@@ -192,22 +192,23 @@ def _array(reader: Reader, field: Field, name: str) -> None:
 
 
 def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
-    """Read elements, but do not list them.
+    """Read `count` elements without listing them.
 
-    All numbers are read at once, because an image has millions of them.
+    All numbers are read in one operation, because an image has millions of numbers.
     """
     if item.fields or not item.kind.is_scalar or item.kind is Kind.STRING:
         for _ in range(count):
             before = reader.at
             _field(reader, item, name)
             if reader.at == before:
-                return  # elements without fields take no bytes, so a wrong count could cause a very long loop
+                # Elements without fields take no bytes, so a wrong count could cause a very long loop.
+                return
     else:
         reader.take(count * _format(item)[1], RAW, name)
 
 
 def _format(field: Field) -> tuple[str, int]:
-    """Return the character of a number's type in a `struct` format, and the size in bytes."""
+    """Return the `struct` format character of a number type, and the size of the type in bytes."""
     if field.kind is Kind.BOOL:
         return "<B", 1
     if field.type in FLOATS:

@@ -1,6 +1,6 @@
 """The data of the wire view: the steps of a call, each with the pieces of its bytes.
 
-This module needs no master and no page: its input is a recording from ros/wire/capture.py.
+This module uses neither a master nor a page: its input is a recording from ros/wire/capture.py.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from course_pkg.ros.wire.capture import Wire
     from course_pkg.ros.wire.relay import RelayedConnection
 
-STEPS = 60  # maximum number of shown steps of a recording
-XML = 900  # maximum number of shown characters of a request to the master, or of the master's response
+STEPS = 60  # At most this many steps of a recording are shown.
+XML = 900  # At most this many characters of a request to the master, or of the master's response, are shown.
 
 FindType = Callable[[str], ServiceType]
 
@@ -37,10 +37,12 @@ _Ends = TypedDict("_Ends", {"from": str, "to": str})
 
 
 class Step(_Ends):
-    """A step of a call; `ms` is its time after the first step, `says` explains it, and `bad` marks an error.
+    """A step of a call.
 
-    `pieces` describe the `size` bytes of the step; a look-up at the master has a `text` instead. `connection`
-    is the number of the connection, or 0 if there is only one.
+    `ms` is the time after the first step, `says` explains the step, and `bad` marks an error.
+
+    `pieces` describes the `size` bytes of the step. A request to the master has `text` instead of `pieces`.
+    `connection` is the number of the connection, or 0 if the call has only one connection.
     """
 
     title: str
@@ -69,7 +71,7 @@ class WireState(TypedDict):
 def state(wire: Wire, find: FindType = service_type) -> WireState:
     """Return the data of a recording for the page.
 
-    `find` returns the type for a name. It is needed if the type is known only from the connection headers.
+    `find` returns the type for a name; it is needed if only the connection headers contain the type.
     """
     start = min((each.opened for each in _all(wire)), default=0.0)
     steps = list(_look_up(wire, start))
@@ -90,7 +92,7 @@ def _all(wire: Wire) -> list[RelayedConnection]:
 
 
 def _names(wire: Wire) -> dict[str, str]:
-    """Return the names of the client and the server; they are in the first connection headers."""
+    """Return the names of the client and the server from the first connection headers."""
     names = {"client": "the client", "server": "the server", "master": "master"}
     for connection in reversed(wire.connections):
         for end, by_client in (("client", True), ("server", False)):
@@ -168,7 +170,7 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
 
 
 def _xml(http: bytes) -> str:
-    """Return the body of an HTTP message; each XML value is on a separate line."""
+    """Return the body of an HTTP message, with each XML value on a separate line."""
     body = http.partition(b"\r\n\r\n")[2].decode("utf-8", "replace")
     return shortened(re.sub(r"\s*\n\s*", "", body).replace("><", ">\n<"), XML)
 

@@ -1,6 +1,6 @@
 """The pieces of a message, each with its offset, name and value, and a reader that splits the bytes.
 
-A long piece is shortened: a page shows only its beginning and its length.
+For a long piece, a page shows only the beginning and the length.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TypedDict
 
-SHOWN = 144  # maximum number of shown bytes of one piece
-MOST = 160  # maximum number of shown pieces of one message
-TEXT = 80  # maximum number of shown characters of a value
+SHOWN = 144  # At most this many bytes of a piece are shown.
+MOST = 160  # At most this many pieces of a message are shown.
+TEXT = 80  # At most this many characters of a value are shown.
 
 LENGTH, KEY, MD5, OK, BAD, VALUE, RAW, GROUP = "length", "key", "md5", "ok", "bad", "value", "raw", "group"
 
@@ -35,7 +35,7 @@ class PieceState(TypedDict):
 class Piece:
     """A range of bytes with one meaning.
 
-    A GROUP has no bytes: it is a heading for the next pieces, which have a larger `depth`.
+    A GROUP has no bytes: it is a heading for the following pieces, and these pieces have a larger `depth`.
 
     `at` is the offset in the message, `size` is the number of bytes, and `depth` is the level of indentation.
     """
@@ -64,7 +64,7 @@ class Piece:
 
 
 class ShortOfBytes(Exception):
-    """The data end before the end of the piece that the reader should read."""
+    """The data end before the end of a piece."""
 
 
 class Reader:
@@ -76,7 +76,7 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        self._folded: int | None = None  # the offset at which the number of pieces reached its maximum
+        self._folded: int | None = None  # At this offset, the number of pieces reached the maximum.
 
     @property
     def rest(self) -> int:
@@ -100,13 +100,13 @@ class Reader:
         return int(number)
 
     def say(self, at: int, value: str, most: int = TEXT) -> None:
-        """Set the value of the last piece, if this piece begins at `at` and was not left out."""
+        """Set the value of the last piece, if the piece begins at `at` and was not left out."""
         if self.pieces and self.pieces[-1].at == at and not self._silent:
             self.pieces[-1] = replace(self.pieces[-1], value=shortened(value, most))
 
     @contextmanager
     def group(self, name: str, kind: str = "", value: str = "") -> Iterator[None]:
-        """Show the pieces that are read in the `with` block below a heading."""
+        """Put the pieces that the `with` block reads below a heading."""
         start, place = self.at, len(self.pieces)
         self._keep(Piece(GROUP, start, b"", name, kind, value, self.depth, 0))
         self.depth += 1
@@ -119,7 +119,7 @@ class Reader:
 
     @contextmanager
     def folded(self, name: str) -> Iterator[None]:
-        """Show all bytes that are read in the `with` block as one piece."""
+        """Show all bytes that the `with` block reads as one piece."""
         start = self.at
         self._silent += 1
         try:
@@ -130,7 +130,7 @@ class Reader:
                 self._keep(Piece(RAW, start, self.data[start : self.at], name, "", "", self.depth))
 
     def close(self) -> list[PieceState]:
-        """Return all pieces for the page; the bytes that were not read are one more piece at the end."""
+        """Return all pieces for the page. All unread bytes become one piece at the end."""
         if self.rest:
             self.take(self.rest, RAW, "the rest", "", "bytes that belong to no other piece")
         if self._folded is not None:
@@ -148,5 +148,5 @@ class Reader:
 
 
 def shortened(text: str, most: int = TEXT) -> str:
-    """Return the text; if it has more than `most` characters, cut it and add "…"."""
+    """Return the text; a text with more than `most` characters is cut and ends with "…"."""
     return text if len(text) <= most else f"{text[: most - 1]}…"

@@ -23,10 +23,10 @@ from course_pkg.panels.paper import (
     wrapped,
 )
 
-# x coordinate of the client, the server and the master (px)
+# The x coordinates of the client, the server and the master (px).
 ENDS = {"client": 100.0, "server": 440.0, "master": 660.0}
-ROW = 34.0  # height of a step (px)
-MOST, BYTES = 24, 8  # maximum number of shown pieces of a step, and of shown bytes of a piece
+ROW = 34.0  # A step is this many px high.
+MOST, BYTES = 24, 8  # A step shows at most MOST pieces, and a piece shows at most BYTES bytes.
 # A fixed text replaces each address, because the ports differ in each run.
 ADDRESS = re.compile(r"(?:rosrpc://|http://)?[\w.-]+:\d{4,5}\b/?")
 SMALL = Style(12.0)
@@ -34,7 +34,7 @@ DETAILED = ("Request", "Response", "Error")
 
 
 def still(state: State) -> str:
-    """Return the picture of the steps and of the pieces of request and response, without times and ports."""
+    """Return the picture of the steps, and of the request and response bytes, without times and ports."""
     exchange = state["exchange"]
     steps = exchange["steps"]
     paper = Paper(f"A call of {exchange['service']}, byte by byte: {len(steps)} steps")
@@ -109,5 +109,5 @@ def _bytes(piece: State) -> str:
 
 
 def _stable(text: str) -> str:
-    """Return a text without addresses, because their ports differ in each run."""
+    """Return a text without addresses, because the ports differ in each run."""
     return ADDRESS.sub("the address of the server", text)

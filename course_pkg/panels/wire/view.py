@@ -1,4 +1,4 @@
-"""The widget of the wire view; it only sends a recorded call to the page."""
+"""The widget of the wire view. The widget sends a recorded call to the page."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ HERE = Path(__file__).parent
 
 
 class WireView(Panel):
-    """The bytes of a real call: the look-up, the connection headers, the request and the reply.
+    """The bytes of a real call: the look-up at the master, the connection headers, the request and the reply.
 
-    `WireView("/getGeometry", length=1.2, width=5.2, height=8.9)` makes the call and shows it, even if it
-    fails. `kind` is a type that the client uses instead of the server's type. `headers` are additional fields
-    of the client's connection header. `WireView(wire)` shows a recorded call. The protocol is described at
-    http://wiki.ros.org/ROS/TCPROS and http://wiki.ros.org/ROS/Connection%20Header.
+    `WireView("/getGeometry", length=1.2, width=5.2, height=8.9)` makes the call and shows the bytes, even if
+    the call fails. `kind` is a type that the client uses instead of the server's type. `headers` are
+    additional fields of the client's connection header. `WireView(wire)` shows a recorded call. The protocol
+    is described at http://wiki.ros.org/ROS/TCPROS and http://wiki.ros.org/ROS/Connection%20Header.
     """
 
     front_end: ClassVar[Path] = HERE / "wire.js"
@@ -47,16 +47,16 @@ class WireView(Panel):
 
     @property
     def from_client(self) -> bytes:
-        """The bytes that the client sent to the server; it is empty if there was no connection."""
+        """The bytes that the client sent to the server, or b"" without a connection."""
         return self._bytes(client=True)
 
     @property
     def from_server(self) -> bytes:
-        """The bytes that the server sent to the client; it is empty if there was no connection."""
+        """The bytes that the server sent to the client, or b"" without a connection."""
         return self._bytes(client=False)
 
     def error_message(self) -> str:
-        """Return the error of the panel itself or, if there is none, the error of the call."""
+        """Return the error of the panel itself or, without such an error, the error of the call."""
         return super().error_message() or str(self.exchange.get("outcome", ""))
 
     def _bytes(self, *, client: bool) -> bytes:
@@ -72,7 +72,7 @@ def _recorded(
     headers: Mapping[str, str] | None,
     fields: Mapping[str, Plain],
 ) -> Wire:
-    # capture.py imports rospy, and a page with a recorded call does not need rospy.
+    # capture.py imports rospy, but a page with a recorded call does not need rospy.
     from course_pkg.ros.wire.capture import record_call
 
     return record_call(name, kind, headers, fields)

@@ -6,9 +6,9 @@ import { freshId, h, say, setAttribute } from "../kit.js";
  *   bad: boolean, connection: number}} Step */
 /** @typedef {{service: string, names: Record<string, string>, steps: Step[], outcome: string, notes: string[]}} Exchange */
 
-const ROW = 8; // bytes in a row
-const HUES = 6; // colours that are used in turn
-const LOUD = ["key", "md5", "value"]; // the roles that these colours are for
+const ROW = 8; // A row has this many bytes.
+const HUES = 6; // The view uses this many colours in turn.
+const LOUD = ["key", "md5", "value"]; // Only pieces with these roles have such a colour.
 const KEYS = { ArrowDown: 1, ArrowUp: -1, Home: -Infinity, End: Infinity };
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
@@ -54,7 +54,7 @@ class WireView {
       h("span", { class: "ros-arrow", text: right ? "──▶" : "◀──" }), " ", h("code", { class: "ros-end", text: far }), " ",
       h("span", { class: "ros-title", text: `${step.connection ? `${step.connection}: ` : ""}${step.title}` }), " ",
       h("span", { class: "ros-size", text: step.size ? `${step.size.toLocaleString("en")} B` : "" }));
-    setAttribute(button, "aria-label", `${button.textContent?.trim()}: ${words}`); // the name contains the visible text, which speech input needs
+    setAttribute(button, "aria-label", `${button.textContent?.trim()}: ${words}`); // Speech input needs the visible text in the name.
     button.addEventListener("keydown", (event) => {
       const by = KEYS[/** @type {keyof KEYS} */ (event.key)];
       if (by === undefined) return;

@@ -1,4 +1,4 @@
-"""Explain an exception, or a text of any length that contains an error message."""
+"""Explain an exception, or a text that contains an error message."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from course_pkg.errors import CourseError
 from course_pkg.ros.explain.explanation import Explanation, known
 from course_pkg.workspace import explain as explain_build
 
-# maximum number of characters that are searched; if a text is longer, only its end is searched
+# Only the last characters of a longer text are searched.
 LONGEST = 50_000
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TRACEBACK = "Traceback (most recent call last)"
@@ -49,7 +49,7 @@ def explain(error: object) -> Explanation:
 def _of_exception(error: BaseException) -> Explanation:
     """Return the explanation of an exception or of its cause.
 
-    If a CourseError is in no table, the error's own message is the explanation.
+    If no table contains a CourseError, its message is the explanation.
     """
     for each in _chain(error):
         message = f"{type(each).__name__}: {_string(each)}"
@@ -69,7 +69,7 @@ def _string(thing: object) -> str:
 
 
 def _chain(error: BaseException) -> Iterator[BaseException]:
-    """Yield the exception and its causes, each only once: an exception may indirectly be its own cause."""
+    """Yield the exception and its causes, each only once."""
     seen: set[int] = set()
     each: BaseException | None = error
     while each is not None and id(each) not in seen:
@@ -91,8 +91,7 @@ def _of_text(text: str) -> Explanation | None:
 def _candidates(text: str) -> Iterator[str]:
     """Yield possible error messages.
 
-    First come the error lines of each traceback, from the last traceback to the first; then comes the whole
-    text.
+    Possible messages are the error lines of each traceback, the last traceback first, and the whole text.
     """
     if _TRACEBACK in text:
         for part in reversed(text.split(_TRACEBACK)[1:]):

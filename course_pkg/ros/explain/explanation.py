@@ -27,7 +27,7 @@ CHAPTERS = {
 
 @dataclass(frozen=True, repr=False)
 class Explanation:
-    """The cause of an error and the next step, in whole sentences; the sentences are the same in every run.
+    """The cause of an error and the next step, in complete sentences that are the same in every run.
 
     `chapter` is the number of the chapter about this error, or "". `known` is False if no table contains the
     error.
@@ -65,10 +65,7 @@ def known(message: str) -> Explanation | None:
 
 
 def taught(chapter: str) -> str:
-    """Return the number and title of a chapter, such as "chapter 06, Write a client".
-
-    For an unknown chapter, return "".
-    """
+    """Return the number and title of a chapter, such as "chapter 06, Write a client", or ""."""
     title = CHAPTERS.get(chapter, "")
     return f"chapter {chapter}, {title}" if title else ""
 

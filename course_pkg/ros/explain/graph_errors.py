@@ -1,7 +1,7 @@
 """The table of errors of the master, of nodes and of addresses; `handler_errors` explains the columns.
 
-These rows are searched before the rows for calls, because a failed call may also report `unable to contact
-master`.
+A failed call may also report `unable to contact master`, so these rows are searched before the rows for
+calls.
 """
 
 from __future__ import annotations

@@ -1,9 +1,7 @@
-"""The table of errors that a client gets.
+"""The table of errors that a client gets because of a failed handler or a wrong declaration of the service.
 
-These errors are caused by a failed handler of the server, or by an incorrect declaration of the service.
-
-Each row is (pattern, cause, remedy, chapter). The pattern matches the part of an error message that is the
-same in every release of ROS. The first row that matches is used.
+Each row is (pattern, cause, remedy, chapter). A pattern matches words of the error message that are the same
+in every release of ROS. The first row that matches is used.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Make a process a node: join the graph, create services, publishers and subscriptions, and leave."""
+"""Make a process a node, and create services, publishers and subscriptions."""

@@ -1,10 +1,7 @@
-"""An action server in a kernel.
+"""An action server in a kernel; a cell may create the action server again.
 
-A cell may create the action server again, and the kernel can end while the server runs.
-
-A SimpleActionServer can execute goals on a thread of its own, but this thread would keep the process running.
-This module therefore uses the other method of actionlib, goal callbacks:
-http://wiki.ros.org/actionlib_tutorials/Tutorials, "Goal Callback Method".
+The thread of a SimpleActionServer would prevent the end of the process. This module therefore uses goal
+callbacks: http://wiki.ros.org/actionlib_tutorials/Tutorials, "Goal Callback Method".
 """
 
 from __future__ import annotations
@@ -19,8 +16,8 @@ import rospy
 
 from course_pkg.ros.node.type_lookup import Message
 
-END_TIMEOUT = 2.0  # maximum time in s until a running `execute` ends after its goal was cancelled
-INTERVAL = 0.5  # time in s between two checks whether rospy has been shut down
+END_TIMEOUT = 2.0  # After a goal was cancelled, wait up to this time in s for the end of `execute`.
+INTERVAL = 0.5  # The thread checks once in this time (s) whether rospy has been shut down.
 
 Execute = Callable[[Message, actionlib.SimpleActionServer], object]
 
@@ -29,8 +26,10 @@ class ActionServer:
     """Serves the action `name` of type `kind`: calls `execute(goal, server)` for each goal, one at a time.
 
     `server` is an actionlib.SimpleActionServer: `execute` uses it to send feedback and the result, and to
-    check whether the goal was cancelled. An ActionServer ends when stop() is called, or when no variable
-    refers to it any more. The second case happens, for example, when the cell that created it runs again.
+    check whether the goal was cancelled.
+
+    An ActionServer ends when stop() is called, or when no variable refers to it any more, for example because
+    its cell runs again.
     """
 
     def __init__(self, name: str, kind: type, execute: Execute) -> None:
@@ -38,18 +37,14 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        # The thread gets no reference to self. Otherwise, the thread would keep this object alive, and
-        # __del__ would never run.
+        # If the thread had a reference to self, this object would never be deleted.
         work = (self._server, execute, self._goal_came, self._stopped)
         self._thread = threading.Thread(target=_work, args=work, daemon=True)
         self._thread.start()
         self._server.start()
 
     def stop(self) -> None:
-        """Remove the action from the graph and cancel a running goal.
-
-        The thread of this goal may run longer.
-        """
+        """Remove the action from the graph and cancel a running goal; the goal's thread may continue."""
         if self._stopped.is_set():
             return
         self._stopped.set()
@@ -84,7 +79,7 @@ def _work(
 
 
 def _execute(server: actionlib.SimpleActionServer, execute: Execute, goal: Message) -> None:
-    """Execute a goal, and set its terminal state even if the student's function raises an exception."""
+    """Execute a goal, and set its terminal state even if `execute` raises an exception."""
     try:
         execute(goal, server)
         message = "No terminal state was set."

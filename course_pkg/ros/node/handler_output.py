@@ -1,7 +1,4 @@
-"""Store the printed text of a handler in the handler's service.
-
-Otherwise, the text would appear below the cell that is running.
-"""
+"""Store the text that a handler prints in the handler's service, not in the cell that is running."""
 
 from __future__ import annotations
 
@@ -12,7 +9,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, TextIO
 
-LIMIT = 65536  # characters
+LIMIT = 65536  # A `Printed` stores at most this many characters.
 
 
 class Printed(io.TextIOBase):
@@ -22,21 +19,20 @@ class Printed(io.TextIOBase):
         self.text = ""
 
     def writable(self) -> bool:
-        """Return True: text can be written to this stream."""
+        """Return True."""
         return True
 
     def write(self, text: str) -> int:
-        """Append `text`; if the limit is exceeded, delete the oldest characters."""
+        """Append `text`; above the limit, delete the oldest characters."""
         self.text = (self.text + text)[-LIMIT:]
         return len(text)
 
 
 class RoutedStream(io.TextIOBase):
-    """Replaces sys.stdout or sys.stderr. Text that a handler's thread prints is stored.
+    """Replaces sys.stdout or sys.stderr.
 
-    All other text goes to the original stream, which this object replaces.
-
-    Each thread has its own destination for text; the destination is therefore stored in a context variable.
+    Text that a handler's thread prints is stored. Text of all other threads goes to the original stream. The
+    destination of each thread is stored in a context variable.
     """
 
     def __init__(self, stream: TextIO, destination: ContextVar[Printed | None]) -> None:
@@ -44,36 +40,33 @@ class RoutedStream(io.TextIOBase):
         self._destination = destination
 
     def writable(self) -> bool:
-        """Return True: text can be written to this stream."""
+        """Return True."""
         return True
 
     def write(self, text: str) -> int:
-        """Write `text` to this thread's destination.
-
-        If this thread has no destination, write to the replaced stream.
-        """
+        """Write `text` to this thread's destination, or to the original stream."""
         return int((self._destination.get(None) or self.stream).write(text) or 0)
 
     def flush(self) -> None:
-        """Flush the replaced stream."""
+        """Flush the original stream."""
         self.stream.flush()
 
     def isatty(self) -> bool:
-        """Return whether the replaced stream is a terminal."""
+        """Return whether the original stream is a terminal."""
         return bool(self.stream.isatty())
 
     def fileno(self) -> int:
-        """Return the file descriptor of the replaced stream."""
+        """Return the file descriptor of the original stream."""
         return int(self.stream.fileno())
 
     @property
     def encoding(self) -> str:  # type: ignore[override]
-        """The encoding of the replaced stream."""
+        """The encoding of the original stream."""
         return self.stream.encoding
 
     @property
     def errors(self) -> str | None:  # type: ignore[override]
-        """The error handler of the replaced stream for characters that it cannot encode, such as "strict"."""
+        """The encoding error handler of the original stream, such as "strict"."""
         return self.stream.errors
 
     def __getattr__(self, name: str) -> Any:  # noqa: ANN401 -- IPython's stream has more methods
@@ -94,7 +87,7 @@ class HandlerOutput:
                 setattr(sys, name, RoutedStream(stream, self._destination))
 
     def remove(self) -> None:
-        """Put the original streams back, unless another program has replaced them since install()."""
+        """Restore the original streams, unless another program has replaced them since install()."""
         for name in ("stdout", "stderr"):
             stream = getattr(sys, name)
             if isinstance(stream, RoutedStream):

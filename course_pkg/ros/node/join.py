@@ -1,6 +1,6 @@
 """Turn a Jupyter kernel into a ROS node.
 
-A cell may call join() many times, although rospy starts only once in a process.
+A cell may call join() many times, although rospy can start only once in a process.
 """
 
 from __future__ import annotations
@@ -35,15 +35,17 @@ from course_pkg.ros.trace.handover import hand_over
 from course_pkg.setup.figures import set_up_figures
 from course_pkg.workspace import OwnPackages, own_workspace
 
-# maximum time in s until another node with this name has ended, such as a kernel that is being restarted
+# Wait up to this time in s for the end of another node with the same name, such as the node of a restarting
+# kernel.
 NAME_TIMEOUT = 2.0
 
 
 def join(name: str) -> Node:
     """Make this kernel the node `name`, and return the node; a second call returns the same node.
 
-    join() uses the master at ROS_MASTER_URI. If this variable is not set, join() starts a master that ends
-    with this kernel. If the master was restarted, join() registers this node's services and topics again.
+    join() uses the master at ROS_MASTER_URI. If this variable is not set, join() starts a private master that
+    ends with this kernel. After a restart of the master, join() registers this node's services and topics
+    again.
     """
     return _kernel(os.getpid()).join(name)
 
@@ -67,13 +69,13 @@ def leave(node: Node) -> None:
 def _kernel(pid: int) -> _Kernel:
     """Return the only _Kernel of this process.
 
-    A forked child process gets a new _Kernel, because the child is not a node.
+    A forked child process gets a new _Kernel.
     """
     return _Kernel(pid)
 
 
 class _Kernel:
-    """This process's node, its private master (if any), and the process that cleans up after a SIGKILL."""
+    """This process's node, its private master (if any), and the cleaner process for the case of a SIGKILL."""
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
@@ -83,7 +85,7 @@ class _Kernel:
         self._packages: OwnPackages | None = None
         self._private: Roscore | None = None
         self._cleaner: SupervisedProcess | None = None
-        # the node that the cleaner process unregisters: the master's URI, the node's name, the node's URI
+        # The cleaner process unregisters this node: (the master's URI, the node's name, the node's URI).
         self._registered: tuple[str, str, str] | None = None
 
     def join(self, name: str) -> Node:
@@ -95,7 +97,7 @@ class _Kernel:
             return self._joined(full)
 
     def _follow_cells(self) -> None:
-        """Start to observe the runs of the notebook's cells, if this process is the kernel of a notebook."""
+        """Observe the runs of the notebook's cells, if this process is the kernel of a notebook."""
         shell = current_shell()
         if shell is not None and self._shell is None:
             self._shell = NotebookShell(shell, self.cells)
@@ -117,7 +119,7 @@ class _Kernel:
             if self._shell is not None:
                 self._shell.add_programs(self._node.keep)
             atexit.register(self._at_exit)
-            # Otherwise, a forked child process that ends would unregister the services and topics of its
+            # Without this line, the end of a forked child would unregister the services and topics of its
             # parent.
             os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
@@ -174,7 +176,7 @@ class _Kernel:
     def _start_cleaner(self, master: MasterClient) -> None:
         """Start a process that unregisters the node if this kernel is killed.
 
-        A private master needs no such process, because it ends when the kernel ends.
+        With a private master, no such process is necessary, because the master ends with the kernel.
         """
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
@@ -194,8 +196,8 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            # Everything is already unregistered. If rospy knew the master's address, rospy would unregister
-            # again, without a time limit.
+            # All registrations have been removed. With the master's address, rospy would unregister again,
+            # without a time limit.
             manager.master_uri = None
         if self._private is not None:
             self._private.stop()
@@ -235,7 +237,7 @@ def _require_same_name(full: str) -> None:
 def _apply_environment() -> None:
     """Set the workspace's environment variables if its setup file was not sourced.
 
-    This is the case in an editor or on Binder, for example.
+    In an editor or on Binder, for example, the setup file is not sourced.
     """
     if "ROS_PACKAGE_PATH" not in os.environ:
         from course_pkg.setup import environment
@@ -245,7 +247,8 @@ def _apply_environment() -> None:
                 "The course's workspace is not built on this machine. Run `./course doctor` in a terminal, "
                 "install what it reports as missing, and run this cell again."
             )
-        course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)  # finds course_pkg.srv
+        # The extended path contains the generated package course_pkg.srv.
+        course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)
     if not any(os.environ.get(name) for name in ("ROS_HOSTNAME", "ROS_IP")):
         os.environ["ROS_HOSTNAME"] = "localhost"
 
@@ -253,7 +256,7 @@ def _apply_environment() -> None:
 def _free_name(full: str, master: MasterClient) -> None:
     """Make sure that no running node uses this name.
 
-    If a node with this name has ended, remove its registrations.
+    If a node with this name has ended, its registrations are removed.
     """
     deadline = time.monotonic() + NAME_TIMEOUT
     while (uri := master.lookup_node(full)) is not None:

@@ -26,7 +26,7 @@ from course_pkg.ros.trace.recording import Recording
 
 
 class Node:
-    """This kernel as a node of the graph, created by join(). `leave` removes the node from the graph."""
+    """This kernel as a node of the graph, created by join()."""
 
     def __init__(self, leave: Callable[[Node], None], cells: Cells) -> None:
         self._leave = leave
@@ -49,7 +49,7 @@ class Node:
 
     @property
     def uri(self) -> str:
-        """The node's address: the master and other nodes send their requests to this address."""
+        """The node's address, to which the master and other nodes send XML-RPC requests."""
         return str(rospy.get_node_uri())
 
     @property
@@ -61,8 +61,7 @@ class Node:
         """Serve `name` with `handler`; an earlier service of this kernel with the same name is replaced.
 
         Raises UnknownType or NotAServiceType if `kind` is wrong, and NotJoined after leave(). Raises
-        MasterUnreachable or MasterSilent when the master does not answer; rospy.Service itself would wait for
-        ever.
+        MasterUnreachable or MasterSilent when the master does not answer.
         """
         self._require()
         service = Service(name, service_class(kind), handler, self._output)
@@ -93,14 +92,14 @@ class Node:
         """Subscribe to a topic, and end this kernel's earlier subscription to the same topic.
 
         `callback` runs on a thread of rospy. Raises MasterUnreachable or MasterSilent when the master does
-        not answer; rospy.Subscriber itself would wait for ever.
+        not answer.
         """
         self._require()
         self._client().pid()
         full = rospy.resolve_name(topic)
         if full in self._subscriptions:
             self._subscriptions.pop(full).stop()
-        # The next subscribe() ends the pause; running the cell of this subscription again does not.
+        # The pause of a subscription ends at the next subscribe(), not when its cell runs again.
         with self._cells.paused():
             self._subscriptions[full] = Subscription(full, message_class(kind), callback)
         return self._subscriptions[full]
@@ -111,8 +110,7 @@ class Node:
         """Return a new publisher of a topic, and stop this kernel's earlier publisher of the same topic.
 
         If `latch` is true, each subscriber that connects later receives the last message. Raises
-        MasterUnreachable or MasterSilent when the master does not answer; rospy.Publisher itself would wait
-        for ever.
+        MasterUnreachable or MasterSilent when the master does not answer.
         """
         self._require()
         self._client().pid()
@@ -126,8 +124,8 @@ class Node:
     def run(self, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
         """Run a program of a package as a process, and stop this node's earlier process with the same name.
 
-        `name` renames the node, so that one program can run several times. The arguments `__name:=…` and
-        `__ns:=…` of a program also rename its node or set its namespace. Raises UnknownExecutable.
+        `name` is the name of the new node; several processes of one program need different names. The
+        arguments `__name:=…` and `__ns:=…` also set the node's name and namespace. Raises UnknownExecutable.
         """
         start = partial(NodeProcess.rosrun, package, executable, *args, name=name)
         renamed = [arg for arg in map(str, args) if arg.startswith(("__name:=", "__ns:="))]
@@ -141,26 +139,26 @@ class Node:
         return self._started(f"{package}/{file}", partial(NodeProcess.roslaunch, package, file, *args))
 
     def keep(self, process: NodeProcess) -> None:
-        """End `process` when this node ends, if it is still running then."""
+        """End `process` when this node ends."""
         self._processes[f"process {process.pid}"] = process
 
     def record(self) -> AbstractContextManager[Recording]:
-        """Record what all nodes of the course do during the block of a `with` statement.
+        """Record the actions of all nodes of the course during a `with` block.
 
-        The recording is empty until the block ends. At the end of the block, collecting the records takes up
-        to 1 s if a node does not answer.
+        The recording is empty until the block ends. If a node does not answer, the collection of the records
+        takes up to 1 s.
         """
         self._require()
         return recorded(self.name, self.uri, self._client())
 
     def leave(self) -> None:
-        """End everything that this node has started. Remove the node from the graph until the next join()."""
+        """End everything that this node has started, and remove the node from the graph."""
         self._leave(self)
 
     def renew(self) -> None:
         """Create the services, subscriptions and publishers again after a restart of rospy.
 
-        This method does not restore objects that a cell created directly with rospy.
+        Objects that a cell created directly with rospy are not created again.
         """
         if self._uri == rospy.get_node_uri():
             return
@@ -173,8 +171,8 @@ class Node:
             publisher.renew()
 
     def close(self, *, with_master: bool = True) -> None:
-        """End everything that this node has started; unregister it only if `with_master` is true."""
-        # one common deadline, because all processes are interrupted at the same time
+        """End everything that this node has started; if `with_master` is true, unregister it."""
+        # All processes are interrupted at the same time, so they have one common deadline.
         deadline = time.monotonic() + GRACE
         for process in self._processes.values():
             process.interrupt()
@@ -194,7 +192,7 @@ class Node:
         return f"<node {self.name}>"
 
     def _client(self) -> MasterClient:
-        """Return the client of rospy's current master, which may have a new address."""
+        """Return the client of rospy's current master."""
         if self._master.uri != master_uri():
             self._master = MasterClient(master_uri())
         return self._master
@@ -208,7 +206,7 @@ class Node:
 
     def _proxy(self, name: str, kind: ServiceKind) -> BoundedProxy:
         cls = service_class(kind)
-        # the stored proxy refers to the class, so no other class can get the same id
+        # The stored proxy refers to the class, so the class exists, and no other class can have its id.
         key = (str(rospy.resolve_name(name)), id(cls))
         if key not in self._proxies:
             self._proxies[key] = self.caller(name, cls)

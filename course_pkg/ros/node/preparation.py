@@ -2,12 +2,12 @@
 
 In rospy, one thread accepts all connections and also reads their headers. A client that connects and sends
 nothing therefore blocks new connections to all services and topics of the node. In a prepared node, this
-thread reads a header only after the whole header has arrived. If a header arrives slowly, a separate thread
-waits for it, for a limited time.
+thread reads only headers that have arrived completely. A separate thread waits, for a limited time, for a
+header that arrives slowly.
 
-In the slave API (http://wiki.ros.org/ROS/Slave_API), the answer of `getBusStats` has a part for the
-statistics of services. rospy leaves this part empty, and this module fills it. `getCourseRecord` is an
-additional method that the course defines; a node that was not prepared answers that the method is unknown.
+In the slave API (http://wiki.ros.org/ROS/Slave_API), `getBusStats` returns a list for the statistics of
+services. rospy leaves this list empty, and this module fills the list. `getCourseRecord` is an additional
+method of the course; a node that was not prepared returns an error for this method.
 """
 
 from __future__ import annotations
@@ -36,27 +36,26 @@ from course_pkg.ros.trace.recording import GET_RECORD
 from course_pkg.ros.trace.service_hooks import hook_services
 from course_pkg.ros.trace.topic_hooks import hook_topics
 
-HEADER_TIMEOUT = 10.0  # maximum time in s until a header has arrived
-AT_ONCE = 2  # time in ms; if a header takes longer, a separate thread waits for it
-LONGEST = 65536  # maximum size of a header in bytes; a connection with a longer header is closed
-# maximum number of waiting connections; with rospy's limit of 5, some clients have to wait 1 s for a TCP
-# retransmission when many clients connect at once
+HEADER_TIMEOUT = 10.0  # A header has to arrive within this time in s.
+AT_ONCE = 2  # If a header takes longer than this time in ms, a separate thread waits for it.
+LONGEST = 65536  # A connection with a longer header (in bytes) is closed.
+# This many connections may wait to be accepted. With rospy's limit of 5, when many clients connect at once,
+# some clients wait 1 s for a TCP retransmission.
 BACKLOG = 128
 STATISTICS = "getBusStats"
 UNSUPPORTED = "the callers of its services: this rospy reports its statistics in another way"
-HASTENED = "hastened_by_course"  # marks a registration manager that the shutdown has already woken up
+# This attribute marks a registration manager whose thread wakes up at once during a shutdown.
+HASTENED = "hastened_by_course"
 
 Serve = Callable[[socket.socket, Any], None]
 
 
 def prepare_node() -> None:
-    """Prepare this process's node.
+    """Prepare this process's node, directly after rospy.init_node().
 
-    After this, idle connections do not block the node, its calls and messages are recorded, and it ends
-    quickly.
-
-    Call this function directly after rospy.init_node(), before you create a service, publisher or proxy. A
-    second call changes nothing.
+    In a prepared node, idle connections do not block other connections, calls and messages are recorded, and
+    a shutdown is fast. Call this function before you create a service, publisher or proxy. A second call has
+    no effect.
     """
     guard_against_idle_connections()
     hasten_shutdown()
@@ -69,10 +68,8 @@ def prepare_node() -> None:
 def guard_against_idle_connections() -> bool:
     """Make this process's node wait for headers on separate threads.
 
-    Return whether this release of rospy allows this change.
-
-    Call this function after init_node(). This function changes rospy's internals. If the internals of this
-    release of rospy are different, the function changes nothing and returns False.
+    Call this function after init_node(). The function changes rospy's internals. If this release of rospy has
+    different internals, the function changes nothing and returns False.
     """
     tcpros_base.start_tcpros_server()
     server = getattr(tcpros_base, "_tcpros_server", None)
@@ -91,7 +88,7 @@ def guard_against_idle_connections() -> bool:
 def hasten_shutdown() -> None:
     """Make a shutdown wake up rospy's registration thread at once.
 
-    The process then ends up to 0.5 s earlier.
+    A shutdown then takes up to 0.5 s less.
     """
     manager = registration_manager()
     if manager is None or getattr(manager, HASTENED, False):
@@ -108,8 +105,7 @@ def hasten_shutdown() -> None:
 def extend_slave() -> None:
     """Make this process's node return its records through the slave API."""
     setattr(ROSHandler, GET_RECORD, _record)
-    # rospy wraps this method in a function that checks the arguments; this function has the parameters args
-    # and kwds.
+    # rospy wraps this method in a function with the parameters args and kwds.
     hook = Hook(ROSHandler, STATISTICS, ("args", "kwds"), _add_services)
     if hook.fits():
         hook.install()
@@ -132,13 +128,13 @@ def _serve_later(serve: Serve, sock: socket.socket, address: Any) -> None:  # no
 
 
 def _header_arrives(sock: socket.socket, timeout: float) -> bool:
-    """Return whether a whole header, or the end of the stream, can be read within `timeout` s."""
+    """Return whether a whole header has arrived, or the client has disconnected, within `timeout` s."""
     deadline = time.monotonic() + timeout
     if not _readable(sock, 4, deadline):
         return False
     start = sock.recv(4, socket.MSG_PEEK)
     if len(start) < 4:
-        return True  # The client has closed the connection, and rospy detects this itself.
+        return True  # The client has closed the connection; rospy detects this itself.
     (length,) = struct.unpack("<I", start)
     return length <= LONGEST and _readable(sock, 4 + length, deadline)
 
@@ -146,7 +142,7 @@ def _header_arrives(sock: socket.socket, timeout: float) -> bool:
 def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
     """Return whether `count` bytes arrive before the deadline.
 
-    With SO_RCVLOWAT, poll() waits until all of them have arrived.
+    With SO_RCVLOWAT, poll() waits until all bytes have arrived.
     """
     sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVLOWAT, count)
     try:
@@ -160,7 +156,7 @@ def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
 def _record(_handler: ROSHandler, _caller_id: str, since: float) -> tuple[int, str, str]:
     """Return the record of this node from the time `since` (s of time.monotonic()), as JSON.
 
-    Encoding the record as XML would take ten times as long.
+    JSON is ten times as fast to encode as XML.
     """
     return 1, "", json.dumps(recorder().since(float(since)))
 

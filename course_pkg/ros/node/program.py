@@ -1,7 +1,4 @@
-"""Functions for a program that is a node.
-
-The node serves until a signal ends it, or makes one call and prints the response.
-"""
+"""Functions for a node program: serve until a signal arrives, or make one call and print the response."""
 
 from __future__ import annotations
 
@@ -21,24 +18,24 @@ from course_pkg.ros.process.master import wait_for_master
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 
 END_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-TIMEOUT = 5.0  # maximum time in s to wait for a server, and again to wait for its response
-INTERVAL = 0.02  # s between polls
+TIMEOUT = 5.0  # Wait up to this time in s for a server, and up to this time again for its response.
+INTERVAL = 0.02  # This is the time in s between two polls.
 
-Offered = tuple[type, Callable[[Message], Message]]  # a service's class and its handler
+Offered = tuple[type, Callable[[Message], Message]]  # The class of a service, and its handler.
 
 
 def start_node(name: str) -> bool:
     """Wait for a master and become the node `name`; return False if Ctrl-C ends the wait.
 
-    Raises MalformedMasterUri if ROS_MASTER_URI is invalid, and NotAMaster if a program that is not a master
-    answers at this address.
+    Raises MalformedMasterUri if ROS_MASTER_URI is invalid, and NotAMaster if the program at this address is
+    not a master.
     """
     try:
         wait_for_master(rospy.logwarn)
     except KeyboardInterrupt:
         return False
-    # Ctrl-C is delayed, because a shutdown in the middle of rospy's start would need locks that the start
-    # holds. A signal mask is used because rospy installs its own signal handlers during the start.
+    # Ctrl-C is delayed, because rospy's start and its shutdown use the same locks. A signal mask works here
+    # although rospy installs its own signal handlers.
     signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
     try:
         rospy.init_node(name)
@@ -85,7 +82,8 @@ def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Me
     node serves `service` within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
     for a failed call. Raises MasterUnreachable at once if no master answers.
     """
-    MasterClient(master_uri()).pid()  # Without this check, init_node would wait for a master for ever.
+    # Raise an error if no master answers, because init_node would wait for a master for ever.
+    MasterClient(master_uri()).pid()
     rospy.init_node(node)
     prepare_node()
     rospy.wait_for_service(service, timeout=TIMEOUT)
@@ -108,9 +106,9 @@ def complain(message: str, status: int) -> int:
 
 
 def number_parameter(name: str, default: float, least: float, most: float) -> float:
-    """Return the value of a parameter such as `_rate:=5`; end the program if the value is not valid.
+    """Return the value of a private parameter such as `_rate:=5`, in the parameter's unit.
 
-    The value has to be a number from `least` to `most`, in the unit of the parameter.
+    The program ends with an error message if the value is not a number from `least` to `most`.
     """
     with undisturbed():
         given = rospy.get_param(name, default)

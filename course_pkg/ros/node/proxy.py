@@ -1,8 +1,7 @@
 """Call a service with a time limit.
 
 rospy's ServiceProxy has no time limit, and its sockets block. This module therefore creates the transport
-itself. A watchdog or another thread can then end the call at any time, by shutting down the transport's
-socket.
+itself. A watchdog or another thread can end a call at any time by shutting down the transport's socket.
 """
 
 from __future__ import annotations
@@ -26,16 +25,16 @@ from course_pkg.ros.node.watchdog import Watchdog
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.trace.service_hooks import RecordedCall, RecordedLookup, service_transport
 
-# rospy's variable for the parameter /tcp_keepalive; None until rospy has read it from the master
+# This attribute of rospy stores the parameter /tcp_keepalive; it is None until rospy has read the parameter.
 KEEPALIVE = "_use_tcp_keepalive"
 
 
 class BoundedProxy(rospy.ServiceProxy):
     """A ServiceProxy with a time limit.
 
-    Each call ends with a response, with an error of rospy, or at the deadline.
+    Each call returns a response or raises an error of rospy, at the latest at the deadline.
 
-    Several threads may share a proxy. A persistent proxy connects again after its server has been replaced.
+    Several threads may use one proxy. After a restart of the server, a persistent proxy connects again.
     """
 
     def __init__(
@@ -54,7 +53,7 @@ class BoundedProxy(rospy.ServiceProxy):
         self._master = MasterClient(master_uri())
         self._running: set[_Call] = set()
         self._connection: TCPROSTransport | None = None
-        self._lock = threading.Lock()  # a persistent connection carries one call at a time
+        self._lock = threading.Lock()  # A persistent connection can transmit only one call at a time.
 
     def call(self, *args: object, timeout: float | None = None, **fields: object) -> Message:
         """Call the service and return the response.
@@ -70,7 +69,7 @@ class BoundedProxy(rospy.ServiceProxy):
         """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            if call.over:  # The call has ended in the meantime, and may not have disarmed this new action.
+            if call.over:  # The call may have ended while this action was armed, so disarm the action here.
                 self._disarm(call)
 
     def close(self) -> None:
@@ -84,7 +83,7 @@ class BoundedProxy(rospy.ServiceProxy):
     def _call(self, args: Sequence[object], fields: Mapping[str, object], timeout: float) -> Message:
         request = args_kwds_to_message(self.request_class, args, fields)
         if request._type != self.request_class._type:
-            # the same error message as rospy
+            # This error message is the same as rospy's own message.
             text = "request object type [%s] does not match service type [%s]"
             raise TypeError(text % (request.__class__, self.request_class))
         call = _Call(self.resolved_name, timeout)
@@ -96,7 +95,7 @@ class BoundedProxy(rospy.ServiceProxy):
             # If the socket is shut down while rospy uses it, rospy raises one of these errors.
             if call.error is None:
                 raise
-            raise call.error from None  # rospy's error says only that the socket is closed, not why
+            raise call.error from None  # rospy's error says that the socket is closed; `call.error` says why.
         finally:
             call.over = True
             self._running.discard(call)
@@ -198,7 +197,7 @@ class BoundedProxy(rospy.ServiceProxy):
 
 
 class _Call:
-    """One running call: its deadline, its transport (None at first), and the error that stopped it."""
+    """One running call: its deadline, its transport (None at first), and the error that ended it."""
 
     def __init__(self, name: str, timeout: float) -> None:
         self.deadline = time.monotonic() + timeout
@@ -214,7 +213,7 @@ class _Call:
         return max(self.deadline - time.monotonic(), 0.001)
 
     def too_late(self, why: str) -> CallTimeout:
-        """Return the CallTimeout for a deadline that has passed; its message contains the reason `why`."""
+        """Return the CallTimeout for this call; its message contains the reason `why`."""
         return CallTimeout(f"service [{self._name}]: no answer within {self._timeout:g} s; {why}.")
 
     def expire(self) -> None:
@@ -222,7 +221,7 @@ class _Call:
         self._break_off(self.too_late(self._waiting_for()))
 
     def cancel(self) -> None:
-        """End the call early, because the caller has cancelled the call."""
+        """End the call because the caller has cancelled it."""
         text = "the call was cancelled; the server may still work on it."
         self._break_off(CallCancelled(f"service [{self._name}]: {text}"))
 
@@ -242,22 +241,19 @@ class _Call:
         self.error = self.error or error
         sock = self.transport.socket if self.transport else None
         if sock is not None:
-            # If the socket is not connected yet, shutdown() fails, and the watchdog repeats this action.
+            # Before the socket is connected, shutdown() fails; the watchdog calls this method again.
             with suppress(OSError):
                 sock.shutdown(socket.SHUT_RDWR)
 
 
 def settle_keepalive(master: MasterClient) -> None:
-    """Read the parameter /tcp_keepalive with a time limit; rospy itself would read it without a limit."""
+    """Read the parameter /tcp_keepalive with a time limit; rospy's own code has no time limit."""
     if getattr(tcpros_base, KEEPALIVE, True) is None:
         setattr(tcpros_base, KEEPALIVE, master.get_param("/tcp_keepalive", True))
 
 
 def _hung_up(transport: TCPROSTransport) -> bool:
-    """Return whether the server has closed an idle connection.
-
-    An open idle connection has no data to read.
-    """
+    """Return whether the server has closed an idle connection (an open one has no data to read)."""
     sock = transport.socket
     if sock is None:
         return True

@@ -1,4 +1,4 @@
-"""A publisher that counts its messages: a cell can show how many were sent and how many were dropped."""
+"""A publisher that counts the messages that were sent and the messages that were dropped."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 class Publisher:
     """A publisher that counts its messages.
 
-    `published` counts all messages; `unheard` counts the messages that were published while no subscriber was
-    connected. If `latch` is true, each subscriber that connects later receives the last message. For each
-    subscriber, up to `queue_size` messages wait in a queue; 0 means no limit.
+    `published` counts all messages; `unheard` counts the messages that had no subscriber. If `latch` is true,
+    each subscriber that connects later receives the last message. Each subscriber has a queue for up to
+    `queue_size` messages; 0 means no limit.
     """
 
     def __init__(self, topic: str, cls: MessageClass, *, queue_size: int = 10, latch: bool = False) -> None:
@@ -84,10 +84,10 @@ class Publisher:
             )
 
     def stop(self, *, unregister: bool = True) -> None:
-        """Stop publishing and unregister the topic; the counts are kept. A second stop changes nothing.
+        """Stop publishing and unregister the topic; the counts do not change.
 
-        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy itself would wait for
-        ever). The publisher is stopped even if this error is raised.
+        A second call has no effect. Raises MasterUnreachable or MasterSilent when the master does not answer.
+        The publisher is stopped even if stop() raises an error.
         """
         with self._lock:
             publisher, self._publisher = self._publisher, None

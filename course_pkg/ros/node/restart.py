@@ -1,13 +1,12 @@
 """Start rospy in a notebook's kernel, even several times, without changing the kernel's logging.
 
-rospy can start only once in a process. It is shut down by signal_shutdown(), by an interrupted rospy.spin(),
-or by another node with the same name. After that, init_node() does nothing and reports no error. The student
-would have to restart the kernel and would lose all variables. This module therefore sets rospy's variables
-back to the values that they had before the first init_node().
+rospy can start only once in a process. After signal_shutdown(), after an interrupted rospy.spin(), or when
+another node with the same name starts, rospy is shut down. A second init_node() then does nothing and raises
+no error. This module therefore sets rospy's variables to the values that they had before the first
+init_node().
 
-init_node() also closes and removes the root logger's handlers, and sends the messages of all libraries to the
-node's log file. After init_node(), the log messages of all threads would appear below the cell that is
-running at that moment.
+init_node() also removes the root logger's handlers. The log messages of all threads would then appear below
+the running cell, so this module restores the handlers.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from rospy import client, core
 from rospy.impl import rosout, tcpros_base
 from rospy.impl.registration import get_service_manager, get_topic_manager
 
-ARGUMENTS = "_init_node_args"  # rospy's variable for the arguments of the first init_node() call
+ARGUMENTS = "_init_node_args"  # This variable of rospy stores the arguments of the first init_node() call.
 BEGINNING: tuple[tuple[ModuleType, str, object], ...] = (
     (core, "_shutdown_flag", False),
     (core, "_in_shutdown", False),
@@ -32,11 +31,11 @@ BEGINNING: tuple[tuple[ModuleType, str, object], ...] = (
     (tcpros_base, "_tcpros_server", None),
     (rosout, "_rosout_pub", None),
 )
-LOGGERS = ("rospy", "rosout", "rosgraph", "xmlrpc", "roslib")  # the loggers that belong to ROS
+LOGGERS = ("rospy", "rosout", "rosgraph", "xmlrpc", "roslib")  # These loggers belong to ROS.
 
 
 def can_begin_again() -> bool:
-    """Return whether this release of rospy has all the variables that begin_again() sets."""
+    """Return whether this release of rospy has all variables that begin_again() sets."""
     known = all(hasattr(module, name) for module, name, _ in BEGINNING)
     return known and hasattr(get_topic_manager(), "closed")
 
@@ -60,16 +59,14 @@ def begin_again() -> None:
 def allow_init_node() -> None:
     """Make every later rospy.init_node() do nothing.
 
-    A cell may contain a whole program that calls this function.
-
-    Without this function, rospy compares the arguments with those of the first call, and raises ROSException
-    if they differ.
+    A cell may contain a whole program that calls rospy.init_node(). rospy would raise ROSException if the
+    arguments differ from the arguments of the first call.
     """
     setattr(client, ARGUMENTS, _AnyArguments())
 
 
 class _AnyArguments:
-    """Equals every value."""
+    """An object that equals every value."""
 
     def __eq__(self, other: object) -> bool:
         return True
@@ -94,7 +91,7 @@ def logging_kept() -> Iterator[None]:
 
 
 def _separate(logger: logging.Logger, files: list[logging.Handler]) -> None:
-    """Make a ROS logger write to the node's log file, and print only the messages of the main thread."""
+    """Make a ROS logger write to the log file, and print only messages of the main thread."""
     for handler in logger.handlers:
         if type(handler).__name__ == "RosStreamHandler":
             handler.addFilter(_from_main_thread)

@@ -1,4 +1,4 @@
-"""A service of this kernel's node; a cell may define the service again each time the cell runs."""
+"""A service of this kernel's node; a cell that defines the service may run again."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
     from course_pkg.types import ServiceClass
 
 Handler = Callable[[Message], Message]
-CAPACITY = 1000  # calls
+CAPACITY = 1000  # The list `calls` stores at most this many calls.
 
 
 @dataclass(frozen=True)
 class HandledCall:
     """One call that the server handled.
 
-    It contains the `time` in s since the epoch, and either a response or an error message.
+    `time` is in s since the epoch; `response` or `error` is the result.
     """
 
     time: float
@@ -40,7 +40,7 @@ class HandledCall:
 
 
 class Service:
-    """A service of this kernel. `calls` holds the last 1000 calls.
+    """A service of this kernel. `calls` contains the last 1000 calls.
 
     `output` is the text that the handler has printed.
     """
@@ -89,7 +89,7 @@ class Service:
     def start(self, master: MasterClient) -> None:
         """Register this service; it replaces another service of this process with the same name.
 
-        This method registers the service itself, because rospy would retry for ever if the master has ended.
+        rospy's own registration would retry for ever if the master has ended.
         """
         manager = get_service_manager()
         with manager.lock:
@@ -107,7 +107,7 @@ class Service:
             self._replace(before)
 
     def stop(self, *, unregister: bool = True) -> None:
-        """Stop the service and unregister it; a second stop changes nothing."""
+        """Stop the service and unregister it; a second call has no effect."""
         self._active = False
         manager = get_service_manager()
         with manager.lock:
@@ -136,8 +136,8 @@ class Service:
     def _replace(self, before: ServiceImpl) -> None:
         """Let this service also answer the clients that are still connected to the earlier service.
 
-        Both services have the same address, and the shutdown() of the earlier service would unregister this
-        address. The earlier service therefore gets an invalid address.
+        The two services have one address. The shutdown() of the earlier service would unregister this
+        address, so the earlier service gets an invalid address.
         """
         before.uri = "rosrpc://replaced:0"
         same = before.service_class._md5sum == self._impl.service_class._md5sum
@@ -159,8 +159,8 @@ class Service:
             self._store(started, request, f"error processing request: {error}")
             raise
         except BaseException as error:
-            # After such an exception (SystemExit, for example) rospy sends no answer: the client would wait
-            # for ever. A ServiceException makes rospy send an error message.
+            # After an exception such as SystemExit, rospy sends no response, and the client would wait for
+            # ever. After a ServiceException, rospy sends an error message.
             message = f"handler ended with {type(error).__name__}: {error}"
             self._store(started, request, f"service cannot process request: {message}")
             raise rospy.ServiceException(message) from error
@@ -175,7 +175,6 @@ class Service:
         logging.getLogger("rospy.course").error("%s: %s", self.name, error, exc_info=error)
         last = self.calls[-1] if self.calls else None
         if last is not None and last.response is not None:
-            # The response has the right type, but rospy could not serialise it, because a field has an
-            # invalid value.
+            # rospy could not serialise the response, because a field has an invalid value.
             message, trace = f"error processing request: {error}", "".join(traceback.format_exception(error))
             self.calls[-1] = HandledCall(last.time, last.request, None, message, trace)

@@ -1,4 +1,4 @@
-"""A subscription that stores its messages. A cell can wait for messages, and does not need a callback."""
+"""A subscription that stores its messages, so that a cell can wait for messages without a callback."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 if TYPE_CHECKING:
     from course_pkg.types import MessageClass
 
-CAPACITY = 1000  # messages
+CAPACITY = 1000  # The list `messages` stores at most this many messages.
 
 Callback = Callable[[Message], object]
 
 
 class Subscription:
-    """A subscription: `messages` holds the last 1000 messages, the oldest first.
+    """A subscription: `messages` contains the last 1000 messages, the oldest message first.
 
-    `errors` holds the last 1000 exceptions that `callback` raised.
+    `errors` contains the last 1000 exceptions of `callback`.
     """
 
     def __init__(self, topic: str, cls: MessageClass, callback: Callback | None = None) -> None:
@@ -48,7 +48,7 @@ class Subscription:
         """
         deadline = time.monotonic() + timeout
         with self._arrived:
-            # Each wait is short, because on some platforms a signal cannot interrupt a long wait for a lock.
+            # On some platforms, a signal cannot interrupt a long wait for a lock, so each wait is short.
             while len(self.messages) < count and (rest := deadline - time.monotonic()) > 0:
                 self._arrived.wait(min(rest, 0.5))
             if len(self.messages) < count:
@@ -56,10 +56,10 @@ class Subscription:
             return list(self.messages)[:count]
 
     def stop(self, *, unregister: bool = True) -> None:
-        """Unsubscribe; the stored messages are kept. A second stop changes nothing.
+        """Unsubscribe; the stored messages are not deleted.
 
-        Raises MasterUnreachable or MasterSilent when the master does not answer (rospy itself would wait for
-        ever). Even if this error is raised, no further messages are stored.
+        A second call has no effect. Raises MasterUnreachable or MasterSilent when the master does not answer.
+        Even if stop() raises an error, no further messages are stored.
         """
         self._active = False
         subscriber, self._subscriber = self._subscriber, None

@@ -1,7 +1,4 @@
-"""Find the generated class that rospy needs.
-
-A caller gives a class, a type of the package `types`, or a name.
-"""
+"""Find the generated class of a message or service type."""
 
 from __future__ import annotations
 
@@ -14,7 +11,7 @@ from course_pkg.errors import NotAMessageType, NotAServiceType
 if TYPE_CHECKING:
     from course_pkg.types import MessageClass, MessageType, ServiceClass, ServiceType
 
-# an instance of a generated class; genmsg generates no type annotations for the fields
+# An instance of a generated class; generated classes have no type annotations.
 Message: TypeAlias = Any
 ServiceKind = Union[type, "ServiceClass", "ServiceType", str]
 MessageKind = Union[type, "MessageClass", "MessageType", str]

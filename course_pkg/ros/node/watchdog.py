@@ -1,4 +1,4 @@
-"""One thread checks the deadlines of all calls, so no call needs a thread for its own deadline."""
+"""One thread checks the deadlines of all calls."""
 
 from __future__ import annotations
 
@@ -8,16 +8,15 @@ import threading
 import time
 from collections.abc import Callable
 
-LINGER = 5.0  # maximum time in s until the thread checks again whether any action is armed
-REPEAT = 0.02  # time in s after which an action runs again
+LINGER = 5.0  # The thread checks at least once in this time (s) whether any action is armed.
+REPEAT = 0.02  # An armed action runs again after this time in s.
 
 
 class Watchdog:
-    """Runs an action after its deadline has passed, and again every 20 ms, until the action is disarmed.
+    """Runs an action after its deadline, and again every 20 ms, until the action is disarmed.
 
-    The action is repeated because the socket that it shuts down may not exist when the action runs first. The
-    thread runs while any action is armed. It ends some seconds after the last action was disarmed, because
-    the next call often follows soon.
+    An action shuts down a socket, and this socket may not exist at the first run. The thread ends some
+    seconds after the last action was disarmed.
     """
 
     def __init__(self) -> None:
@@ -28,7 +27,7 @@ class Watchdog:
         self._thread: threading.Thread | None = None
 
     def arm(self, deadline: float, action: Callable[[], None]) -> int:
-        """Run `action` after `deadline` (s of time.monotonic()); return the number that disarm() needs."""
+        """Run `action` after `deadline` (s of time.monotonic()); return the number to pass to disarm()."""
         number = next(self._numbers)
         self._armed[number] = (deadline, action)
         if self._thread is None or deadline < self._wake:
@@ -53,15 +52,15 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                # Another thread may arm an action while the next lines run, and they may miss this action.
-                # With the value inf, arm() wakes up this thread.
+                # Another thread may arm an action while the next lines run. The value inf makes arm() wake up
+                # this thread.
                 self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)
                 self._changed.wait(max(self._wake - time.monotonic(), 0))
 
     def _may_end(self) -> bool:
-        """Return whether this thread may end; if it may, the next arm() starts a new thread."""
+        """Return whether this thread may end; the next arm() then starts a new thread."""
         with self._changed:
             self._thread = None
             # Another thread armed an action while this thread was about to end, so this thread continues.

@@ -1,1 +1,1 @@
-"""Make rospy usable in a notebook: a cell can run again or start programs, and error messages are short."""
+"""Make rospy usable in a notebook: cells can run again and start programs, and error messages are short."""

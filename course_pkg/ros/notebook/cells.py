@@ -2,8 +2,8 @@
 
 When a cell runs again, the objects of its last run are ended.
 
-A front end sends the cell's id with each execution. nbclient sends no id, but runs each cell only once. Each
-execution without an id therefore counts as a separate cell.
+A front end sends the cell's id with each execution. nbclient sends no id, so each execution without an id
+counts as a separate cell.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from types import FrameType
 
-CALLBACK = "rospy."  # a module whose name begins with this string calls handlers and callbacks
+CALLBACK = "rospy."  # A module with this prefix calls handlers and callbacks.
 
 Close = Callable[[], None]
 CloseAll = Callable[[list[Close]], None]
@@ -29,11 +29,12 @@ class CellRun:
     """
 
     source: str = ""
-    temporary: bool = False  # True for a check: the objects that it creates are ended when the check ends
-    error: str = ""  # the name of the class of the exception that ended the run
-    # the function that ends each created object; the oldest object is first
+    # The value is True for a check; objects of a check are ended when the check ends.
+    temporary: bool = False
+    error: str = ""  # This is the class name of the exception that ended the run.
+    # The dict maps each created object to the function that ends it, the oldest object first.
     created: dict[Hashable, Close] = field(default_factory=dict)
-    threads: frozenset[int] = frozenset()  # the threads that were running when the run began
+    threads: frozenset[int] = frozenset()  # These threads were running when the run began.
 
     def owns_this_thread(self) -> bool:
         """Return whether the current thread belongs to this run, not to a handler or to an earlier cell."""
@@ -52,9 +53,10 @@ class Cells:
     def __init__(self, close_all: CloseAll) -> None:
         self._close_all = close_all
         self._runs: dict[str, CellRun] = {}
-        self._cells: dict[str, str] = {}  # a cell's id, by the `source` of its runs
+        self._cells: dict[str, str] = {}  # The dict maps the `source` of a run to the id of its cell.
         self._current: CellRun | None = None
-        self._depth = 0  # the number of cells that run inside the current cell, for example with %%capture
+        # This is the number of cells that run inside the current cell, for example with %%capture.
+        self._depth = 0
         self._paused = 0
 
     def begin(self, cell: str | None, source: str = "") -> None:
@@ -92,7 +94,7 @@ class Cells:
     def paused(self) -> Iterator[None]:
         """Do not assign the objects that the block creates to any cell.
 
-        A new run of the cell then does not end these objects.
+        A new run of the cell does not end these objects.
         """
         self._paused += 1
         try:
@@ -102,9 +104,9 @@ class Cells:
 
     @contextmanager
     def check(self) -> Iterator[None]:
-        """After the block, end all objects that it created.
+        """After the block, end all objects that the block created.
 
-        A service of the block does not replace a service that a cell created.
+        A service of the block does not replace a service of a cell.
         """
         before, self._current = self._current, CellRun(temporary=True, threads=_thread_ids())
         run = self._current
@@ -115,9 +117,9 @@ class Cells:
             self._close_all(list(run.created.values()))
 
     def later_run(self, source: str) -> CellRun | None:
-        """Return the last run of the cell that once had the code `source`.
+        """Return the last run of the cell that had the code `source` before.
 
-        Return None if the cell still has this code.
+        If the cell still has this code, return None.
         """
         run = self._runs.get(self._cells.get(source, ""))
         return run if run is not None and run.source != source else None
@@ -128,7 +130,7 @@ def _thread_ids() -> frozenset[int]:
 
 
 def _within_callback(frame: FrameType | None) -> bool:
-    """Return whether rospy called the function of `frame`, directly or through other functions."""
+    """Return whether rospy called the function of `frame`, directly or indirectly."""
     while frame is not None:
         module = str(frame.f_globals.get("__name__", ""))
         if module.startswith(CALLBACK) and frame.f_code.co_name != "__init__":

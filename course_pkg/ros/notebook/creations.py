@@ -1,8 +1,8 @@
 """Record in `Cells` which objects of rospy and actionlib a cell creates, and end these objects.
 
-rospy has no list of its Publisher and Subscriber objects, but only a list of their topics. This module
-therefore replaces the methods that create these objects; the new methods also record the objects. If a method
-in this release of rospy differs from the expected method, it is not replaced.
+rospy has no list of its Publisher and Subscriber objects. This module therefore replaces the methods that
+create these objects with methods that also record the objects. A method with unexpected parameters is not
+replaced.
 """
 
 from __future__ import annotations
@@ -29,20 +29,19 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.protocol.rospy_registrations import registration_manager
 from course_pkg.ros.trace.hooks import Hook, Method
 
-GOAL_TIMEOUT = 2.0  # maximum time in s until a goal ends after it was cancelled
-# The errors that are raised if a topic is already closed, the node has been shut down, or the master does not
-# answer.
+GOAL_TIMEOUT = 2.0  # A goal has to end within this time in s after its cancellation.
+# One of these errors is raised if a topic is closed, the node is shut down, or the master does not answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
-# The address that an ended service gets. With the old address, the shutdown() of this service would
-# unregister a newer service of this process with the same name.
+# An ended service gets this address. With the old address, its shutdown() would unregister a newer service of
+# this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
-LOOK = 0.5  # time in s between two checks whether an action server has ended
+LOOK = 0.5  # This is the time in s between two checks whether an action server has ended.
 
 
 def note_creations(cells: Cells) -> None:
     """Start to record in `cells` which objects this process creates with rospy and actionlib.
 
-    A second call changes nothing.
+    A second call has no effect.
     """
     simple = ("self", "name", "ActionSpec", "execute_cb", "auto_start")
     action = ("self", "ns", "ActionSpec", "goal_cb", "cancel_cb", "auto_start")
@@ -84,7 +83,7 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """If the master does not answer, prevent rospy from unregistering, because rospy would wait for ever."""
+    """If the master does not answer, prevent rospy from unregistering, which would wait for ever."""
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:
@@ -100,7 +99,7 @@ def _unregistering_in_bounded_time() -> Iterator[None]:
 
 
 def _noting(cells: Cells, close: Callable[[Any], None]) -> Callable[[Method], Method]:
-    """Return a function that replaces an `__init__` method with a method that also records the object."""
+    """Return a decorator that makes an `__init__` method record the new object."""
 
     def replace(method: Method) -> Method:
         def __init__(self: Any, *args: Any, **kwds: Any) -> None:  # noqa: ANN401, N807 -- of rospy's classes
@@ -147,8 +146,8 @@ def _make_room(run: CellRun, before: ServiceImpl) -> bool:
     """Return whether a new service may replace the service `before`; if necessary, shut `before` down first.
 
     During a check, the service of a cell must continue. A check may create a second object of a student's
-    class, and the class may create a service in its `__init__`. The service of the first object must still
-    answer.
+    class, and the `__init__` of this class may create a service. The service of the first object must still
+    respond.
     """
     ours = _Identity(before) in run.created
     if run.temporary and not ours:
@@ -188,7 +187,7 @@ def _close_action(server: actionlib.ActionServer) -> None:
 def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
     """End an action server and cancel a running goal.
 
-    The goal may run longer if its function ignores the cancellation.
+    The goal continues if its function ignores the cancellation.
     """
     with server.terminate_mutex:
         server.need_to_terminate = True
@@ -202,7 +201,7 @@ def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
 def _end_with_process(server: actionlib.SimpleActionServer) -> None:
     """End an action server's thread when the main thread ends.
 
-    Otherwise, Python would wait for ever for this thread.
+    Without this function, Python would wait for ever for this thread.
     """
     main = threading.main_thread()
     while main.is_alive() and not server.need_to_terminate:
@@ -212,7 +211,7 @@ def _end_with_process(server: actionlib.SimpleActionServer) -> None:
 
 
 class _Identity:
-    """A dict key for an object: two keys are equal only if both contain the same object (`is`)."""
+    """A dict key that is equal to another key only if both contain the same object (`is`)."""
 
     def __init__(self, thing: object) -> None:
         self.thing = thing

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
     from IPython.core.interactiveshell import InteractiveShell
 
-METHOD = "structured_traceback"  # the method with which IPython formats an error
-DEFAULT_MODE = "Context"  # the default of %xmode; errors are shortened only in this mode
-CALLS = 2  # maximum number of calls that are shown for a SyntaxError in an imported file
-# the messages that rospy logs about an exception contain this text
+METHOD = "structured_traceback"  # IPython formats an error with this method.
+DEFAULT_MODE = "Context"  # Errors are shortened only in this default mode of %xmode.
+CALLS = 2  # For a SyntaxError in an imported file, at most this number of calls is shown.
+# rospy's log messages about an exception contain this text.
 TRACEBACK = "Traceback (most recent call last)"
 LOGGER = "rosout"
 
@@ -29,7 +29,7 @@ class ErrorDisplay:
 
     def __init__(self, shell: InteractiveShell) -> None:
         self._shell = shell
-        self._source = ""  # IPython's file name for the code of the current cell
+        self._source = ""  # This is IPython's file name for the code of the current cell.
         self._all = False
         self._full: Callable[..., list[str]] = getattr(shell.InteractiveTB, METHOD)
         self._tb: Callable[[str], None] = shell.find_line_magic("tb")
@@ -86,7 +86,7 @@ class ErrorDisplay:
         if filename == self._source:
             return "This cell"
         kind, name = self._shell.compile.format_code_name(filename) or ("", filename)
-        # in nbval, the execution count does not change, so `In[…]` does not identify a cell
+        # In nbval, the execution count does not change, so `In[…]` does not identify a cell.
         if name == f"In[{self._shell.execution_count}]":
             return "An earlier cell"
         return f"{kind} {name}".strip()
@@ -101,14 +101,14 @@ class ThreadErrors(logging.Handler):
         self._shown: set[str] = set()
 
     def install(self) -> None:
-        """Start to show these exceptions; a second call changes nothing."""
+        """Start to show these exceptions; a second call has no effect."""
         logger = logging.getLogger(LOGGER)
         if self not in logger.handlers:
             logger.addHandler(self)
         threading.excepthook = self._thread_ended
 
     def forget(self) -> None:
-        """Forget which errors were shown; each error is then shown again when it happens again."""
+        """Delete the list of the shown errors, so that each error can be shown again."""
         self._shown.clear()
 
     def emit(self, record: logging.LogRecord) -> None:
@@ -122,10 +122,7 @@ class ThreadErrors(logging.Handler):
             self._show(ended.exc_value)
 
     def _show(self, error: BaseException) -> None:
-        """Show the same error only once below each cell.
-
-        A callback may raise the same error many times per second.
-        """
+        """Show `error`, but the same error only once below each cell."""
         text = "\n".join(readable_traceback(error, self._place_of, HANDLER_HEADER))
         if text not in self._shown:
             self._shown.add(text)

@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 ROSRUN = "usage: %rosrun PACKAGE PROGRAM [ARGUMENTS]"
 ROSLAUNCH = "usage: %roslaunch PACKAGE FILE [NAME:=VALUE ...], or %roslaunch PATH [NAME:=VALUE ...]"
 SUFFIX = ".launch"
-CORE = "--core"  # starts a master without a launch file, as roscore does
+CORE = "--core"  # With this option, roslaunch starts only a master, as roscore does.
 
 Keep = Callable[[NodeProcess], None]
 
 
 class Program:
-    """A program that runs in the background. It ends when its cell runs again, or when the kernel ends."""
+    """A program that runs in the background until its cell runs again, or until the kernel ends."""
 
     def __init__(self, words: str, process: NodeProcess) -> None:
         self._words = words
@@ -50,7 +50,7 @@ class Program:
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
         """Wait until the output contains `line`, if given, and the program serves `service`, if given.
 
-        Without both arguments, wait until the program ends.
+        Without `line` and `service`, wait until the program ends.
 
         Returns the exit status, or None while the program is running. Raises NodeFailed after `timeout` s, or
         if the program ends without the line or the service; the message contains the last output.
@@ -64,7 +64,7 @@ class Program:
         return self.status
 
     def stop(self) -> None:
-        """End the program with SIGINT (Ctrl-C), or with SIGKILL if needed; a second stop changes nothing."""
+        """End the program with SIGINT (Ctrl-C), or with SIGKILL if needed; a second call has no effect."""
         self._process.stop()
 
     def __repr__(self) -> str:
@@ -106,7 +106,7 @@ class ProgramMagics:
 def _words(line: str) -> list[str]:
     """Return the words of a command, without a final `&`.
 
-    A magic always starts its program in the background, so a `&` is not necessary.
+    Magics always start programs in the background.
     """
     words = shlex.split(line)
     return words[:-1] if words[-1:] == ["&"] else words

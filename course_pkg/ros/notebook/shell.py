@@ -28,7 +28,7 @@ class NotebookShell:
         self.errors = ErrorDisplay(shell)
         shell.events.register("pre_run_cell", self._begin)
         shell.events.register("post_run_cell", self._end)
-        # the cell that calls join() is already running, so its start is reported now
+        # The cell that calls join() is already running, so its start is reported here.
         if request := _execute_request(shell):
             self._begin_run(request["metadata"].get("cellId"), request["content"]["code"])
 

@@ -1,7 +1,4 @@
-"""Show a traceback in at most 12 lines.
-
-The lines show the message and the student's own code, without frames of libraries.
-"""
+"""Show a traceback in at most 12 lines: the message and the student's own code, without libraries."""
 
 from __future__ import annotations
 
@@ -15,17 +12,17 @@ from types import TracebackType
 
 import course_pkg
 
-LINES = 12  # maximum number of lines of a traceback
-WIDTH = 100  # maximum number of characters in a line; front ends wrap longer lines
-MESSAGE_LINES = 6  # maximum number of lines of a message; this leaves space for two calls
+LINES = 12  # A traceback has at most this number of lines.
+WIDTH = 100  # A front end breaks lines with more characters.
+MESSAGE_LINES = 6  # A message has at most this number of lines, so at least two calls can be shown.
 MORE = " … (%tb shows the rest)"
-# names of folders that contain installed libraries, including those of ROS
+# Folders with these names contain installed libraries, including the libraries of ROS.
 INSTALLED = ("site-packages", "dist-packages")
 HEADER = "Traceback (most recent call last; %tb shows all of it):"
 HANDLER_HEADER = "Traceback of a handler or callback (most recent call last):"
 MAGIC = re.compile(r"get_ipython\(\)\.run_line_magic\('(\w+)', '(.*)'\)")
 
-PlaceOf = Callable[[str], str]  # returns the name that a message shows for a file
+PlaceOf = Callable[[str], str]  # The function returns the name that a message shows for a file.
 
 
 def readable_traceback(error: BaseException, place_of: PlaceOf = str, header: str = HEADER) -> list[str]:
@@ -40,12 +37,12 @@ def readable_traceback(error: BaseException, place_of: PlaceOf = str, header: st
 
 
 def students_frames(trace: TracebackType | None) -> Iterator[traceback.FrameSummary]:
-    """Yield the frames in the student's code, the outermost first."""
+    """Yield the frames in the student's code, the outermost frame first."""
     return (frame for frame in traceback.extract_tb(trace) if is_students(frame.filename))
 
 
 def is_students(filename: str) -> bool:
-    """Return whether a file contains the student's code, not the code of a library or of the course."""
+    """Return whether a file contains the student's code."""
     if filename.startswith("<frozen"):
         return False
     path = Path(filename)
@@ -67,7 +64,7 @@ def _call(frame: traceback.FrameSummary, place_of: PlaceOf) -> list[str]:
 
 
 def _shortened(calls: list[list[str]], room: int) -> list[str]:
-    """Return the lines of all calls, or only of the first and last calls if `room` lines are not enough."""
+    """Return the lines of all calls, or only the first and last calls if they need more than `room` lines."""
     if sum(map(len, calls)) <= room:
         return [line for call in calls for line in call]
     last = max((room - 3) // 2, 1)

@@ -1,1 +1,1 @@
-"""Start, supervise and end processes; after the end, no process and no temporary file remains."""
+"""Start, supervise and end processes, and delete their temporary files."""

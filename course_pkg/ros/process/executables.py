@@ -1,7 +1,4 @@
-"""Find the path of a node's program by the rules of rosrun.
-
-This module does not run rosrun, because rosrun takes 0.1 s.
-"""
+"""Find the path of a node's program with the same rules as rosrun, but faster (rosrun takes 0.1 s)."""
 
 from __future__ import annotations
 
@@ -18,7 +15,7 @@ from course_pkg.errors import UnknownExecutable
 def find_executable(package: str, name: str) -> Path:
     """Return the path of a package's program.
 
-    Raises UnknownExecutable if there is no such program; its message suggests other programs.
+    Raises UnknownExecutable if the package has no such program; the error message suggests other programs.
     """
     found: dict[str, Path] = {}
     for path in _programs(package):
@@ -42,7 +39,7 @@ def package_folder(package: str) -> Path:
 def _programs(package: str) -> Iterator[Path]:
     """Yield the executable files of a package.
 
-    First come the built or installed files, then the files in its source folder.
+    The files that were built or installed are before the files in the source folder.
     """
     for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep):
         yield from _executables(Path(prefix) / "lib" / package)

@@ -17,16 +17,18 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.waiting import at_this_load, wait_until
 
-READY = 15.0  # maximum time in s until the master answers; usually 0.15 s, but much longer on a busy machine
+# Wait up to this time in s for a new master. A master usually answers after 0.15 s, but much later on a busy
+# machine.
+READY = 15.0
 ATTEMPTS = 5
-ENDED = -1  # used in place of the master's process id if its process has ended
-OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # if they are set, ROS binds to addresses other than 127.0.0.1
+ENDED = -1  # This value is used instead of the master's process id if the process has ended.
+OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # With these variables, ROS binds to other addresses than 127.0.0.1.
 
 
 class PrivateMaster:
     """A master on 127.0.0.1 that ends with this process, even if this process is killed.
 
-    Without `port`, the master uses a free port. start() raises PortBusy if the given port is in use.
+    Without `port`, the master uses a free port.
     """
 
     def __init__(self, port: int | None = None) -> None:
@@ -65,7 +67,7 @@ class PrivateMaster:
         """Start the master, wait until it answers, and return this object.
 
         Raises PortBusy if the given port is in use, SetupError if rosmaster is missing, and GraphError if the
-        master does not answer. If another program takes the chosen free port first, start() tries other
+        master does not answer. If another program uses the selected free port first, start() tries other
         ports.
         """
         for _ in range(1 if self._port_wanted else ATTEMPTS):
@@ -77,7 +79,7 @@ class PrivateMaster:
         raise GraphError(f"Other programs took {ATTEMPTS} ports before the master could. Try again.")
 
     def stop(self) -> None:
-        """End the master and remove its log files; a second stop changes nothing."""
+        """End the master and delete its log files; a second call has no effect."""
         process, self._process = self._process, None
         if process is not None:
             process.end(grace=1.0)
@@ -99,9 +101,9 @@ class PrivateMaster:
         return ready
 
     def _wait(self, process: SupervisedProcess) -> bool:
-        """Wait until a master answers on the port, or until `process` has ended.
+        """Wait for a master on the port, or for the end of `process`.
 
-        Return whether `process` is the master that answered.
+        The result is true if `process` is the master on the port.
         """
         client = MasterClient(self.uri, timeout=1.0)
         limit = at_this_load(READY)
@@ -112,12 +114,11 @@ class PrivateMaster:
 
 
 def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> None:
-    """Return as soon as the master at ROS_MASTER_URI answers. Ctrl-C interrupts this wait.
+    """Return as soon as the master at ROS_MASTER_URI answers.
 
-    Ctrl-C does not interrupt the wait in init_node().
-
-    This function polls the master every `interval` s, and calls `warn` once if no master answers. This
-    function raises MalformedMasterUri and NotAMaster at once, because waiting would not correct these errors.
+    Ctrl-C interrupts this function, but it does not interrupt the wait in init_node(). The function polls the
+    master every `interval` s, and calls `warn` once if no master answers. The function raises
+    MalformedMasterUri and NotAMaster at once.
     """
     client, warned = MasterClient(master_uri()), False
     while True:
@@ -158,7 +159,7 @@ def _busy(port: int | None) -> PortBusy:
 
 
 def _log_folder() -> tuple[Path, bool]:
-    """Return the folder of the master's log, and whether stop() has to remove this folder."""
+    """Return the folder of the master's log, and whether stop() has to delete this folder."""
     if given := os.environ.get("ROS_LOG_DIR"):
         return Path(given), False
     return Path(tempfile.mkdtemp(prefix="course-master-")), True

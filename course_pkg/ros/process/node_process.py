@@ -19,16 +19,17 @@ from course_pkg.ros.protocol.registrations import registered_at, withdraw
 from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
-TAIL = 2000  # maximum number of characters of the output in an error message
-# time in s between two polls; each poll takes some milliseconds in this process and in the master
+TAIL = 2000  # An error message contains at most this many characters of the output.
+# wait_for_service() and wait_for_output() poll once in this time (s). Each poll takes some milliseconds in
+# this process and in the master.
 INTERVAL = 0.05
-GRACE = 3.0  # maximum time in s until a node ends after SIGINT; a node with rospy takes 0.6 s
+GRACE = 3.0  # A node has to end within this time in s after SIGINT; a node with rospy takes 0.6 s.
 
 
 class NodeProcess:
-    """A command that runs one or more nodes; it ends when this process ends, or earlier.
+    """A command that runs one or more nodes; the command ends when this process ends, or earlier.
 
-    Its output goes to a temporary file, which is deleted with this object; output() returns the text.
+    A temporary file stores the output. The file is deleted together with this object.
     """
 
     def __init__(self, command: Sequence[str], *, label: str = "") -> None:
@@ -51,13 +52,13 @@ class NodeProcess:
     def roslaunch(cls, package: str, file: str, *args: str) -> NodeProcess:
         """Run a launch file with `args` such as name:=value.
 
-        All its nodes end when the roslaunch process ends.
+        When roslaunch ends, all its nodes end.
         """
         return cls(["roslaunch", package, file, *args], label=f"{package}/{file}")
 
     @property
     def returncode(self) -> int | None:
-        """The exit status (negative if a signal ended the process), or None while the process is running."""
+        """The exit status (negative after a signal), or None while the process is running."""
         return self._process.returncode
 
     @property
@@ -70,15 +71,15 @@ class NodeProcess:
         return self._process.listening_ports()
 
     def output(self) -> str:
-        """Return all output of the process so far, from both stdout and stderr."""
+        """Return all output of the process so far (stdout and stderr)."""
         file = self._output.fileno()
         return os.pread(file, os.fstat(file).st_size, 0).decode("utf-8", "replace")
 
     def wait_for_service(self, name: str, timeout: float = 30.0) -> None:
-        """Return as soon as this process serves `name` and accepts connections to this service.
+        """Return as soon as this process offers the service `name` and accepts connections.
 
-        Raises NodeFailed if the process ends first, or after `timeout` s; the message contains
-        the last output.
+        Raises NodeFailed if the process ends first, or after `timeout` s; the message contains the last
+        output.
         """
         full, master = "/" + name.lstrip("/"), MasterClient(master_uri())
         self._wait_until(
@@ -111,22 +112,19 @@ class NodeProcess:
     def stop(self, grace: float = GRACE, *, unregister: bool = True) -> None:
         """End the process with SIGINT, or with SIGKILL after `grace` s.
 
-        Remove its registrations from the master.
+        The registrations of its nodes are removed from the master.
         """
         if not self.running:
             return
         ports = self._process.listening_ports() if unregister else frozenset()
         self._process.end(grace)
-        # A node that was killed, or that ended during its registration, could not unregister itself.
+        # A killed node, or a node that ended during its registration, could not unregister itself.
         if registered := registered_at(ports):
             with suppress(GraphError):
                 withdraw(MasterClient(master_uri()), registered)
 
     def kill(self) -> None:
-        """End the process with SIGKILL.
-
-        The process cannot unregister, so its registrations remain at the master.
-        """
+        """End the process with SIGKILL; its registrations remain at the master."""
         self._process.signal(signal.SIGKILL)
         self._process.wait(GRACE)
 
@@ -142,7 +140,7 @@ class NodeProcess:
         return f"<{self.label}, {'running' if self.running else 'ended'}>"
 
     def _serves(self, master: MasterClient, name: str) -> bool:
-        """Return whether this process serves `name`; another process may still be registered for the name."""
+        """Return whether this process offers `name`; the master may still list another process."""
         uri = master.lookup_service(name)
         if uri is None or port_of(uri) not in self._process.listening_ports():
             return False
@@ -152,7 +150,7 @@ class NodeProcess:
 
     def _wait_until(self, condition: Callable[[], bool], timeout: float, never: str, not_yet: str) -> None:
         def settled() -> str:
-            # Read this before the output: a process may print the expected output just before it ends.
+            # The order is important: a process may print the expected output just before it ends.
             ended = not self.running
             return "met" if condition() else "ended" if ended else ""
 

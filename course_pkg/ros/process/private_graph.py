@@ -13,12 +13,12 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
-READY = 15.0  # maximum time in s until a node is on the graph
-INTERVAL = 0.02  # s between polls
+READY = 15.0  # Wait up to this time in s until a node is on the graph.
+INTERVAL = 0.02  # This is the time in s between two polls.
 
 
 class PrivateGraph:
-    """A private master and the programs of this graph; no other node uses this master.
+    """A private master and the programs of this graph.
 
     The master and the programs end when close() is called, at the end of a `with` block, or when this object
     is deleted.
@@ -52,7 +52,7 @@ class PrivateGraph:
 
     def start(self, *command: str) -> NodeProcess:
         """Start a command on this graph, such as ("rostopic", "echo", "/pulse"), and return at once."""
-        # `env` executes the command in the same process, so the process id does not change.
+        # `env` replaces itself with the command, so the process id does not change.
         line = ["env", f"ROS_MASTER_URI={self.uri}", "ROS_HOSTNAME=localhost", *map(str, command)]
         self._processes.append(NodeProcess(line, label=command[0].rpartition("/")[2]))
         return self._processes[-1]
@@ -62,7 +62,7 @@ class PrivateGraph:
         self._master.stop()
 
     def close(self) -> None:
-        """End all programs and the master; a second close changes nothing."""
+        """End all programs and the master; a second call has no effect."""
         self._end()
 
     def __enter__(self) -> PrivateGraph:
@@ -92,7 +92,7 @@ class PrivateGraph:
 def _end(master: PrivateMaster, processes: list[NodeProcess]) -> None:
     """End all programs at the same time, and then the master.
 
-    The programs' registrations end with the master.
+    No registrations remain, because the master ends too.
     """
     for process in processes:
         process.interrupt()

@@ -14,18 +14,19 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import at_this_load, wait_until
 
-ROSOUT = "/rosout"  # the name of the node, and also of its topic
-# maximum time in s until /rosout is registered; usually 0.05 s, but much longer on a busy machine
+ROSOUT = "/rosout"  # The node and its topic both have this name.
+# Wait up to this time in s for /rosout. The registration usually takes 0.05 s, but much longer on a busy
+# machine.
 READY = 15.0
-INTERVAL = 0.005  # s between polls
+INTERVAL = 0.005  # This is the time in s between two polls.
 VERSION = re.compile(r"<version[^>]*>\s*([^<\s]+)")
 
 
 class Roscore(PrivateMaster):
     """A private master with the same node and parameters as `roscore`, for a graph that a student inspects.
 
-    It also runs the node /rosout and sets the parameters /rosdistro, /rosversion and /run_id. If no student
-    inspects the graph, use a PrivateMaster: it starts faster and is only one process.
+    A Roscore also runs the node /rosout and sets the parameters /rosdistro, /rosversion and /run_id. A
+    PrivateMaster is only one process and starts faster.
     """
 
     def __init__(self, port: int | None = None) -> None:
@@ -47,10 +48,10 @@ class Roscore(PrivateMaster):
         return self
 
     def stop(self) -> None:
-        """End /rosout and the master; a second stop changes nothing."""
+        """End /rosout and the master; a second call has no effect."""
         rosout, self._rosout = self._rosout, None
         if rosout is not None:
-            rosout.end(grace=0)  # the node need not unregister, because its registrations end with the master
+            rosout.end(grace=0)  # The master ends next, so the node need not unregister.
         super().stop()
 
     def _start_rosout(self) -> None:
@@ -79,8 +80,8 @@ class Roscore(PrivateMaster):
 def find_or_start_master() -> Roscore | MasterClient:
     """Return the master at ROS_MASTER_URI if the variable is set, or start a private master and return it.
 
-    The private master's address is stored in ROS_MASTER_URI, for rospy and for new child processes. Raises
-    a GraphError if the master at ROS_MASTER_URI does not answer.
+    The private master's address is written to ROS_MASTER_URI, for rospy and for new child processes. Raises a
+    GraphError if the master at ROS_MASTER_URI does not answer.
     """
     if given := os.environ.get("ROS_MASTER_URI"):
         client = MasterClient(given)
@@ -99,7 +100,7 @@ def _prefix() -> Path:
 
 
 def _parameters(prefix: Path) -> dict[str, str]:
-    """Return the parameters that roscore sets; the first two are the output of `rosversion`."""
+    """Return the parameters that roscore sets."""
     package = prefix / "share" / "roslaunch" / "package.xml"
     version = VERSION.search(package.read_text("utf-8")) if package.is_file() else None
     return {
@@ -110,8 +111,5 @@ def _parameters(prefix: Path) -> dict[str, str]:
 
 
 def _receives(client: MasterClient) -> bool:
-    """Return whether /rosout subscribes to the log messages.
-
-    This subscription is the last step in the start of /rosout.
-    """
+    """Return whether /rosout subscribes to the log messages, which is the last step of its start."""
     return ROSOUT in client.system_state().subscribers.get(ROSOUT, ())

@@ -1,8 +1,7 @@
 """Start a command that ends, with all its descendants, when its owner process ends.
 
-The command is a child of `supervisor.py`, a small process that watches the owner. When the owner has ended,
-the supervisor ends the command, cleans up, and then ends. This also works if the owner was killed with
-SIGKILL.
+The command is a child of `supervisor.py`, a small process that observes the owner. When the owner has ended,
+even after SIGKILL, the supervisor ends the command and cleans up.
 """
 
 from __future__ import annotations
@@ -29,9 +28,9 @@ class SupervisedProcess:
     `remove`, and unregisters the node `withdraw` (the master's URI, the node's name, the node's URI). If
     `command` is empty, the supervisor does nothing except this clean-up after this process has ended.
 
-    If `foreground` is true, the command uses the standard input and the terminal of this process: it receives
-    Ctrl-C, and if `output` is None, it prints to the terminal. Raises GraphError if the command cannot be
-    started.
+    If `foreground` is true, the command uses the standard input and the terminal of this process, and it
+    receives Ctrl-C. If `output` is None, the command also prints to the terminal. Raises GraphError if the
+    command cannot be started.
     """
 
     def __init__(
@@ -59,7 +58,7 @@ class SupervisedProcess:
                 env=env,
                 cwd=cwd,
                 pass_fds=[writer, *inherit],
-                # otherwise, an interrupt of the kernel would also interrupt the command
+                # Without a new session, an interrupt of the kernel would also interrupt the command.
                 start_new_session=not foreground,
             )
         finally:
@@ -76,7 +75,7 @@ class SupervisedProcess:
         return 128 - status if status is not None and status > 128 else status
 
     def signal(self, number: int) -> None:
-        """Send a signal to the command; if the command has already ended, nothing happens."""
+        """Send a signal to the command, if it is still running."""
         if self.returncode is None:
             with suppress(ProcessLookupError):
                 os.kill(self.pid, number)
@@ -96,7 +95,7 @@ class SupervisedProcess:
     def end(self, grace: float = 2.0) -> None:
         """End the command and all its descendants with SIGINT, and kill them after `grace` s.
 
-        In a forked child, this method does nothing, because the command belongs to the parent.
+        In a forked child, this method does nothing.
         """
         if os.getpid() != self._owner:
             return
@@ -110,10 +109,10 @@ class SupervisedProcess:
 
 def listening_ports(pid: int) -> frozenset[int]:
     """Return the TCP ports on which this process and its descendants listen."""
-    import psutil  # imported here because the import takes 15 ms, and most programs never need it
+    import psutil  # This import takes 15 ms, and most programs do not need it.
 
     ports: set[int] = set()
-    with suppress(psutil.Error):  # the process may have ended in the meantime
+    with suppress(psutil.Error):  # The process may have ended.
         process = psutil.Process(pid)
         for each in [process, *process.children(recursive=True)]:
             with suppress(psutil.Error):
@@ -126,14 +125,13 @@ def _program(
     report: int, remove: Path | None, withdraw: tuple[str, str, str] | None, foreground: bool
 ) -> list[str]:
     cleaning = [str(remove or ""), *(withdraw or ("", "", ""))]
-    # With -I and -S, the supervisor starts in 20 ms, and modules on the student's import path cannot break
-    # it.
+    # With -I and -S, the supervisor starts in 20 ms and ignores modules on the student's import path.
     start = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), str(report)]
     return [*start, "foreground" if foreground else "", *cleaning]
 
 
 def _started(reader: int, command: Sequence[str], process: subprocess.Popen[bytes]) -> int:
-    """Return the command's process id, which the supervisor reports as soon as the command is running."""
+    """Return the command's process id as soon as the command is running."""
     with os.fdopen(reader) as report:
         answer = report.read()
     if not command:

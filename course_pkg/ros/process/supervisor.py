@@ -1,8 +1,9 @@
-"""The process between an owner and a command: it ends the command after the owner has ended.
+"""A process between an owner and a command: it ends the command after the owner has ended.
 
-`supervised.py` runs this file as a script, in an interpreter without site-packages. The script starts in
-20 ms because it imports the course and its libraries only for the clean-up. It reads /proc itself, because
-the import of psutil takes longer than the whole start of this script.
+`supervised.py` runs this file as a script, in an interpreter without site-packages. The script starts in 20
+ms, because it imports the course and its libraries only at its end, to clean up. To read /proc, the script
+does not use psutil, because the import of psutil is slow.
+
 usage: supervisor.py OWNER REPORT FOREGROUND REMOVE MASTER NODE URI [COMMAND …]
 """
 
@@ -16,15 +17,16 @@ import sys
 import time
 from contextlib import suppress
 
-PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # linux/prctl.h
-# a terminal sends these signals to a process group
+PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # These values are from linux/prctl.h.
+# A terminal sends these signals to a process group.
 FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)
 FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-# This program or Python itself changes the handlers of these signals; a command expects the default handlers.
+# Python or this program changes the handlers of these signals; a command expects the default handlers.
 CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
-GRACE = 2.0  # time in s between SIGTERM and SIGKILL when the descendants are ended
+GRACE = 2.0  # The supervisor waits this time in s between SIGTERM and SIGKILL.
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-INTERVAL = 200  # time in ms between two polls of the parent's process id, on a system without pidfd
+# On a system without pidfd, the supervisor polls its parent's process id once in this time (ms).
+INTERVAL = 200
 
 
 class Supervisor:
@@ -47,9 +49,9 @@ class Supervisor:
         for number in (signal.SIGCHLD, *FORWARDED, signal.SIGUSR1):
             signal.signal(number, self._handle)
         for number in FROM_TERMINAL if foreground else ():
-            # the command receives this signal directly from the terminal
+            # The terminal sends this signal to the command directly.
             signal.signal(number, signal.SIG_IGN)
-        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # the owner may have blocked some signals
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # The owner may have blocked some signals.
         os.set_inheritable(report, False)
         self.child = self._start(command, report) if command else None
         os.close(report)
@@ -65,11 +67,11 @@ class Supervisor:
         return self.status or 0
 
     def owner_lives(self) -> bool:
-        """Return whether the owner, which is the parent of this process, is still running."""
+        """Return whether the owner (the parent of this process) is still running."""
         return os.getppid() == self.owner
 
     def _start(self, command: list[str], report: int) -> int:
-        failed, fail = os.pipe()  # the system closes `fail` as soon as the command is running
+        failed, fail = os.pipe()  # The system closes `fail` as soon as the command is running.
         child = os.fork()
         if child == 0:
             _become(command, fail)
@@ -103,10 +105,10 @@ class Supervisor:
                 self.status = status
 
     def _end_descendants(self) -> frozenset[int]:
-        """End all descendants with SIGTERM, and kill them with SIGKILL if they do not end in time.
+        """End all descendants with SIGTERM, or with SIGKILL after GRACE s.
 
-        Orphaned descendants become children of this process. Return the listening ports of the killed
-        processes.
+        Orphaned descendants become children of this process. The returned set contains the listening ports of
+        the killed processes.
         """
         ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.urgent else GRACE)
@@ -132,7 +134,7 @@ def _pidfd(pid: int) -> int | None:
 
 
 def _prctl(option: int, value: int) -> None:
-    """Set an option of this process on Linux; on other systems, this program can only poll its parent."""
+    """Set an option of this process on Linux; on other systems, do nothing."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
 
@@ -167,7 +169,7 @@ def descendants(root: int) -> list[int]:
         if entry.isdigit():
             try:
                 with open(f"/proc/{entry}/stat", "rb") as stat:
-                    # the name of the process may contain brackets
+                    # The name of the process may contain brackets.
                     parent = int(stat.read().rpartition(b")")[2].split()[1])
             except OSError:
                 continue
@@ -183,7 +185,7 @@ def descendants(root: int) -> list[int]:
 def _import_libraries() -> None:
     """Add the folders of the course and of its libraries to the import path.
 
-    The interpreter's options -I and -S leave these folders out.
+    The interpreter's options -I and -S remove these folders.
     """
     import site
 
@@ -192,7 +194,7 @@ def _import_libraries() -> None:
 
 
 def _listening_ports() -> frozenset[int]:
-    with suppress(ImportError):  # the course's folder may have been deleted
+    with suppress(ImportError):  # The course's folder may have been deleted.
         _import_libraries()
         from course_pkg.ros.process.supervised import listening_ports
 
@@ -214,7 +216,7 @@ def _withdraw_registered(ports: frozenset[int]) -> None:
 def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
     """Unregister the owner's node, and delete the folder.
 
-    An empty string means that there is no master, or no folder.
+    If `master_uri` is empty, nothing is unregistered; if `folder` is empty, nothing is deleted.
     """
     if master_uri:
         with suppress(ImportError):
@@ -223,7 +225,7 @@ def _clean_up(folder: str, master_uri: str, node: str, node_uri: str) -> None:
             from course_pkg.ros.protocol.master_api import MasterClient
             from course_pkg.ros.protocol.registrations import withdraw_node
 
-            with suppress(GraphError):  # the master may also have ended
+            with suppress(GraphError):  # The master may have ended too.
                 withdraw_node(MasterClient(master_uri), node, node_uri)
     if folder:
         import shutil

@@ -14,12 +14,12 @@ from course_pkg.errors import ChannelBroken, ChannelClosed, ChannelTimeout
 from course_pkg.waiting import Deadline
 
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
-LIMIT = 1 << 26  # default maximum length of a line, in bytes
-CHUNK = 65536  # maximum number of bytes that are read or written at once
+LIMIT = 1 << 26  # This is the default limit for the length of a line in bytes.
+CHUNK = 65536  # One read or write handles at most this number of bytes.
 
 
 class JsonChannel:
-    """One of the two ends of a connection that carries JSON objects.
+    """A connection on which two processes exchange JSON objects.
 
     One thread may send while another thread receives.
     """
@@ -28,7 +28,7 @@ class JsonChannel:
         self._socket = sock
         self._limit = limit
         self._received = bytearray()
-        # number of bytes at the start of _received that were searched and contain no end of line
+        # This number of bytes at the start of _received contain no newline character.
         self._searched = 0
         self._sending = threading.Lock()
 
@@ -37,11 +37,11 @@ class JsonChannel:
         return self._socket.fileno()
 
     def send(self, message: Mapping[str, object], timeout: float | None = None) -> None:
-        """Send one object; if the send buffer is full, wait up to `timeout` s until the other end reads data.
+        """Send one object; if the send buffer is full, wait up to `timeout` s until the receiver reads data.
 
-        Raises ChannelBroken if the message is too long, ChannelClosed if the other end is closed, and
-        ChannelTimeout after `timeout` s. After a timeout, close the channel, because a part of the line may
-        have been sent.
+        Raises ChannelBroken if the message is too long, ChannelClosed if the receiver has closed the channel,
+        and ChannelTimeout after `timeout` s. After a timeout, close the channel, because only the beginning
+        of the message may have been sent.
         """
         line = memoryview(json.dumps(message).encode() + b"\n")
         if len(line) > self._limit:
@@ -51,7 +51,7 @@ class JsonChannel:
             while line:
                 try:
                     sent = self._socket.send(line[:CHUNK], socket.MSG_DONTWAIT)
-                # poll() is called only after send() has failed, because poll() waits until most of a socket's
+                # poll() is called only after a failed send(), because poll() waits until most of the send
                 # buffer is free.
                 except BlockingIOError:
                     self._wait_for(select.POLLOUT, deadline)
@@ -63,8 +63,8 @@ class JsonChannel:
     def receive(self, timeout: float | None = None) -> dict[str, Json]:
         """Wait up to `timeout` s for a whole line, and return the JSON object in it.
 
-        Raises ChannelTimeout after `timeout` s, ChannelClosed if the other end is closed, and ChannelBroken
-        if the line is too long or is not a JSON object.
+        Raises ChannelTimeout after `timeout` s, ChannelClosed if the sender has closed the channel, and
+        ChannelBroken if the line is too long or is not a JSON object.
         """
         deadline = Deadline(timeout)
         while (end := self._received.find(b"\n", self._searched)) < 0:
@@ -79,8 +79,8 @@ class JsonChannel:
         return _parsed(line)
 
     def close(self) -> None:
-        """Close this end; receive() at the other end, and in other threads, then raises ChannelClosed."""
-        with suppress(OSError):  # the other end may already have closed the connection
+        """Close the connection; all receive() calls, also in the other process, then raise ChannelClosed."""
+        with suppress(OSError):  # The other process may have closed the connection.
             self._socket.shutdown(socket.SHUT_RDWR)
         self._socket.close()
 

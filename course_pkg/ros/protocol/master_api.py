@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from course_pkg.errors import GraphError, MasterSilent, MasterUnreachable, NotAMaster
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, XmlRpcClient, items
 
-Addresses = dict[str, str]  # the address of each node or service, by name
-REMAP = "__master:="  # http://wiki.ros.org/Remapping%20Arguments
-Registered = Mapping[str, tuple[str, ...]]  # a topic or service -> its publishers, subscribers or servers
+Addresses = dict[str, str]  # The dict maps the name of each node or service to its address.
+REMAP = "__master:="  # Source: http://wiki.ros.org/Remapping%20Arguments
+# The mapping contains the publishers, subscribers or servers of each topic or service.
+Registered = Mapping[str, tuple[str, ...]]
 
 
 def master_uri() -> str:
@@ -23,7 +24,7 @@ def master_uri() -> str:
 
 @dataclass(frozen=True)
 class SystemState:
-    """The master's lists: for each topic its publishers and subscribers, for each service its servers."""
+    """The master's lists of the publishers and subscribers of each topic, and of each service's servers."""
 
     publishers: Registered
     subscribers: Registered
@@ -37,7 +38,7 @@ class SystemState:
 
 
 class MasterClient(XmlRpcClient):
-    """Calls the master at `uri`; each call takes at most `timeout` s. Several threads may share one client.
+    """Calls the master at `uri`; each call takes at most `timeout` s. Several threads may use one client.
 
     Every method may raise MasterUnreachable, MasterSilent and NotAMaster, and GraphError if the master
     refuses the call. The constructor raises MalformedMasterUri if `uri` is invalid.
@@ -48,7 +49,7 @@ class MasterClient(XmlRpcClient):
         self.caller = caller
 
     def ask(self, method: str, *args: RpcValue, timeout: float | None = None) -> RpcValue:
-        """Call a method of the master and return its answer; the time limit is `timeout` s."""
+        """Call a method of the master and return its response value; the time limit is `timeout` s."""
         try:
             return super().ask(method, *args, timeout=timeout)
         except TimeoutError as error:
@@ -69,11 +70,11 @@ class MasterClient(XmlRpcClient):
             ) from error
 
     def pid(self, timeout: float | None = None) -> int:
-        """Return the master's process id; this is the fastest check that the master answers."""
+        """Return the master's process id; no other request to the master is faster."""
         return int(str(self._value("getPid", timeout=timeout)))
 
     def lookup_service(self, name: str, timeout: float | None = None) -> str | None:
-        """Return the rosrpc:// address of the service with this full name, or None if no node serves it."""
+        """Return the rosrpc:// address of the service with this full name, or None if no node offers it."""
         return self._found("lookupService", name, timeout=timeout)
 
     def lookup_node(self, name: str, timeout: float | None = None) -> str | None:

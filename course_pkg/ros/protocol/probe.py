@@ -18,7 +18,7 @@ from rosgraph.network import (
 
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, RpcValue, decode, encode, items, port_of
 
-END = b"</methodResponse>"  # the end of an XML-RPC answer
+END = b"</methodResponse>"  # An XML-RPC response ends with these bytes.
 HTTP_HEAD = "POST /RPC2 HTTP/1.0\r\nContent-Type: text/xml\r\nContent-Length: {}\r\n\r\n"
 
 
@@ -26,14 +26,15 @@ class Reach(Enum):
     """The result of a probe."""
 
     ANSWERED = "answered"
-    REFUSED = "refused"  # no process listens at the address, so the node has ended
-    SILENT = "silent"  # a process listens but does not answer: it is suspended, or busy
-    LOST = "lost"  # the host cannot be reached, or the connection was closed before the answer was complete
+    REFUSED = "refused"  # No process listens at the address, so the node has ended.
+    SILENT = "silent"  # A process listens but does not respond, because it is suspended or busy.
+    # The host cannot be reached, or the connection was closed before the response was complete.
+    LOST = "lost"
 
 
 @dataclass
 class Probe:
-    """One request to one address; `complete` returns whether the received bytes are the whole answer."""
+    """One request to one address; `complete` returns whether the received bytes are a complete response."""
 
     address: tuple[str, int]
     request: bytes
@@ -43,7 +44,7 @@ class Probe:
 
     @property
     def answered(self) -> bool:
-        """Whether a whole answer was received."""
+        """Whether a complete response was received."""
         return self.reach is Reach.ANSWERED
 
 
@@ -82,7 +83,7 @@ def rpc_probe(uri: str, method: str, *args: RpcValue) -> Probe:
 
 
 def rpc_answer(probe: Probe) -> RpcValue:
-    """Return the value in a node's answer, or None without an answer or if the node has no such method."""
+    """Return the value of a node's response, or None without a response or if the node has no such method."""
     if not probe.answered:
         return None
     try:
@@ -93,16 +94,13 @@ def rpc_answer(probe: Probe) -> RpcValue:
 
 
 def encode_header(fields: dict[str, str]) -> bytes:
-    """Return a connection header, preceded by its length (http://wiki.ros.org/ROS/Connection Header)."""
+    """Return a connection header, with its length before it (http://wiki.ros.org/ROS/Connection Header)."""
     header: bytes = encode_ros_handshake_header(fields)
     return header
 
 
 def header_fields(answer: bytes) -> dict[str, str]:
-    """Return the fields of the connection header at the start of `answer`.
-
-    Without a header, return an empty dict.
-    """
+    """Return the fields of the connection header at the start of `answer`, or {} without a header."""
     try:
         fields: dict[str, str] = decode_ros_handshake_header(answer)
     except (ROSHandshakeException, struct.error, UnicodeDecodeError):

@@ -1,8 +1,8 @@
 """List the registrations at the master, and remove the registrations of nodes that have ended.
 
-This clean-up is similar to `rosnode cleanup`, but it has a time limit and does not ask for confirmation. It
-removes only the registrations of nodes that have ended: their addresses refuse connections. A suspended node
-(SIGSTOP) still accepts connections, so it keeps its registrations.
+Unlike `rosnode cleanup`, this module has a time limit and does not ask for confirmation. This module removes
+a registration only if the registered address refuses connections. A suspended node (SIGSTOP) still accepts
+connections, so its registrations are not removed.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from course_pkg.errors import GraphError
 from course_pkg.ros.protocol.master_api import MasterClient, SystemState, master_uri
 from course_pkg.ros.protocol.xmlrpc import port_of
 
-TIMEOUT = 0.5  # maximum time in s until all nodes have answered
+TIMEOUT = 0.5  # Wait up to this time in s for the responses of all nodes.
 METHODS = {
     "publisher": "unregisterPublisher",
     "subscriber": "unregisterSubscriber",
@@ -25,10 +25,7 @@ METHODS = {
 
 @dataclass(frozen=True, order=True)
 class Registration:
-    """One registration.
-
-    `kind` is "publisher", "subscriber" or "service", and `uri` is the registered address.
-    """
+    """One registration: `kind` is "publisher", "subscriber" or "service"; `uri` is the registered address."""
 
     node: str
     kind: str
@@ -56,8 +53,7 @@ def registrations(master: MasterClient, nodes: Collection[str] | None = None) ->
 def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Registration]:
     """Unregister these entries with one request, and return the entries that were registered.
 
-    The master removes an entry only if its address matches, so an entry that now belongs to another process
-    is kept.
+    The master removes an entry only if its address matches, so entries of other processes are not removed.
     """
     listed = list(entries)
     answers = master.multicall([(METHODS[each.kind], each.node, each.name, each.uri) for each in listed])
@@ -65,7 +61,7 @@ def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Regi
 
 
 def withdraw_node(master: MasterClient, node: str, node_uri: str) -> list[Registration]:
-    """Unregister the node if it still has this address; keep the entries of a newer node with the same name.
+    """Unregister the node if it still has this address; do not unregister a newer node with the same name.
 
     If a second process registers with the same node name, the master deletes the entries of the first process
     (rosmaster/registrations.py). All entries of a node name therefore belong to the process whose address is
@@ -83,15 +79,13 @@ def withdraw_below(master: MasterClient, prefix: str) -> list[Registration]:
 
 
 def registered_at(ports: Collection[int]) -> list[Registration]:
-    """Return the registrations with these ports at the master of ROS_MASTER_URI.
-
-    Without a master, the result is empty.
+    """Return the registrations with these ports at the master of ROS_MASTER_URI; without a master, return [].
 
     A process listens on the ports of its registrations. Read the ports of a process while it is running,
     because an ended process listens on no port.
     """
     if ports:
-        with suppress(GraphError):  # if no master answers, there are no registrations
+        with suppress(GraphError):  # Without a master, there are no registrations.
             return [
                 entry for entry in registrations(MasterClient(master_uri())) if port_of(entry.uri) in ports
             ]
@@ -107,7 +101,7 @@ def remove_stale(
 
 
 def _stale(master: MasterClient, nodes: Collection[str] | None, timeout: float) -> list[Registration]:
-    # Imported here because the supervisor imports this module without the libraries of ROS.
+    # The supervisor imports this module without the libraries of ROS, so this import is inside the function.
     from course_pkg.ros.protocol.probe import Reach, ask_all, node_probe, service_probe
 
     entries = registrations(master, nodes)

@@ -1,6 +1,6 @@
 """The registrations of this process, from rospy's own lists.
 
-A restarted master has lost these registrations.
+After a restart of the master, these registrations must be sent again.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ def node_known(master: MasterClient) -> bool:
 
 
 def register_all(master: MasterClient) -> None:
-    """Register all entries of rospy's lists again, because a restarted master has lost them."""
+    """Register all entries of rospy's lists at a restarted master."""
     node, uri = rospy.get_name(), rospy.get_node_uri()
     if (manager := registration_manager()) is not None:
-        manager.master_uri = manager.handler.masterUri = master.uri  # the master may have a new address
+        manager.master_uri = manager.handler.masterUri = master.uri  # The master may have a new address.
     for service, service_uri in get_service_manager().get_services():
         master.register_service(node, service, service_uri, uri)
     for topic, kind in get_topic_manager().get_publications():

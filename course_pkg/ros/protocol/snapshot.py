@@ -12,7 +12,7 @@ from course_pkg.ros.protocol.probe import Probe, Reach, ask_all, header_fields, 
 if TYPE_CHECKING:
     from course_pkg.types import Plain
 
-# maximum time in s until a node answers; on the same machine, an answer takes a few milliseconds
+# A node has to respond within this time in s. On the same machine, a response takes a few milliseconds.
 TIMEOUT = 0.5
 
 
@@ -58,7 +58,10 @@ class ServiceSeen:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """All nodes, topics and services, sorted by name. Two snapshots are equal if they show the same graph."""
+    """All nodes, topics and services, sorted by name.
+
+    Two snapshots are equal if all their nodes, topics and services are equal.
+    """
 
     master: str
     nodes: tuple[NodeSeen, ...]
@@ -81,9 +84,9 @@ class Snapshot:
 def look(uri: str | None = None, timeout: float = 2.0) -> Snapshot:
     """Return the graph of the master at `uri`; the default is the master at ROS_MASTER_URI.
 
-    Each request to the master takes at most `timeout` s. The probes of all services together take at most 0.5
-    s; after this, the probes of all nodes together take at most 0.5 s. Raises MasterUnreachable,
-    MasterSilent, MalformedMasterUri, NotAMaster.
+    Each request to the master takes at most `timeout` s. All services are probed together for at most 0.5 s,
+    and then all nodes for at most 0.5 s. Raises MasterUnreachable, MasterSilent, MalformedMasterUri,
+    NotAMaster.
     """
     master = MasterClient(uri or master_uri(), timeout)
     state, types = master.system_state(), master.topic_types()

@@ -1,6 +1,6 @@
 """XML-RPC with time limits, for the master and for nodes; uses only the standard library.
 
-ROS's APIs answer each call with [code, message, value]: http://wiki.ros.org/ROS/Master_Slave_APIs.
+The methods of ROS's APIs return [code, message, value]: http://wiki.ros.org/ROS/Master_Slave_APIs.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ if TYPE_CHECKING:
 
 RpcValue = Union[bool, int, float, str, bytes, None, "list[RpcValue]", "dict[str, RpcValue]"]
 
-# The errors that are raised if the server has closed an idle connection.
+# One of these errors is raised if the server has closed an idle connection.
 STALE = (ConnectionResetError, ConnectionAbortedError, BrokenPipeError, HTTPException)
-# The errors that are raised if an answer is not valid XML-RPC, or if it is a fault.
+# One of these errors is raised if a response is not valid XML-RPC, or if it is a fault.
 NO_ANSWER = (HTTPException, ExpatError, Fault, LookupError, TypeError, ValueError)
 
 
 class XmlRpcClient:
     """Calls the methods of the XML-RPC server at `uri`; each call takes at most `timeout` s.
 
-    Several threads may share one client. The constructor raises MalformedMasterUri if `uri` is invalid.
+    Several threads may use one client. The constructor raises MalformedMasterUri if `uri` is invalid.
     """
 
     def __init__(self, uri: str, timeout: float = 2.0) -> None:
@@ -43,18 +43,17 @@ class XmlRpcClient:
         weakref.finalize(self, _close, self._idle)
 
     def ask(self, method: str, *args: RpcValue, timeout: float | None = None) -> RpcValue:
-        """Call `method` and return its answer.
+        """Call `method` and return its response value.
 
-        The time limit is the shorter of `timeout` s and the client's own timeout.
-
-        Raises TimeoutError at the time limit, and another OSError if no program accepts the connection.
-        Raises one of NO_ANSWER if the answer is not valid XML-RPC or is a fault.
+        The time limit is the shorter of `timeout` s and the client's own timeout. Raises TimeoutError at the
+        time limit, and another OSError if no program accepts the connection. Raises one of NO_ANSWER if the
+        response is not valid XML-RPC or is a fault.
         """
         deadline = time.monotonic() + self.limit(timeout)
         return decode(self._exchange(encode(method, *args), deadline))
 
     def limit(self, timeout: float | None) -> float:
-        """Return the longest time in s that a call with this timeout may take."""
+        """Return the time limit in s of a call with this timeout."""
         return self.timeout if timeout is None else min(timeout, self.timeout)
 
     def close(self) -> None:
@@ -66,7 +65,7 @@ class XmlRpcClient:
         while self._idle:
             connection = self._idle.pop()
             if connection.pid != os.getpid():
-                continue  # This process was forked, and its parent still uses the connection.
+                continue  # This process is a fork, and its parent still uses the connection.
             try:
                 return self._over(connection, body, deadline)
             except STALE:
@@ -90,7 +89,7 @@ def encode(method: str, *args: RpcValue) -> bytes:
 
 
 def decode(body: bytes) -> RpcValue:
-    """Return the value in the body of an answer; raises one of NO_ANSWER if the body is invalid."""
+    """Return the value in the body of a response; raises one of NO_ANSWER if the body is invalid."""
     value: RpcValue = loads(body)[0][0]  # type: ignore[assignment]  # typeshed has another union of types
     return value
 
@@ -116,7 +115,7 @@ def address_of(uri: str) -> tuple[str, int]:
         if parts.scheme == "http" and parts.hostname and parts.port:
             return parts.hostname, parts.port
     except ValueError:
-        pass  # The port is not a number, or a bracket is not closed.
+        pass  # The port is not a number, or a closing bracket is missing.
     raise MalformedMasterUri(
         f"ROS_MASTER_URI is {uri!r}, but has to be of the form http://HOST:PORT, such as "
         "http://localhost:11311. Correct the variable, or unset it to get your own master."
@@ -135,7 +134,7 @@ def _close(connections: deque[_Connection]) -> None:
 
 
 class _Connection(HTTPConnection):
-    """An HTTP connection with one deadline for a request and its whole answer, not for each read."""
+    """An HTTP connection with one deadline for a request and its complete response."""
 
     sock: _DeadlineSocket | None
 
@@ -152,7 +151,7 @@ class _Connection(HTTPConnection):
         self.sock = _DeadlineSocket(fileno=plain.detach())
 
     def exchange(self, body: bytes, deadline: float) -> bytes:
-        """Send a request and return the body of the answer; raises TimeoutError at the deadline."""
+        """Send a request and return the body of the response; raises TimeoutError at the deadline."""
         self._deadline = deadline
         if self.sock is None:
             self.connect()

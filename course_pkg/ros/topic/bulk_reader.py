@@ -1,9 +1,8 @@
 """Read many topics on one thread, many messages at a time, for a panel that draws the messages.
 
-A subscriber of rospy wakes up for each message. With hundreds of messages per second, this takes more
-computing time than the drawing. The reader therefore uses TCPROS itself (http://wiki.ros.org/ROS/TCPROS), and
-reads all new messages every 50 ms. It does not register as a subscriber, because a panel should not change
-the graph.
+A subscriber of rospy wakes up for each message, and with hundreds of messages per second, this takes too much
+CPU time. The reader therefore uses TCPROS itself (http://wiki.ros.org/ROS/TCPROS), and reads all new messages
+every 50 ms. The reader does not register as a subscriber, because a panel should not change the graph.
 """
 
 from __future__ import annotations
@@ -20,24 +19,24 @@ from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.protocol.probe import ask_all, encode_header, rpc_answer, rpc_probe
 from course_pkg.ros.protocol.xmlrpc import number
 
-INTERVAL = 0.05  # time in s between two reads
-SEARCH = 1.0  # time in s between two requests to the master
-TIMEOUT = 0.5  # maximum time in s until a node answers
-# maximum size of a message in bytes; if a message is longer, the reader closes the connection
+INTERVAL = 0.05  # This is the time in s between two reads.
+SEARCH = 1.0  # This is the time in s between two requests to the master.
+TIMEOUT = 0.5  # A node has to respond within this time in s.
+# If a message has more bytes, the reader closes the connection.
 LONGEST = 1 << 20
-CHUNK = 1 << 16  # bytes
+CHUNK = 1 << 16  # One read returns at most this number of bytes.
 CALLER = "/course"
 
-Place = tuple[str, str]  # a topic, and the address of a node that publishes it
+Place = tuple[str, str]  # (a topic, the address of a node that publishes it)
 Received = Callable[[str, list[bytes]], None]
 
 
 class BulkReader:
     """Reads all topics of the given types, from start() to stop().
 
-    The reader calls `received` with a topic and its new messages (serialised, in order). It calls `missing`
-    with a topic that no longer has a publisher, and `done` after each read. The reader calls all three
-    functions on its own thread.
+    The reader calls `received` with a topic and its new messages (serialised, in order). The reader calls
+    `missing` with a topic that no longer has a publisher. The reader calls `done` after each read, and all
+    three functions run on the reader's thread.
     """
 
     def __init__(
@@ -54,7 +53,7 @@ class BulkReader:
         self._stop: threading.Event | None = None
 
     def start(self) -> None:
-        """Start to read; a second start changes nothing."""
+        """Start to read; a second call has no effect."""
         if self._stop is None:
             self._stop = threading.Event()
             thread = threading.Thread(target=self._read, args=(self._stop,), daemon=True, name="bulk-reader")
@@ -106,7 +105,7 @@ class BulkReader:
         for place, probe in zip(new, probes, strict=True):
             answer = rpc_answer(probe)
             if isinstance(answer, list) and answer[:1] == ["TCPROS"]:
-                with suppress(OSError):  # The publisher may have ended; the next search detects this.
+                with suppress(OSError):  # The publisher may have ended; the next search removes it.
                     streams[place] = _Stream(place[0], (str(answer[1]), int(number(answer[2]))))
 
     def _places(self) -> set[Place]:
@@ -135,7 +134,7 @@ class _Stream:
         self._header_read = False
 
     def read(self) -> tuple[list[bytes], bool]:
-        """Return the new messages since the last call, and whether the stream is still open."""
+        """Return the new messages since the previous call, and whether the stream is still open."""
         goes_on = True
         try:
             while part := self._sock.recv(CHUNK):
@@ -154,10 +153,7 @@ class _Stream:
         self._sock.close()
 
     def _blocks(self) -> list[bytes]:
-        """Remove the complete blocks from the received bytes.
-
-        Return them without the first block, which is the connection header.
-        """
+        """Remove the complete blocks from the received bytes; return them without the connection header."""
         blocks, at = [], 0
         while len(self._rest) >= at + 4:
             (length,) = struct.unpack_from("<I", self._rest, at)

@@ -1,7 +1,7 @@
 """The current publishers and subscribers of a topic, with the type that each of these nodes uses.
 
-The master stores only one type for each topic, the type that the first node registered. Each node returns its
-own type in its answer to getPublications or getSubscriptions: http://wiki.ros.org/ROS/Slave_API.
+The master stores only one type for each topic: the type that the first node registered. Each node returns its
+own type in the response to getPublications or getSubscriptions: http://wiki.ros.org/ROS/Slave_API.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from course_pkg.ros.protocol.probe import ask_all, rpc_answer, rpc_probe
 from course_pkg.ros.protocol.xmlrpc import RpcValue
 from course_pkg.ros.topic.reports import Connections, Peer
 
-TIMEOUT = 0.5  # maximum time in s until all nodes have answered
-ANY = "*"  # the type of a subscriber that accepts all types, such as `rostopic echo`
+TIMEOUT = 0.5  # Wait up to this time in s for the responses of all nodes.
+ANY = "*"  # This is the type of a subscriber that accepts all types, such as `rostopic echo`.
 
 
 def find_connections(master: MasterClient, topic: str) -> Connections:
@@ -39,7 +39,7 @@ def find_connections(master: MasterClient, topic: str) -> Connections:
 
 
 def _type_of(topic: str, answer: RpcValue) -> str:
-    """Return the type of a topic in the list [[topic, type]*], or "" if the list has no such topic."""
+    """Return the type of a topic in the list [[topic, type]*], or "" if the topic is missing."""
     rows = answer if isinstance(answer, list) else []
     return next(
         (str(row[1]) for row in rows if isinstance(row, list) and row[:1] == [topic] and len(row) > 1), ""

@@ -12,11 +12,13 @@ import genpy
 from course_pkg.ros.node.type_lookup import Message
 from course_pkg.types import Field, Kind, MessageType
 
-ELEMENTS = 8  # maximum number of elements that are listed for an array
-MOST = 200  # maximum number of numbers that are listed for a message; arrays of arrays may contain thousands
+ELEMENTS = 8  # For an array, at most this number of elements is listed.
+# For a message, at most this number of paths is listed, because nested arrays may contain thousands of
+# numbers.
+MOST = 200
 
-_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # a float is most probably a measurement, so it is first
-# Parts of messages that are not measurements: the time and frame of a measurement, and the sensor's limits.
+_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # The first kind is the most probable kind of a measurement.
+# These fields are not measurements: the time and frame of a measurement, and the sensor's limits.
 _HEADER = "std_msgs/Header"
 _SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")
 
@@ -30,8 +32,8 @@ def measurement(message: MessageType) -> str:
     """Return the path of the number that is most probably the measurement, or "" without any number.
 
     Fields in a std_msgs/Header and settings of the sensor, such as `range_min`, are not measurements. Among
-    the other fields, the function selects the first float. Without a float, it selects the first integer, and
-    without an integer, the first bool. If there are no other fields, it returns the message's first number.
+    all other fields, the function selects the first float, or else the first integer, or else the first bool.
+    Without such a field, the function returns the message's first number.
     """
     measured = [found for found in _first_numbers(message, _HEADER) if not _SETTING.search(found[0])]
     by_kind = [path for wanted in _NUMBERS for path, kind in measured if kind is wanted]
@@ -39,11 +41,10 @@ def measurement(message: MessageType) -> str:
 
 
 def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
-    """Return a function that reads the number at a path from a message's bytes.
+    """Return a function that reads the number at `path` from a message's bytes.
 
-    The returned function gives NaN if the message does not contain the number.
-
-    Raises ValueError if the type does not have this path.
+    If the message does not contain the number, the function returns NaN. Raises ValueError if the type does
+    not have this path.
     """
     if path not in numbers(message):
         raise ValueError(f"{message.name} has no number {path!r}")

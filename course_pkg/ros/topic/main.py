@@ -1,7 +1,7 @@
 """The program of a topic process: `python -m course_pkg.ros.topic.main DESCRIPTOR TOPIC`.
 
-It receives commands through its channel. The name of a command is in the field "do", and these are the other
-fields:
+The process receives commands through its channel. The name of a command is in the field "do", and these are
+the other fields:
 
     type      name, text           the type of the topic; text is "" if the type is built
     publish   texts, latch, queue, count
@@ -9,7 +9,7 @@ fields:
     stop, withdraw
     plot      path                 record the values of this number; "" for no number
 
-It sends a Report at most ten times per second. It ends when the channel is closed.
+The process sends a Report at most ten times per second, and ends when the channel is closed.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ from course_pkg.ros.topic.reports import Connections, Curve, MessageReport, Repo
 from course_pkg.ros.topic.subscription import ReceivedMessage, TopicSubscription
 from course_pkg.types import MessageType, StringTree, compile_message, message_type
 
-REPORT_INTERVAL = 0.1  # minimum time in s between two reports
-SELDOM = 3  # every third report also contains the parts that take long to compute or to send
-GRAPH_INTERVAL = 1.0  # time in s between two requests to the master
+REPORT_INTERVAL = 0.1  # Two reports have at least this time in s between them.
+SELDOM = 3  # Every third report also contains the data that takes long to compute or to send.
+GRAPH_INTERVAL = 1.0  # This is the time in s between two requests to the master.
 
 
 class TopicNode:
@@ -58,7 +58,7 @@ class TopicNode:
         self._reports = 0
         self._trouble = ""
         self._connections: Connections = {}
-        self._registering = threading.Lock()  # prevents a registration after leave()
+        self._registering = threading.Lock()  # This lock prevents a registration after leave().
 
     def run(self) -> None:
         """Execute commands until the channel is closed."""
@@ -78,9 +78,9 @@ class TopicNode:
                 rospy.signal_shutdown("the panel is no longer shown")
 
     def _join(self) -> None:
-        """Become a node. While no master answers, report the error.
+        """Become a node.
 
-        Without this code, rospy would wait and report nothing.
+        While no master answers, report the error; rospy alone would wait without a message.
         """
         while True:
             try:
@@ -121,14 +121,14 @@ class TopicNode:
             try:
                 work()
             except ChannelClosed:
-                return  # The main thread also gets this error, and ends the process.
+                return  # The main thread gets the same error, and ends the process.
             time.sleep(pause)
 
     def _look(self) -> None:
-        """Find the nodes on the topic, and register again if the master was restarted."""
+        """Find the nodes on the topic, and register again after a restart of the master."""
         try:
             with self._registering:
-                # After leave(), the node is not registered at the master, but it must not register again.
+                # After leave(), the node is not registered, and it must not register again.
                 if not rospy.is_shutdown() and not node_known(self._master):
                     register_all(self._master)
             self._connections = find_connections(self._master, self._topic)
@@ -184,11 +184,11 @@ class TopicNode:
             strings = kind.format(kind.to_values(kind.cls().deserialize(message.body)))
         except (genpy.DeserializationError, FieldError):
             return None
-        assert isinstance(strings, dict)  # a message is shown as a dict of its fields
+        assert isinstance(strings, dict)  # A message is shown as a dict of its fields.
         return strings
 
     def _sender_kind(self, name: str) -> MessageType | None:
-        """Return the type that a publisher sends, or None if this machine does not have the type."""
+        """Return the type that a publisher sends, or None if the type is not installed."""
         try:
             return message_type(name)
         except CourseError:
@@ -198,11 +198,11 @@ class TopicNode:
 def main(argv: list[str]) -> None:
     """Run a topic node until its channel is closed, then unregister."""
     for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)  # the process ends when its channel is closed
+        signal.signal(number, signal.SIG_IGN)  # The process ends when its channel is closed.
     node = TopicNode(JsonChannel(socket.socket(fileno=int(argv[1]))), argv[2])
     node.run()
     node.leave()
-    os._exit(0)  # end the process without waiting for rospy's threads
+    os._exit(0)  # The process ends without waiting for rospy's threads.
 
 
 if __name__ == "__main__":

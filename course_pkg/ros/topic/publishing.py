@@ -1,4 +1,4 @@
-"""The publishing part of a topic process: it publishes once, in a burst, or at a rate."""
+"""The publisher of a topic process: it publishes once, several times without a pause, or at a rate."""
 
 from __future__ import annotations
 
@@ -15,17 +15,16 @@ from course_pkg.ros.topic.reports import DeliveryReport, PublisherReport
 from course_pkg.ros.topic.statistics import RateStatistics
 from course_pkg.types import MessageType, StringTree
 
-BURST = 1000  # maximum number of messages in a burst
-# s; a tick with a longer delay is skipped, and a tick with a shorter delay is executed at once
+BURST = 1000  # One command publishes at most this number of messages without a pause.
+# A tick with a longer delay (s) is skipped; a tick with a shorter delay is executed at once.
 CATCH_UP = 0.25
 
 
 class Timer:
     """Calls `tick` `rate` times per second on a separate thread, until stop().
 
-    The time of each tick is computed from the start time, so a late tick does not delay the next ticks. Ticks
-    that are more than `CATCH_UP` s late are skipped, and counted in `skipped`. If `tick` raises an exception,
-    the timer calls `failed` with it and ends.
+    A late tick does not delay the next ticks. A tick with a delay of more than `CATCH_UP` s is skipped, and
+    counted in `skipped`. If `tick` raises an exception, the timer calls `failed` with the exception and ends.
     """
 
     def __init__(self, rate: float, tick: Callable[[], None], failed: Callable[[Exception], None]) -> None:
@@ -56,9 +55,10 @@ class Timer:
 
 
 class Commands:
-    """Publishes on `topic` when a command arrives; the first message creates the publisher.
+    """Publishes on `topic` when a command arrives.
 
-    A message with a different latch, queue size or type creates a new publisher.
+    The first message creates the publisher. A message with a different latch, queue size or type creates a
+    new publisher.
     """
 
     def __init__(self, topic: str) -> None:
@@ -91,19 +91,19 @@ class Commands:
         self._timer = Timer(rate, lambda: self._publish(message), self._failed)
 
     def stop(self) -> None:
-        """Stop repeating; the publisher stays registered."""
+        """Stop repeating; do not unregister the publisher."""
         timer, self._timer = self._timer, None
         if timer is not None:
             timer.stop()
 
     def withdraw(self) -> None:
-        """Stop the publisher; its counts are kept until a new publisher exists."""
+        """Stop the publisher; its counts are available until a new publisher exists."""
         self.stop()
         if self._publisher is not None:
             self._publisher.stop()
 
     def state(self) -> PublisherReport:
-        """Return the current state of the publisher and of the timer, with all counts."""
+        """Return the state and the counts of the publisher and of the timer."""
         timer, publisher = self._timer, self._publisher
         state: PublisherReport = {
             "problem": self.problem,
@@ -142,7 +142,7 @@ class Commands:
         has = publisher and (publisher.advertised, publisher.type, publisher.latch, publisher.queue_size)
         if has == wanted:
             return
-        MasterClient(master_uri()).pid()  # without a master, rospy.Publisher would wait for ever
+        MasterClient(master_uri()).pid()  # Without a master, rospy.Publisher would wait for ever.
         if publisher is not None:
             publisher.stop()
         self._publisher = Publisher(self._topic, self.kind.cls, latch=latch, queue_size=queue)

@@ -9,7 +9,7 @@ from course_pkg.types import StringTree
 
 
 class Peer(TypedDict):
-    """A node on the topic, with its type ("" if it does not answer)."""
+    """A node on the topic, with its type ("" if the node does not answer)."""
 
     node: str
     type: str
@@ -25,7 +25,7 @@ class Source(Peer):
 
 
 class Connections(TypedDict, total=False):
-    """The type that the master stores ("" if none), the nodes on the topic, and the connected publishers."""
+    """The type that the master stores (or ""), the nodes on the topic, and the connected publishers."""
 
     type: str
     publishers: list[Peer]
@@ -34,10 +34,7 @@ class Connections(TypedDict, total=False):
 
 
 class Figures(TypedDict, total=False):
-    """The rate (1/s), the jitter (s) and the longest gap (s).
-
-    `gaps` is the number of measured gaps between messages.
-    """
+    """The rate (1/s), the jitter (s), the longest gap (s), and the number of gaps between messages."""
 
     rate: float
     jitter: float
@@ -46,7 +43,7 @@ class Figures(TypedDict, total=False):
 
 
 class DeliveryReport(TypedDict):
-    """The messages to one subscriber: sent, waiting in the queue, and dropped."""
+    """The numbers of sent, waiting and dropped messages for one subscriber."""
 
     peer: str
     sent: int
@@ -58,7 +55,7 @@ class PublisherReport(TypedDict, total=False):
     """The state of the publisher. `rate` is the requested rate in 1/s, or 0 without a timer.
 
     `statistics` is the measured rate. `reached` is the number of subscribers to which the latest message was
-    sent. The other counts have the same meaning as in the class Publisher.
+    sent. All other counts have the same meaning as in the class Publisher.
     """
 
     problem: str
@@ -77,7 +74,7 @@ class PublisherReport(TypedDict, total=False):
 
 
 class MessageReport(TypedDict):
-    """A message that arrived `ago` s before the report; `texts` is None if its values cannot be shown."""
+    """A message that arrived `ago` s before the report; `texts` is None if its values cannot be displayed."""
 
     number: int
     ago: float
@@ -89,7 +86,7 @@ class MessageReport(TypedDict):
 
 
 class Curve(TypedDict):
-    """The recent values of a number as points [s since the start, value], and the number of all values."""
+    """The recent points [s since the start, value] of a number, and the count of all its values."""
 
     points: list[list[float]]
     count: int
@@ -97,9 +94,9 @@ class Curve(TypedDict):
 
 
 class Report(TypedDict, total=False):
-    """The parts of a report that have changed.
+    """A report; a key is missing if its value has not changed.
 
-    `trouble` is the error if the process cannot reach the master, else "". `node` is the name of the
+    `trouble` is the error message if the process cannot reach the master, else "". `node` is the name of the
     process's node. `count` is the number of received messages, `statistics` contains their rate, and
     `messages` contains the new messages.
     """

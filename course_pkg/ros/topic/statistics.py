@@ -9,32 +9,32 @@ from itertools import pairwise
 
 from course_pkg.ros.topic.reports import Figures
 
-WINDOW = 3.0  # length in s of the time over which a rate is measured
-FEW = 5  # number of messages that are used even if they are older than WINDOW
-MOST = 5000  # maximum number of messages for one rate
-SILENCE = 3.0  # number of mean gaps; after this time without a message, no statistics are returned
-SPAN = 20.0  # length of a series in s
-STEP = 0.1  # length of a step in s; at most four values are stored for each step
+WINDOW = 3.0  # A rate is measured over this time in s.
+FEW = 5  # At least this number of messages is used, even if they are older than WINDOW.
+MOST = 5000  # A rate is computed from at most this number of messages.
+SILENCE = 3.0  # If no message arrives for this multiple of the mean gap, no statistics are returned.
+SPAN = 20.0  # A series contains the values of this time in s.
+STEP = 0.1  # At most four values are stored for each time step of this length in s.
 
 Point = tuple[float, float]
 
 
 class RateStatistics:
-    """Measures the rate of a repeated event; several threads may share this object."""
+    """Measures the rate of a repeated event; several threads may use this object."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._times: deque[float] = deque(maxlen=MOST)
 
     def beat(self, at: float) -> None:
-        """Record that the event has happened at `at` (s of time.monotonic())."""
+        """Record an event at the time `at` (s of time.monotonic())."""
         with self._lock:
             self._times.append(at)
 
     def figures(self, now: float) -> Figures:
         """Return the statistics of the last 3 s, or of the last 5 events.
 
-        The result is empty if no more events arrive.
+        If no more events arrive, the returned dict is empty.
         """
         times = self._latest(now)
         if len(times) < 2:
@@ -79,7 +79,7 @@ class DownsampledSeries:
                 _merge((at, value), self._steps[-1][1])
 
     def points(self, now: float) -> list[Point]:
-        """Return the stored points of the last 20 s, the oldest first."""
+        """Return the stored points of the last 20 s, the oldest point first."""
         with self._lock:
             while self._steps and self._steps[0][0] < int((now - SPAN) / STEP):
                 self._steps.popleft()
@@ -87,7 +87,7 @@ class DownsampledSeries:
 
 
 def _merge(point: Point, stored: list[Point]) -> None:
-    """Update [first, smallest, largest, last] of a step with a new point."""
+    """Update the values [first, smallest, largest, last] of a time step with a new point."""
     if point[1] < stored[1][1]:
         stored[1] = point
     if point[1] > stored[2][1]:

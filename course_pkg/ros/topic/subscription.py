@@ -1,9 +1,8 @@
 """A subscription to a topic of any type.
 
-It counts the messages, stores their times, and stores the last messages as bytes.
-
-A message is deserialised only if a panel shows its values, because this would take too much time on a fast
-topic.
+A subscription counts the messages, and stores their times and the bytes of the last messages. A message is
+deserialised only if a panel shows its values, because deserialising all messages of a fast topic takes too
+long.
 """
 
 from __future__ import annotations
@@ -20,8 +19,8 @@ from course_pkg.ros.node.type_lookup import Message
 from course_pkg.ros.topic.reports import Source
 from course_pkg.ros.topic.statistics import DownsampledSeries, RateStatistics
 
-CAPACITY = 10  # messages
-LONGEST = 16_384  # maximum length in bytes of a stored message
+CAPACITY = 10  # Only the last messages, up to this number, are stored.
+LONGEST = 16_384  # The body of a message with more bytes is not stored.
 
 Extract = Callable[[bytes], float]
 
@@ -30,7 +29,7 @@ Extract = Callable[[bytes], float]
 class ReceivedMessage:
     """A message: its `number` (from 1), the time `at` (s of time.monotonic()), its publisher, and its bytes.
 
-    `size` is its length in bytes. `body` is empty if the message is too long to be stored.
+    `size` is the length of the message in bytes. `body` is empty if the message is too long to be stored.
     """
 
     number: int
@@ -56,11 +55,11 @@ class TopicSubscription:
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, tcp_nodelay=True)
 
     def plot(self, md5: str, extract: Extract | None) -> None:
-        """Start a new series of the numbers that `extract` reads from messages with this MD5 sum."""
+        """Start a new series of values; `extract` reads the value from messages with this MD5 sum."""
         self._md5, self._extract, self.series = md5, extract, DownsampledSeries()
 
     def new_messages(self) -> list[ReceivedMessage]:
-        """Return the last messages since the previous call, at most 10, the oldest first."""
+        """Return the messages since the previous call, the oldest first; at most 10 messages are stored."""
         with self._lock:
             received = list(self._received)
             self._received.clear()

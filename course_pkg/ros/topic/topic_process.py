@@ -1,4 +1,4 @@
-"""The owner's side of a topic process: it starts the process, sends commands, and receives reports."""
+"""The kernel's interface to a topic process: start the process, send commands, and receive reports."""
 
 from __future__ import annotations
 
@@ -23,18 +23,20 @@ from course_pkg.types import Plain
 
 Report: TypeAlias = dict[str, Json]
 
-TAIL = 600  # maximum number of characters of the process's output in an error message
-GRACE = 6.0  # maximum time in s until the process ends; on a slow machine, it may still be importing rospy
-# A busy master may register a node after the node was killed. The owner therefore unregisters it repeatedly.
-PAUSES = (0.0, 0.5, 2.0)  # waiting times in s before the attempts to unregister the node
+TAIL = 600  # An error message contains at most this number of characters of the process's output.
+GRACE = 6.0  # Wait up to this time in s for the end of the process, which may still be importing rospy.
+# After a node was killed, a busy master may still process a registration of this node. The node is therefore
+# unregistered several times.
+PAUSES = (0.0, 0.5, 2.0)  # Each number is the time in s before an attempt to unregister the node.
 
 
 class TopicProcess:
     """A separate node on `topic`; it ends when end() is called, or when this process ends.
 
     `reported` is called with this object and each report. `lost` is called with this object and an error
-    message if the node ends without end(). Both functions are called on another thread. `main.py` lists the
-    commands, and `reports.py` lists the parts of a report.
+    message if the node ends without end(). `reported` and `lost` are called on another thread.
+
+    `main.py` lists the commands, and `reports.py` lists the keys of a report.
     """
 
     def __init__(
@@ -61,11 +63,11 @@ class TopicProcess:
 
     def tell(self, do: str, **what: Plain) -> None:
         """Send the command `do`; if the process has ended, nothing happens."""
-        with suppress(ChannelClosed):  # _receive() reports it
+        with suppress(ChannelClosed):  # _receive() reports a closed channel.
             self._channel.send({"do": do, **what})
 
     def end(self, *, wait: bool = False) -> None:
-        """Make the process unregister and end; if `wait` is true, return only after the process has ended."""
+        """Make the process unregister and end; if `wait` is true, wait until the process has ended."""
         if not self._ended.is_set():
             self._ended.set()
             self._channel.close()
@@ -107,11 +109,9 @@ class TopicProcess:
 
 
 def _environment() -> dict[str, str]:
-    """Return an environment for the process.
+    """Return an environment in which Python does not import from the current folder.
 
-    In it, Python imports from the course and the workspace, but not from the current folder.
-
-    Otherwise, a file in the notebook's folder could replace a module of the course.
+    A file in the notebook's folder could otherwise replace a module of the course.
     """
     here = os.getcwd()
     course = str(Path(course_pkg.__file__).resolve().parent.parent)

@@ -1,10 +1,8 @@
-"""The activity on the graph.
+"""The activity on the graph: the messages on each connection, and the callers of each service.
 
-It contains the number of messages on each connection, and the nodes that called each service.
-
-No additional subscriber is necessary to get these numbers. Every node counts the messages that it sends, and
-answers the slave API's methods getBusStats and getBusInfo (http://wiki.ros.org/ROS/Slave_API). The course's
-nodes also count the calls of their services by each caller.
+Every node counts the messages that it sends. The slave API's methods getBusStats and getBusInfo
+(http://wiki.ros.org/ROS/Slave_API) return these counts. The course's nodes also count the calls of their
+services, for each caller.
 """
 
 from __future__ import annotations
@@ -20,11 +18,11 @@ from course_pkg.ros.protocol.probe import Probe, ask_all, rpc_answer, rpc_probe
 from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
-TIMEOUT = 0.5  # s
-STATISTICS = "getBusStats"  # the third part of its answer is for services; rospy leaves this part empty
+TIMEOUT = 0.5  # This is the time limit of a poll in s.
+STATISTICS = "getBusStats"  # The third item of the response is for services; rospy leaves it empty.
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
-# errors that are raised if an answer has an unexpected structure
+# One of these errors is raised if a response has an unexpected structure.
 INVALID = (ExpatError, Fault, LookupError, TypeError, ValueError)
 
 
@@ -33,8 +31,7 @@ class ServiceCaller:
     """A node that has called a service since the server started.
 
     `calls` counts the requests that reached the server, and `last` is the time of the latest request (s since
-    the epoch). `running` counts the requests that a handler is working on. While `running` is not 0, the
-    caller waits for a response.
+    the epoch). `running` counts the requests that a handler is processing.
     """
 
     node: str
@@ -45,7 +42,7 @@ class ServiceCaller:
 
 @dataclass(frozen=True, order=True)
 class Traffic:
-    """A connection of a topic; `messages` is the number of messages on it since it was opened."""
+    """A connection of a topic; `messages` is the number of messages since the connection was opened."""
 
     topic: str
     publisher: str
@@ -58,9 +55,9 @@ class Traffic:
 class Activity:
     """All counts of one poll.
 
-    `at` is a time of time.monotonic() (s). `silent` contains the nodes that gave no usable answer. `callers`
-    maps each service to its callers, the latest first; services whose servers do not count callers are
-    missing.
+    `at` is a time of time.monotonic() (s). `silent` contains the nodes that returned no valid response.
+    `callers` maps each service to its callers, the latest caller first. Services whose servers do not count
+    callers are missing.
     """
 
     at: float
@@ -70,15 +67,19 @@ class Activity:
 
 
 class ActivityPoller:
-    """Polls the nodes of a graph. For each connection, it requests the name of the subscriber only once."""
+    """Polls the nodes of a graph.
+
+    A poller requests the subscriber's name only once for each connection.
+    """
 
     def __init__(self) -> None:
-        self._peers: dict[str, dict[int, str]] = {}  # for the address of each node: connection -> subscriber
+        # The dict maps each node's address to its connections, and each connection to the subscriber.
+        self._peers: dict[str, dict[int, str]] = {}
 
     def poll(self, snapshot: Snapshot, timeout: float = TIMEOUT) -> Activity:
         """Return the counts of all reachable nodes.
 
-        The poll takes up to `timeout` s, or twice as long if there are new connections.
+        The poll takes up to `timeout` s, or up to twice this time if there are new connections.
         """
         uris = {node.name: node.uri for node in snapshot.nodes if node.reachable}
         probes = {name: callers_probe(uri) for name, uri in uris.items()}
@@ -94,13 +95,13 @@ class ActivityPoller:
             if (peer := self._peers[uris[name]].get(each.connection))
         ]
         callers = {name: found for probe in probes.values() for name, found in _callers(probe).items()}
-        # The count of a connection is useless if its subscriber is unknown.
+        # Without the name of the subscriber, the count of a connection cannot be used.
         known = {name for name, found in counts.items() if self._peers[uris[name]] or not found}
         silent = frozenset(node.name for node in snapshot.nodes if node.name not in known)
         return Activity(time.monotonic(), tuple(sorted(traffic)), silent, callers)
 
     def _update_peers(self, connections: Mapping[str, Iterable[int]], timeout: float) -> None:
-        """Ask all nodes with new connections for the subscribers; forget nodes that have ended."""
+        """Request the subscribers of new connections, and delete the entries of nodes that have ended."""
         self._peers = {uri: self._peers.get(uri, {}) for uri in connections}
         new = [uri for uri, numbers in connections.items() if not self._peers[uri].keys() >= set(numbers)]
         probes = {uri: rpc_probe(uri, "getBusInfo") for uri in new}
@@ -114,7 +115,7 @@ def callers_probe(uri: str) -> Probe:
 
 
 def answered_callers(probe: Probe) -> Callers:
-    """Return the callers in a node's answer, by service, or an empty dict without an answer."""
+    """Return the callers by service; without a response, return an empty dict."""
     stats = rpc_answer(probe)
     if not (isinstance(stats, list) and len(stats) == 3 and isinstance(stats[2], list)):
         return {}
@@ -135,10 +136,10 @@ class _Count:
 
 
 def _counts(probe: Probe) -> list[_Count] | None:
-    """Return how many messages a node has sent on each connection, or None without a valid answer.
+    """Return how many messages a node has sent on each connection, or None without a valid response.
 
-    For a topic, rospy answers [name, bytes, connections], and roscpp [name, connections]. For a connection,
-    rospy answers [id, bytes, messages, connected], and roscpp [id, bytes, bytes of messages, messages,
+    For a topic, rospy returns [name, bytes, connections], and roscpp [name, connections]. For a connection,
+    rospy returns [id, bytes, messages, connected], and roscpp [id, bytes, bytes of messages, messages,
     connected].
     """
     if not probe.answered:
@@ -150,12 +151,16 @@ def _counts(probe: Probe) -> list[_Count] | None:
             for number, *_, messages, _ in connections
         ]
     except INVALID:
-        # After 2 GiB on a connection, rospy answers with a fault: its byte count is too large for XML-RPC.
+        # After 2 GiB on a connection, rospy returns an error, because the byte count is too large for
+        # XML-RPC.
         return None
 
 
 def _callers(probe: Probe) -> Callers:
-    """Return the callers of a node's services, or an empty dict if the answer has an unexpected structure."""
+    """Return the callers of a node's services.
+
+    If the response has an unexpected structure, return an empty dict.
+    """
     try:
         return answered_callers(probe)
     except INVALID:
@@ -165,7 +170,7 @@ def _callers(probe: Probe) -> Callers:
 def _subscribers(info: RpcValue) -> dict[int, str]:
     """Return the subscribers of a node's outgoing connections.
 
-    If the answer has an unexpected structure, return an empty dict.
+    If the response has an unexpected structure, return an empty dict.
     """
     try:
         rows = map(items, items(info))
@@ -175,6 +180,6 @@ def _subscribers(info: RpcValue) -> dict[int, str]:
 
 
 def _statistics(probe: Probe) -> Any:  # noqa: ANN401 -- any node may answer with any value
-    """Return the value of an answer. roscpp answers getBusStats with the value alone, without a status."""
+    """Return the value of a response; roscpp's response to getBusStats has no status."""
     value: Any = loads(probe.answer.partition(b"\r\n\r\n")[2])[0][0]
     return value[2] if value[0] == 1 else value

@@ -16,8 +16,8 @@ from course_pkg.ros.trace.matching import NodeRecord, match_events
 from course_pkg.ros.trace.recorder import recorder
 from course_pkg.ros.trace.recording import GET_RECORD, MASTER, PUBLISH, ProcessRecord, Recording
 
-TIMEOUT = 1.0  # maximum time in s until all nodes have answered; 20,000 spans take 0.3 s
-LEFT_OUT = ("/rosout",)  # the node that receives log messages; log messages are not recorded
+TIMEOUT = 1.0  # Wait up to this time in s for the responses of all nodes; 20,000 spans take 0.3 s.
+LEFT_OUT = ("/rosout",)  # This node receives log messages, and log messages are not recorded.
 REASONS = {
     Reach.REFUSED: "its process is gone",
     Reach.SILENT: f"it did not answer within {TIMEOUT:g} s: it is stopped, or busy",
@@ -104,7 +104,7 @@ def _fill(recording: Recording, collected: _Collected, start: float, end: float)
 
 
 def _ended(recording: Recording, collected: _Collected) -> list[str]:
-    """Return the nodes that appear in records of other nodes, but ended before the records were collected."""
+    """Return the nodes that other nodes have recorded, and that ended before they sent their own records."""
     peers = {event.peer for event in recording.events if event.kind != PUBLISH}
     peers |= {peer for event in recording.events if event.kind == PUBLISH for peer in event.peer.split(", ")}
     known = {*recording.nodes, *collected.unrecorded, *LEFT_OUT, MASTER, "unknown", ""}

@@ -1,9 +1,11 @@
-"""Count the messages of a publisher that were sent, are waiting, or were dropped, for each subscriber.
+"""Count the sent, waiting and dropped messages of a publisher, for each subscriber.
 
-If a publisher has a queue_size, rospy puts each message into one queue per subscriber, and a thread sends the
-messages of the queue. When a queue is full, rospy drops its oldest message without an error message, so this
-module replaces the queue with a queue that counts. A message counts as sent when it is written to the
-connection. The publisher cannot know if a slow subscriber drops the message later.
+With a queue_size, rospy puts each message into one queue per subscriber, and a thread sends the messages of
+the queue. When a queue is full, rospy drops the oldest message without an error message. This module replaces
+the queue with a queue that counts.
+
+A message counts as sent when it is written to the connection. A slow subscriber may drop the message later;
+the publisher cannot detect this.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ from rospy.impl.tcpros_pubsub import QueuedConnection
 
 @dataclass(frozen=True)
 class Delivery:
-    """The number of messages for the node `peer` that were sent, are waiting, and were dropped."""
+    """The numbers of sent, waiting and dropped messages for the node `peer`."""
 
     peer: str
     sent: int
@@ -28,7 +30,7 @@ class Delivery:
 
 
 class Deliveries(rospy.SubscribeListener):
-    """The deliveries of one publisher, including deliveries to subscribers that have disconnected."""
+    """The deliveries of one publisher, including deliveries to disconnected subscribers."""
 
     def __init__(self, publisher: rospy.Publisher) -> None:
         super().__init__()
@@ -40,7 +42,7 @@ class Deliveries(rospy.SubscribeListener):
         self.update()
 
     def update(self) -> None:
-        """Start counting the messages of new connections. Add the counts of closed connections to a sum."""
+        """Count the messages of new connections, and add the counts of closed connections to a sum."""
         with self._lock:
             connected = list(self._impl.connections or ())
             for connection in connected:
@@ -73,14 +75,14 @@ class Deliveries(rospy.SubscribeListener):
         self.update()
 
     def _all(self) -> tuple[Delivery, ...]:
-        """Return a delivery for each subscriber; the last item is the sum of all closed connections."""
+        """Return a delivery for each subscriber; the last delivery is the sum of all closed connections."""
         self.update()
         with self._lock:
             return (*map(_delivery, self._connections), self._disconnected)
 
 
 class _CountedQueue(list[bytes]):
-    """A queue of messages for one connection; it counts the messages that rospy drops with `del queue[0]`."""
+    """The message queue of one connection; it counts the messages that rospy drops with `del queue[0]`."""
 
     def __init__(self, messages: list[bytes], connection: _CountedConnection) -> None:
         super().__init__(messages)
@@ -96,9 +98,10 @@ class _CountedQueue(list[bytes]):
 
 
 class _CountedConnection(QueuedConnection):
-    """A connection with a counting queue. When rospy takes the messages, it assigns a new list to `_queue`.
+    """A connection with a counting queue.
 
-    This list also becomes a counting queue.
+    When rospy takes the messages, it assigns a new list to `_queue`. The new list is also replaced with a
+    counting queue.
     """
 
     queued = 0
@@ -117,7 +120,7 @@ class _CountedConnection(QueuedConnection):
 def _count(connection: TCPROSTransport | QueuedConnection) -> None:
     """Replace the queue of a connection with a counting queue.
 
-    Without a queue_size, a connection has no queue.
+    A connection without a queue_size has no queue.
     """
     if type(connection) is not QueuedConnection:
         return

@@ -1,9 +1,8 @@
 """Send the record of a node to other nodes before the node ends.
 
-A recording then includes nodes that run only briefly.
-
-While a node makes a recording, it stores its address in a parameter of the master. A node that ends sends its
-record to this address by XML-RPC. A node that is killed cannot send its record.
+A recording then also includes nodes that run only briefly. A node that makes a recording stores its address
+in a parameter of the master. A node that ends sends its record to this address by XML-RPC. A killed node
+cannot send its record.
 """
 
 from __future__ import annotations
@@ -24,29 +23,29 @@ from course_pkg.ros.trace.recorder import recorder
 
 KEEP = "keepCourseRecord"
 PARAMETER = "/course_recorders"
-TIMEOUT = 0.5  # maximum time in s for each call; a longer timeout would delay the end of a node
-LONGEST = 600.0  # s; before its end, a node sends its record of the last 600 s
-# marks the registration manager of a node that already sends its record at its end
+TIMEOUT = 0.5  # Each call takes at most this time in s. A longer time would delay the end of a node.
+LONGEST = 600.0  # A node that ends sends its record of the last 600 s.
+# This attribute marks the registration manager of a node that sends its record when it ends.
 PREPARED = "prepared_for_handover_by_course"
 
 
 def hand_over_at_exit() -> None:
-    """Make this process's node send its record when it ends, and accept the records of other nodes."""
+    """Make this process's node send its record when it ends, and accept records from other nodes."""
     setattr(ROSHandler, KEEP, _keep)
     manager = registration_manager()
     if manager is not None and not getattr(manager, PREPARED, False):
         setattr(manager, PREPARED, True)
-        # If the master's address is None, leave() has already sent the record, or the master did not answer.
+        # The master's address is None after leave() has sent the record, or if the master did not answer.
         rospy.core.add_shutdown_hook(lambda _reason: hand_over() if manager.master_uri else None)
 
 
 @contextmanager
 def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
-    """During the block, each node sends its records to the node at `uri` before it ends."""
+    """During the block, each node sends its record to the node at `uri` when it ends."""
     parameter = f"{PARAMETER}{node}_{next(recorder().numbers)}"
     own, announced = recorder(), False
     own.recordings += 1
-    with suppress(GraphError):  # the master may have ended
+    with suppress(GraphError):  # The master may have ended.
         announced = master.set_param(parameter, uri, timeout=TIMEOUT)
     try:
         yield
@@ -71,7 +70,7 @@ def hand_over() -> None:
 
 def _hand_over(uri: str) -> None:
     record = json.dumps(recorder().since(time.monotonic() - LONGEST))
-    # The recording node may have ended, and another program may now use its port.
+    # The recording node may have ended, and another program may use its port now.
     with suppress(OSError, *NO_ANSWER):
         XmlRpcClient(uri, TIMEOUT).ask(KEEP, "/course", rospy.get_name(), record)
 

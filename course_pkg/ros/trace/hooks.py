@@ -1,4 +1,4 @@
-"""Replace a method of rospy with a method that also records what happens, because rospy has no hooks."""
+"""Replace a method of rospy with a method that also records actions."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from typing import Any
 
 from rospy.impl.tcpros_base import TCPROSTransport
 
-HOOKED = "hooked_by_course"  # an attribute of a method that has been replaced
-TRANSPORT = "TCPROSTransport"  # the name of the class with which rospy's modules create their connections
+HOOKED = "hooked_by_course"  # This attribute marks a method that has been replaced.
+TRANSPORT = "TCPROSTransport"  # rospy's modules create their connections with the class of this name.
 
-Method = Callable[..., Any]  # rospy has no type annotations
+Method = Callable[..., Any]  # rospy has no type annotations.
 
 
 class Hook:
     """A method of `owner` and the function that returns its replacement.
 
-    `uses` lists global names that the method's code must contain. The hook does not fit if the method has
-    other parameters, or if its code does not contain these names.
+    `uses` lists global names that the method's code must contain. A hook fits only if the method has the
+    expected parameters and contains these names.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class Hook:
         return known and tuple(inspect.signature(method).parameters) == self._parameters
 
     def install(self) -> None:
-        """Replace the method; a second call changes nothing."""
+        """Replace the method; a second call has no effect."""
         method = getattr(self._owner, self._name)
         if not hasattr(method, HOOKED):
             replacement = wraps(method)(self._replace(method))
@@ -59,10 +59,8 @@ def install_all(
 ) -> bool:
     """Install all `hooks`, and make `transport` the class of the module's connections.
 
-    Return whether this was possible.
-
-    The hooks in `required` are only checked, not installed. If any hook does not fit, the function changes
-    nothing and returns False.
+    If any hook does not fit, the function changes nothing and returns False. The hooks in `required` are
+    checked, but not installed.
     """
     current = getattr(module, TRANSPORT, None)
     known = isinstance(current, type) and issubclass(current, TCPROSTransport)

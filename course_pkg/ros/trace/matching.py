@@ -1,8 +1,8 @@
 """Combine the records of several nodes: match each handler with its request, each callback with its message.
 
-Nothing is guessed. Both ends of a connection count its messages. Records with the same connection, name and
-number therefore describe the same message. But a later connection may use the same ports again. If more than
-one match is possible, or if the times contradict each other, the records of the two ends are not matched.
+The publisher and the subscriber both count the messages of a connection. Two records describe one message if
+they have the same connection, name and number. A later connection may use the same ports again. Records are
+therefore not matched if several matches are possible, or if their times contradict each other.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from course_pkg.ros.trace.recording import (
     SpanData,
 )
 
-TransferKey = tuple[str, str, int]  # service or topic, connection, number of the message on it
+TransferKey = tuple[str, str, int]  # (service or topic, connection, number of the message on this connection)
 
 
 @dataclass(frozen=True)
 class NodeRecord:
-    """The record of one process. Two processes may have run the same node, one after the other."""
+    """The record of one process; two processes may have run the same node one after the other."""
 
     node: str
     process: int
@@ -36,7 +36,7 @@ class NodeRecord:
 
 
 class Span:
-    """A span that a process has recorded; it later becomes an event."""
+    """An action that a process has recorded; match_events() turns it into an event."""
 
     def __init__(self, record: NodeRecord, data: SpanData) -> None:
         self.node = record.node
@@ -52,7 +52,7 @@ class Span:
 
 
 class Exchange:
-    """A call with its handler, or a message with its callbacks; an unmatched span has its own exchange."""
+    """A call with its handler, or a message with its callbacks, or one unmatched span."""
 
     def __init__(self, kind: str, first: Span) -> None:
         self.kind = kind
@@ -65,12 +65,12 @@ class Exchange:
         span.exchange = self
 
     def started(self, kind: str) -> float | None:
-        """Return the time when the first span of this kind began, or None without such a span."""
+        """Return the time when the first span of this kind began, or None."""
         return next((each.start for each in self.spans if each.kind == kind), None)
 
     @property
     def finished(self) -> float | None:
-        """Return the time when the caller received the response or an error, or None before this time."""
+        """Return the time when the caller received the response or an error, or None."""
         ends = (self.started(kind) for kind in (RESPONSE, ERROR))
         return next((end for end in ends if end is not None), None)
 
@@ -110,7 +110,7 @@ def _match_calls(spans: Sequence[Span]) -> None:
 
 
 def _within(handler: Span, call: Exchange) -> bool:
-    """Return whether the handler began after the start of the request and before the end of the call."""
+    """Return whether the handler began during the call."""
     requested, finished = call.started(REQUEST), call.finished
     return (requested is None or requested <= handler.start) and (
         finished is None or handler.start <= finished
@@ -136,7 +136,7 @@ def _by_transfer(spans: Iterable[Span]) -> dict[TransferKey, list[Span]]:
 
 
 def _keys(spans: Iterable[Span]) -> dict[Exchange, str]:
-    """Return a key for each exchange, numbered in order of time; an unmatched span has its own exchange."""
+    """Return a key for each exchange, numbered in order of time."""
     numbers = {"call": 0, "message": 0}
     keys: dict[Exchange, str] = {}
     for each in spans:
@@ -148,7 +148,7 @@ def _keys(spans: Iterable[Span]) -> dict[Exchange, str]:
 
 
 def _thread_names(spans: Iterable[Span]) -> dict[tuple[str, int, str], str]:
-    """Name each thread of each node; threads with the same name, such as those of one topic, get a number."""
+    """Return a name for each thread; if several threads have the same name, a number is added to the name."""
     named: dict[tuple[str, str], list[int]] = defaultdict(list)
     threads: dict[tuple[str, int, str], str] = {}
     for each in spans:
@@ -186,7 +186,7 @@ def _event(
 
 
 def _note(data: SpanData, ended: bool) -> str:
-    """Return the note on a span; if the span has not ended, its result is not known."""
+    """Return the note on a span; a span that has not ended has no result yet."""
     if data["kind"] != PUBLISH:
         return data["note"] if ended else ""
     if not ended:

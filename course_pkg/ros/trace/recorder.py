@@ -1,9 +1,10 @@
-"""The recorder of a process: the latest actions of its node, and a count of the callers of its services.
+"""The recorder of a process: the latest actions of its node, and the number of calls of each caller.
 
 Times are values of time.monotonic(). On Linux this is CLOCK_MONOTONIC, one clock for all processes of a
 machine, so the times of several nodes can be compared. Sources: clock_gettime(2) and
-https://docs.python.org/3/library/time.html#time.monotonic ("system-wide"). This module does not import rospy.
-The modules `service_hooks` and `topic_hooks` send their records to it.
+https://docs.python.org/3/library/time.html#time.monotonic ("system-wide").
+
+This module does not import rospy. The modules `service_hooks` and `topic_hooks` call the recorder.
 """
 
 from __future__ import annotations
@@ -29,19 +30,19 @@ from course_pkg.ros.trace.recording import (
     Thread,
 )
 
-SIZE = 20_000  # maximum number of stored spans; they need about 6 MB
-HANDED_OVER = 50  # maximum number of stored records of nodes that have ended
-LONGEST = 300  # maximum number of characters of an error message; a longer message is cut
-# maximum number of callers of a service; each run of a command-line tool is a caller with a new name
+SIZE = 20_000  # The recorder stores at most this many spans, about 6 MB.
+HANDED_OVER = 50  # The recorder stores at most this many records of nodes that have ended.
+LONGEST = 300  # A longer error message is shortened to this number of characters.
+# A service has at most this many stored callers. Each run of a command-line tool is a caller with a new name.
 CALLERS = 100
 
-EXCHANGED = (REQUEST, WAIT, RESPONSE)  # the parts of a call that use the connection
+EXCHANGED = (REQUEST, WAIT, RESPONSE)  # These phases of a call use the connection.
 
-# A connection: the client's numeric address and the server's port. Both ends know these values.
+# (the client's numeric address, the server's port). Client and server both know these values.
 Connection = tuple[Sequence[str | int], int]
-# A message on a connection: the connection, the number of the message, and the node at the other end.
+# (the connection, the number of the message on this connection, the name of the other node)
 Transfer = tuple[Connection, int, str]
-# The caller, its number of calls, the time of the latest call (s since the epoch), and its running calls.
+# (caller, number of calls, time of the latest call in s since the epoch, number of running calls)
 CallerCount = tuple[str, int, float, int]
 
 
@@ -49,7 +50,7 @@ class Span:
     """One action of a node; `end` is None until the action has ended.
 
     `transfers` contains the messages of the action, each with its connection and number. `connections` is the
-    number of connections to which a published message should be sent.
+    number of subscribers to which a published message should be sent.
     """
 
     __slots__ = ("connections", "end", "kind", "name", "note", "peer", "start", "thread", "transfers")
@@ -84,7 +85,7 @@ class Span:
 
 
 class CallPart:
-    """A part of a call; `end` is None until the part has ended."""
+    """A phase of a call, such as the lookup; `end` is None until the phase has ended."""
 
     __slots__ = ("end", "kind", "start")
 
@@ -95,10 +96,10 @@ class CallPart:
 
 
 class CallSpan:
-    """A call with all its parts, stored in one object because recording must not make calls slower.
+    """A call with all its phases.
 
-    `result` is RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number
-    of the request.
+    A call is only one object, because recording must not make calls slower. `result` is RESPONSE or ERROR,
+    and empty until the call has ended. `transfer` is the connection and number of the request.
     """
 
     __slots__ = (
@@ -129,13 +130,13 @@ class CallSpan:
         self.start = time.monotonic()
 
     def begin(self, kind: str) -> CallPart:
-        """Record that a part begins, and return the part; its `end` has to be set later."""
+        """Record that a phase begins, and return its CallPart; the caller has to set its `end` later."""
         part = CallPart(kind)
         self.parts.append(part)
         return part
 
     def finish(self, result: str, note: str = "", *, answered: bool = True) -> None:
-        """Record the call's result now; `answered` is false if the server did not send this result."""
+        """Record the call's result; `answered` is false if the result did not come from the server."""
         part = self.begin(result)
         part.end = part.start
         self.result = result
@@ -143,7 +144,7 @@ class CallSpan:
         self.note = note[:LONGEST]
 
     def as_dicts(self) -> list[SpanData]:
-        """Return all parts as JSON data."""
+        """Return all phases as JSON data."""
         return [self._part_data(part) for part in list(self.parts)]
 
     def _part_data(self, part: CallPart) -> SpanData:
@@ -191,7 +192,7 @@ class CallCounter:
             counted.calls += 1
             counted.last = time.time()
             counted.running += 1
-            callers[caller] = counted  # the latest caller is last
+            callers[caller] = counted  # The dict is sorted, with the latest caller at the end.
             if len(callers) > CALLERS:
                 self._forget_one(callers)
 
@@ -209,9 +210,9 @@ class CallCounter:
             return [(name, each.calls, each.last, each.running) for name, each in reversed(callers.items())]
 
     def _forget_one(self, callers: dict[str, _Count]) -> None:
-        """Forget the caller with the oldest call.
+        """Delete the caller with the oldest call.
 
-        A caller that is waiting is forgotten only if all callers are waiting.
+        A waiting caller is deleted only if all callers are waiting.
         """
         idle = (name for name, each in callers.items() if not each.running)
         callers.pop(next(idle, next(iter(callers))))
@@ -220,15 +221,16 @@ class CallCounter:
 class Recorder:
     """The spans of this process: the last 20,000 ended spans, and all spans that have not ended.
 
-    Several threads may share a recorder, because each step is one atomic operation of a set or a deque.
+    Several threads may use one recorder, because each step is one atomic operation of a set or a deque.
     """
 
     def __init__(self, size: int = SIZE) -> None:
         self.call_counter = CallCounter()
-        self.unsupported: set[str] = set()  # descriptions of what this process cannot record
+        self.unsupported: set[str] = set()  # Each string describes an action that this process cannot record.
         self.current = _Current()
-        self.recordings = 0  # how many recordings this process is making
-        self.handed_over: deque[tuple[str, ProcessRecord]] = deque(maxlen=HANDED_OVER)  # of ended nodes
+        self.recordings = 0  # This is the number of recordings that the process is making.
+        # These are records of nodes that have ended.
+        self.handed_over: deque[tuple[str, ProcessRecord]] = deque(maxlen=HANDED_OVER)
         self.numbers = count(1)
         self._ended: deque[Span | CallSpan] = deque(maxlen=size)
         self._lasting: set[Span | CallSpan] = set()
@@ -247,13 +249,12 @@ class Recorder:
         return call
 
     def end(self, span: Span | CallSpan, note: str = "") -> None:
-        """Record that a span ends; a second end changes nothing."""
+        """Record that a span ends; a second call has no effect."""
         if span.end is None:
             span.end = time.monotonic()
             if note:
                 span.note = note[:LONGEST]
-            # With this order, a reader may briefly find the span in both collections, but always finds it in
-            # at least one.
+            # With this order, a reader always finds the span in at least one of the two collections.
             self._ended.append(span)
             self._lasting.discard(span)
 
@@ -277,7 +278,7 @@ class Recorder:
                 return list(
                     {id(span): span for span in (*self._lasting.copy(), *self._ended.copy())}.values()
                 )
-            except RuntimeError:  # During garbage collection, another thread ran and changed the collections.
+            except RuntimeError:  # Another thread has changed the collections during the copy.
                 continue
 
     def _complete_from(self) -> float:
@@ -291,13 +292,12 @@ def _transfer_data(transfer: Transfer) -> tuple[str, int, str]:
 
 
 def _thread() -> Thread:
-    # The span stores the name and the number of the thread, not the thread object, because a server creates a
-    # new thread for each call.
+    # The span does not store the thread object, because a server creates a new thread for each call.
     thread = threading.current_thread()
     return thread.name, thread.ident or 0
 
 
 @cache
 def recorder() -> Recorder:
-    """Return the only recorder of this process; all hooks write to it."""
+    """Return the only recorder of this process."""
     return Recorder()

@@ -1,4 +1,4 @@
-"""A recording of what nodes did, as plain data: a program can read it without ROS."""
+"""A recording of the actions of nodes, as plain data that a program can read without ROS."""
 
 from __future__ import annotations
 
@@ -6,28 +6,29 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypedDict
 
-LOOKUP = "lookup"  # the caller asks the master for the address of a service
-CONNECT = "connect"  # the caller connects to the server, and both exchange headers
-REQUEST = "request"  # the caller sends the request
-WAIT = "wait"  # the caller is blocked until the response arrives
-RESPONSE = "response"  # the moment when the caller has the response
-# the moment when the call fails; `note` is the error message, and `peer` is its sender, if any
+LOOKUP = "lookup"  # The caller requests the address of a service from the master.
+CONNECT = "connect"  # The caller connects to the server, and they exchange headers.
+REQUEST = "request"  # The caller sends the request.
+WAIT = "wait"  # The caller waits until the response arrives.
+RESPONSE = "response"  # The caller has received the response.
+# The call fails; `note` is the error message, and `peer` is its sender, if any.
 ERROR = "error"
-HANDLER = "handler"  # the server handles a request
-PUBLISH = "publish"  # a message is published
-CALLBACK = "callback"  # a subscriber's callback runs
-MASTER = "master"  # the peer of a lookup
-GET_RECORD = "getCourseRecord"  # the method of a node's slave API that returns a ProcessRecord
-NOBODY = "nobody was connected"  # the note of a message that had no subscriber
+HANDLER = "handler"  # The server handles a request.
+PUBLISH = "publish"  # A node publishes a message.
+CALLBACK = "callback"  # A subscriber's callback runs.
+MASTER = "master"  # The peer of a lookup is the master.
+GET_RECORD = "getCourseRecord"  # This method of a node's slave API returns a ProcessRecord.
+NOBODY = "nobody was connected"  # The note of a message that had no subscriber.
 
 OF_CALLS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER)
-BLOCKED = (LOOKUP, CONNECT, WAIT)  # the parts of a call in which a node waits for another node
+BLOCKED = (LOOKUP, CONNECT, WAIT)  # During these phases of a call, a node waits for another node.
 
-Thread = tuple[str, int]  # the name and the identifier of a thread; a later thread may reuse the identifier
+# The name and the identifier of a thread.
+Thread = tuple[str, int]
 
 
 class SpanData(TypedDict):
-    """A span as JSON data; a transfer is [connection, number, node at the other end]."""
+    """A span as JSON data; a transfer is [connection, number, name of the other node]."""
 
     kind: str
     name: str
@@ -44,8 +45,8 @@ class SpanData(TypedDict):
 class ProcessRecord(TypedDict):
     """The record of a process, as JSON data.
 
-    `clock` is the time when the record was written, and `process` is the process id. The record is complete
-    after the time `complete_from`. `unsupported` lists what this process cannot record.
+    `clock` is the time when the record was written, and `process` is the process id. The record contains all
+    actions after the time `complete_from`. `unsupported` lists the actions that this process cannot record.
     """
 
     clock: float
@@ -57,12 +58,12 @@ class ProcessRecord(TypedDict):
 
 @dataclass(frozen=True)
 class Event:
-    """One action of a node. `name` is the service or topic, and `peer` is the other node.
+    """One action of a node.
 
-    `start` and `end` are in s since the start of the recording. `start` is negative if the event began before
-    the recording. `end` is None if the event had not ended when the recording ended. `key` is the same for
-    all parts of one call, and for a message and its callbacks. `note` describes how a call failed, or why a
-    message did not reach all subscribers.
+    `name` is the service or topic, and `peer` is the other node. `start` and `end` are in s since the start
+    of the recording; `start` is negative for an earlier event. `end` is None if the event was running at the
+    end of the recording. All events of one call have the same `key`; a message and its callbacks also have
+    the same `key`. `note` describes how a call failed, or why a message did not reach all subscribers.
     """
 
     kind: str
@@ -77,17 +78,17 @@ class Event:
 
     @property
     def open(self) -> bool:
-        """Whether the event had not ended when the recording ended."""
+        """Whether the event was still running at the end of the recording."""
         return self.end is None
 
 
 @dataclass
 class Recording:
-    """The events of all nodes on the graph during a block; the recording is empty until the block has ended.
+    """The events of all nodes on the graph during a `with` block; empty until the block has ended.
 
     `events` are sorted by their start. `nodes` are the nodes with a record. `unrecorded` gives the reason for
-    each node without a record. `notes` contains sentences about all other missing data. `length` is in s, and
-    `node` is the kernel's node.
+    each node without a record. `notes` describes all other missing data. `length` is in s, and `node` is the
+    kernel's node.
     """
 
     node: str = ""
@@ -98,7 +99,7 @@ class Recording:
     length: float = 0.0
 
     def of(self, *kinds: str, name: str = "", node: str = "") -> tuple[Event, ...]:
-        """Return the events of these kinds, such as "wait"; if no kind is given, return events of all kinds.
+        """Return the events of these kinds, such as "wait", or of all kinds.
 
         `name` and `node` select the events of one service or topic, and of one node.
         """

@@ -1,9 +1,10 @@
 """The recorder's hooks for service calls, in rospy's clients and servers.
 
 A call is identified by its connection (the TCP ports) and by its number on this connection. Client and server
-count the calls in the same order, because TCP does not lose or reorder data. rospy has no hooks for calls, so
-this module replaces a few methods of rospy. If these methods differ in a release of rospy, this module
-changes nothing.
+count the calls in the same order, because TCP does not lose or reorder data.
+
+rospy has no hooks for calls, so this module replaces a few methods of rospy. If these methods differ in a
+release of rospy, the module changes nothing.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ R = TypeVar("R")
 
 
 def hook_services() -> bool:
-    """Start to record this process's calls and handlers; return whether this is possible."""
+    """Record this process's calls and handlers from now on; return whether this is possible."""
     hooks = (
         Hook(ServiceProxy, "call", ("self", "args", "kwds"), _recording_call, uses=[TRANSPORT]),
         Hook(ServiceProxy, "_get_service_uri", ("self", "request"), _recording_lookup),
@@ -48,14 +49,14 @@ def hook_services() -> bool:
 def service_transport(protocol: TCPROSTransportProtocol, name: str) -> TCPROSTransport:
     """Return a new client connection of rospy's current class.
 
-    If the hooks are installed, this class records the calls.
+    If the hooks are installed, the connection records the calls.
     """
     made: TCPROSTransport = getattr(tcpros_service, TRANSPORT)(protocol, name)
     return made
 
 
 class RecordedCall:
-    """Records the block of a `with` statement as a call of this thread."""
+    """Records a `with` block as a call of this thread."""
 
     __slots__ = ("_service", "_span")
 
@@ -75,7 +76,7 @@ class RecordedCall:
 
 
 class RecordedLookup:
-    """Records the block of a `with` statement as the lookup of the service's address at the master."""
+    """Records a `with` block as the lookup of a service's address at the master."""
 
     __slots__ = ("_part",)
 
@@ -89,18 +90,18 @@ class RecordedLookup:
 
 
 class RecordedTransport(TCPROSTransport):
-    """One end of a service's connection; it records requests and responses."""
+    """A client's or server's connection that records requests and responses."""
 
     serving = False
     connection: Connection | None = None
     exchanges = 0
-    handling: Span | None = None  # in a server: the span of the handler that is running
+    handling: Span | None = None  # In a server, this is the span of the handler that is running.
 
     def set_socket(self, sock: socket.socket, endpoint_id: str) -> None:
         """Use a connection that the server has accepted; clients do not call this method."""
         TCPROSTransport.set_socket(self, sock, endpoint_id)
         self.serving = True
-        with suppress(OSError):  # the client may already have closed the connection
+        with suppress(OSError):  # The client may have closed the connection.
             self.connection = (sock.getpeername(), self.local_endpoint[1])
 
     def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
@@ -140,7 +141,7 @@ class RecordedTransport(TCPROSTransport):
             received = TCPROSTransport.receive_once(self)
         except BaseException as error:
             part.end = time.monotonic()
-            if isinstance(error, rospy.ServiceException):  # the server answered with an error message
+            if isinstance(error, rospy.ServiceException):  # The server has sent an error message.
                 call.finish(ERROR, str(error))
             raise
         part.end = time.monotonic()
@@ -148,7 +149,7 @@ class RecordedTransport(TCPROSTransport):
         return received
 
     def write_data(self, data: bytes) -> bool:
-        """Send bytes; in a server, they are a response, so the handler has ended."""
+        """Send bytes; in a server, the bytes are a response, so the handler has ended."""
         if self.handling is not None:
             recorder().end(self.handling, _error_message(data))
         return bool(TCPROSTransport.write_data(self, data))
@@ -190,20 +191,21 @@ def _recording_handler(
             return method(self, transport, request)
         finally:
             transport.handling = None
-            recorder().end(span, NO_ANSWER)  # changes nothing if an answer has already ended the span
+            # If a response has already ended the span, this call has no effect.
+            recorder().end(span, NO_ANSWER)
             recorder().call_counter.end(self.resolved_name, caller)
 
     return _handle_request
 
 
 def _begin_part(call: CallSpan | None, kind: str) -> CallPart:
-    """Return a part that begins now; if `call` is None, the part is not stored in a record."""
+    """Return a CallPart that begins now; if `call` is None, the CallPart is not recorded."""
     return CallPart(kind) if call is None else call.begin(kind)
 
 
 def _error_message(data: bytes) -> str:
-    """Return the error message in a server's answer: a byte 0, the length (4 bytes), and then the message.
+    """Return the error message of a server's response, or "" if the response is not an error.
 
-    Return "" if the answer does not start with the byte 0. Source: http://wiki.ros.org/ROS/TCPROS
+    An error is a byte 0, the length (4 bytes), and the message. Source: http://wiki.ros.org/ROS/TCPROS
     """
     return data[5:].decode("utf-8", "replace") if data[:1] == b"\0" else ""

@@ -1,10 +1,11 @@
 """The recorder's hooks for messages, in rospy's publishers and subscribers.
 
-A message is identified by its connection (the TCP ports) and by its number on this connection. A publisher's
-queue may drop messages before they are sent. The publisher therefore counts the messages that it sends. A
-subscriber may drop messages after they have arrived, so it counts the messages that arrive. rospy has no
-hooks for messages, so this module replaces a few methods of rospy. If these methods differ in a release of
-rospy, this module changes nothing.
+A message is identified by its connection (the TCP ports) and by its number on this connection. The publisher
+counts the messages that it sends, because its queue may drop messages before they are sent. The subscriber
+counts the messages that arrive, because its queue may drop messages after they have arrived.
+
+rospy has no hooks for messages, so this module replaces a few methods of rospy. If these methods differ in a
+release of rospy, the module changes nothing.
 """
 
 from __future__ import annotations
@@ -29,8 +30,9 @@ from course_pkg.ros.trace.recorder import Connection, Span, Transfer, recorder
 from course_pkg.ros.trace.recording import CALLBACK, PUBLISH
 
 UNSUPPORTED = "messages: this rospy publishes and receives them in another way"
-LEFT_OUT = "/rosout"  # Many calls write log messages, and these would fill a recording.
-ARRIVED = "arrived_by_course"  # an attribute of a connection's protocol: the number of arrived messages
+LEFT_OUT = "/rosout"  # Log messages would fill a recording.
+# This attribute of a connection's protocol is the number of messages that have arrived.
+ARRIVED = "arrived_by_course"
 TO_ONE = "sent to one new subscriber alone"
 
 Args = TypeVar("Args")
@@ -38,7 +40,7 @@ R = TypeVar("R")
 
 
 def hook_topics() -> bool:
-    """Start to record this process's published and received messages; return whether this is possible."""
+    """Record this process's published and received messages from now on; return whether this is possible."""
     hooks = (
         Hook(TCPROSSub, "read_messages", ("self", "b", "msg_queue", "sock"), _counting_messages),
         Hook(
@@ -70,7 +72,7 @@ class TaggedBytes(bytes):
 
 
 class TaggingBuffer(BytesIO):
-    """A publisher's buffer; its contents carry the span of the message that is being published."""
+    """A publisher's buffer; it stores the span of the message that is being published."""
 
     span: Span | None = None
 
@@ -85,7 +87,7 @@ class TaggingBuffer(BytesIO):
 
 
 class RecordedTopicTransport(TCPROSTransport):
-    """One end of a topic's connection; it counts the messages on the connection."""
+    """A publisher's or subscriber's connection that counts its messages."""
 
     connection: Connection | None = None
     written = 0
@@ -93,7 +95,7 @@ class RecordedTopicTransport(TCPROSTransport):
     def set_socket(self, sock: socket.socket, endpoint_id: str) -> None:
         """Use a connection that the publisher has accepted."""
         TCPROSTransport.set_socket(self, sock, endpoint_id)
-        with suppress(OSError):  # the subscriber may already have closed the connection
+        with suppress(OSError):  # The subscriber may have closed the connection.
             self.connection = (sock.getpeername(), self.local_endpoint[1])
 
     def connect(self, dest_addr: str, dest_port: int, endpoint_id: str, timeout: float | None = None) -> None:
@@ -106,8 +108,7 @@ class RecordedTopicTransport(TCPROSTransport):
     def write_data(self, data: bytes) -> bool:
         """Send a message.
 
-        The transfer is recorded before the message is sent, because a subscriber may receive the message
-        immediately.
+        The transfer is recorded first, because a subscriber may receive the message immediately.
         """
         if not isinstance(data, TaggedBytes) or self.connection is None:
             return bool(TCPROSTransport.write_data(self, data))
@@ -127,7 +128,7 @@ class Batch:
     __slots__ = ("_connection", "_first", "_index", "_msgs", "_peer")
 
     def __init__(self, msgs: list[genpy.Message], connection: RecordedTopicTransport) -> None:
-        protocol = connection.protocol  # None if the connection was closed in the meantime
+        protocol = connection.protocol  # The protocol is None if the connection was closed.
         self._peer = str(connection.callerid_pub)
         self._connection = connection.connection if protocol is not None else None
         self._first = getattr(protocol, ARRIVED, 0) - len(msgs) + 1 if protocol is not None else 0
@@ -140,8 +141,7 @@ class Batch:
             if self._msgs[index] is msg and self._connection is not None:
                 self._index = index
                 return [(self._connection, self._first + index, self._peer)]
-        # This callback is also subscribed to a second topic, and the message is a latched message of that
-        # topic.
+        # The callback also has a second topic, and this message is a latched message of the second topic.
         return []
 
 
@@ -153,7 +153,7 @@ class _Current(threading.local):
 
 @cache
 def _current() -> _Current:
-    """Return the only _Current of this process; all hooks write to it."""
+    """Return the only _Current of this process."""
     return _Current()
 
 
@@ -184,7 +184,7 @@ def _counting_messages(
     method: Callable[[TCPROSSub, BytesIO, list[genpy.Message], socket.socket], R],
 ) -> Callable[[TCPROSSub, BytesIO, list[genpy.Message], socket.socket], R]:
     def read_messages(self: TCPROSSub, b: BytesIO, msg_queue: list[genpy.Message], sock: socket.socket) -> R:
-        arrived = _whole_messages(b)  # counted before the subscriber's queue can drop messages
+        arrived = _whole_messages(b)  # Count the messages before the subscriber's queue can drop messages.
         result = method(self, b, msg_queue, sock)
         setattr(self, ARRIVED, getattr(self, ARRIVED, 0) + arrived)
         return result
@@ -214,7 +214,7 @@ def _recording_callback(
     ) -> R:
         if self.resolved_name == LEFT_OUT:
             return method(self, msg, cb, cb_args)
-        batch = _current().batch  # None if a new callback receives an older, latched message
+        batch = _current().batch  # The batch is None if a new callback receives an older, latched message.
         transfers = batch.transfers(msg) if batch is not None else []
         peer = transfers[0][2] if transfers else ""
         span = recorder().begin(CALLBACK, self.resolved_name, peer, transfers)
@@ -231,7 +231,7 @@ def _unchanged(method: Method) -> Method:
 
 
 def _whole_messages(b: BytesIO) -> int:
-    """Return the number of complete messages; each is its length (4 bytes) and then that many bytes."""
+    """Return the number of complete messages; each message begins with its length (4 bytes)."""
     count, offset, end = 0, 0, b.tell()
     with b.getbuffer() as view:
         while offset + 4 <= end:

@@ -1,7 +1,7 @@
 """The bytes of a real call, recorded between a client and a server.
 
-The lookup and the connection go through relays (relay.py), which forward all bytes. rospy's transport is the
-client.
+The lookup and the connection go through relays (relay.py) that forward all bytes, and rospy's transport is
+the client.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ from course_pkg.ros.protocol.xmlrpc import address_of
 from course_pkg.ros.wire.relay import Relay, RelayedConnection
 from course_pkg.types import Plain, ServiceClass, ServiceType, service_type
 
-TYPE_TIMEOUT = 2.0  # maximum time in s until a server answers with its type
+TYPE_TIMEOUT = 2.0  # A server has to respond with its type within this time in s.
 
 
 @dataclass
 class Wire:
-    """The recorded bytes of a call: the lookup at the master, if there was one, and the connections.
+    """The recorded bytes of a call: the lookup at the master, if any, and the connections.
 
-    `response` or `error` is the result of the call. `skipped` is the number of connections whose bytes were
-    not stored.
+    `response` or `error` is the result of the call. `skipped` is the number of connections with no stored
+    bytes.
     """
 
     service: str
     lookup: RelayedConnection | None = None
-    uri: str = ""  # the answer of the master: rosrpc://HOST:PORT
+    uri: str = ""  # The master's response to the lookup: rosrpc://HOST:PORT
     connections: Sequence[RelayedConnection] = ()
     response: genpy.Message | None = None
     error: str = ""
@@ -115,7 +115,7 @@ def _master_relay() -> Relay:
 
 
 def _look_up(name: str, relay: Relay, wire: Wire, timeout: float) -> None:
-    """Look up the service at the master through a relay, with this node's name."""
+    """Look up the service at the master through a relay, with the name of this process's node."""
     master = MasterClient(f"http://localhost:{relay.port}", caller=str(rospy.get_name()))
     try:
         wire.uri = master.lookup_service(name, timeout) or ""

@@ -1,6 +1,6 @@
 """A relay that forwards TCP connections and stores their bytes, to show the bytes of a real call.
 
-The relay is between a client and a server. It does not change the bytes, and it does not interpret them.
+The relay is between a client and a server. The relay does not change or interpret the bytes.
 """
 
 from __future__ import annotations
@@ -13,13 +13,14 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from types import TracebackType
 
-# maximum number of bytes stored for each direction of a connection; further bytes are only forwarded and
-# counted
+# At most this number of bytes is stored for each direction of a connection. Further bytes are only forwarded
+# and counted.
 MOST = 4 << 20
-CONNECTIONS = 50  # maximum number of stored connections; further connections are only forwarded and counted
-CONNECT_TIMEOUT = 5.0  # s
-CLOSE_TIMEOUT = 2.0  # maximum time in s until open connections have ended
-CHUNK = 65536  # bytes; the maximum amount that is forwarded at a time
+# At most this number of connections is stored. Further connections are only forwarded and counted.
+CONNECTIONS = 50
+CONNECT_TIMEOUT = 5.0  # A connection to the server has to be open within this time in s.
+CLOSE_TIMEOUT = 2.0  # Wait up to this time in s for the end of open connections.
+CHUNK = 65536  # At most this number of bytes is forwarded at a time.
 
 
 @dataclass(frozen=True)
@@ -33,13 +34,14 @@ class Chunk:
 
 @dataclass
 class RelayedConnection:
-    """One connection and its bytes, in the order in which they arrived."""
+    """One connection and its bytes, in the order of their arrival."""
 
-    opened: float  # a time of time.monotonic()
+    opened: float  # The connection was opened at this time of time.monotonic().
     chunks: list[Chunk] = field(default_factory=list)
-    closed_by: str = ""  # the end that closed first, "client" or "server"; empty while the connection is open
-    refused: str = ""  # the reason if the server could not be reached
-    lost: int = 0  # the number of bytes that were forwarded but not stored
+    # This is "client" or "server" for the program that closed first, and empty while the connection is open.
+    closed_by: str = ""
+    refused: str = ""  # This is the error message if the server could not be reached.
+    lost: int = 0  # This number of bytes was forwarded but not stored.
 
     def data(self, *, from_client: bool) -> bytes:
         """Return all stored bytes of one direction."""
@@ -61,7 +63,7 @@ class Relay:
 
     def __init__(self, host: str, port: int) -> None:
         self.target = (host, port)
-        self.skipped = 0  # the number of connections that were forwarded but not stored
+        self.skipped = 0  # This number of connections was forwarded but not stored.
         self._connections: list[RelayedConnection] = []
         self._open: set[socket.socket] = set()
         self._threads: list[threading.Thread] = []
@@ -73,7 +75,7 @@ class Relay:
 
     @property
     def connections(self) -> Sequence[RelayedConnection]:
-        """The connections so far, in the order in which they were opened."""
+        """The connections so far, in the order of their start."""
         return tuple(self._connections)
 
     def wait(self, timeout: float = CLOSE_TIMEOUT) -> None:
@@ -83,11 +85,11 @@ class Relay:
             thread.join(max(deadline - time.monotonic(), 0))
 
     def close(self) -> None:
-        """Close the port and every connection; a second close changes nothing."""
+        """Close the port and every connection; a second call has no effect."""
         with self._lock:
             self._closed = True
             for sock in [self._listener, *self._open]:
-                with suppress(OSError):  # the socket may already be closed
+                with suppress(OSError):  # The socket may be closed.
                     sock.shutdown(socket.SHUT_RDWR)
         self._listener.close()
         deadline = time.monotonic() + CLOSE_TIMEOUT
@@ -109,7 +111,7 @@ class Relay:
         thread.start()
 
     def _accept(self) -> None:
-        with suppress(OSError):  # the listener was closed
+        with suppress(OSError):  # The listener was closed.
             while True:
                 client, _ = self._listener.accept()
                 connection = RelayedConnection(time.monotonic())
@@ -156,9 +158,9 @@ class Relay:
 def _copy(
     source: socket.socket, sink: socket.socket, from_client: bool, connection: RelayedConnection
 ) -> None:
-    """Forward the bytes from `source` to `sink`, and then the end of the stream."""
+    """Forward the bytes from `source` to `sink`; when the stream ends, close it at `sink` too."""
     kept = 0
-    # After a reset of the connection, or a close() of the relay, the connection ends without an error.
+    # A reset connection, or a connection that close() ended, is not an error.
     with suppress(OSError):
         while data := source.recv(CHUNK):
             kept += len(data)

@@ -41,7 +41,7 @@ def shown(text: str) -> str:
 
 
 def answer(lab: Locator, fault: Fault) -> None:
-    """Select the right diagnosis and remedy of a fault, and click Check."""
+    """Select the right diagnosis and the right remedy of a fault, and click Check."""
     lab.get_by_label(shown(fault.diagnosis)).check()
     lab.get_by_label(shown(fault.remedy)).check()
     lab.get_by_role("button", name="Check").click()
@@ -66,7 +66,7 @@ def form(shared: Page) -> Locator:
 
 
 def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
-    """At first, the panel shows only the symptom. Each answer then gets a reason."""
+    """At first, the panel shows only the symptom. After each answer, the panel shows a reason."""
     picture(form, "breakit-opened")
     begin(form, "stale")
     expect(form.get_by_label("What it printed")).to_contain_text("[Errno 111] Connection refused")

@@ -62,7 +62,7 @@ PLOT = "plt.plot([0, 1], [1.5, 2.5])\nplt.xlabel('time (s)')\nplt.show()"
 
 
 def test_the_graph_panel_follows_the_graph(lab: Lab, lab_page: Page) -> None:
-    """The panel shows a service that starts later, and a click on it shows its type."""
+    """The panel shows a service that starts later, and a click shows the type of this service."""
     later = f"import threading\nthreading.Timer(2, lambda: exec({SERVE!r}, globals())).start()"
     with running_notebook(lab_page, lab, "graph", GRAPH, "GraphPanel(node=node)", later):
         graph = panel(lab_page, "Graph panel")
@@ -97,7 +97,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
 
 
 def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
-    """When all cases are decided, the reasons appear, and later choices do not count."""
+    """When all cases are decided, the panel shows the reasons, and later choices do not count."""
     with running_notebook(lab_page, lab, "choose", CHOICES, CHOOSE, 'predictions("03")', PLOT):
         choices = panel(lab_page, "Choices")
         first = choices.get_by_role("radiogroup", name="Joint values")
@@ -122,7 +122,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         expect(panel(lab_page, "Predictions").get_by_text("1 of 2 fit", exact=True)).to_be_visible()
         choices = panel(lab_page, "Choices")
         choices.get_by_role("button", name="Choose again").click()
-        # Until the kernel answers, the old choices are still checked, and check() would do nothing.
+        # Until the kernel answers, the old choices are still selected, and check() would have no effect.
         expect(choices.get_by_text("2 of 2 to decide.")).to_be_visible()
         for name, option in {"Joint values": "a topic", "One picture": "a service"}.items():
             choices.get_by_role("radiogroup", name=name).get_by_label(option).check()

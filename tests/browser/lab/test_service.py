@@ -38,7 +38,7 @@ def serving(page: Page, lab: Lab, node: str) -> AbstractContextManager[None]:
 
 @pytest.fixture(scope="module")
 def shared(lab: Lab, context: BrowserContext) -> Iterator[Page]:
-    """Open one notebook for all tests that change neither its cells nor its kernel."""
+    """Open one notebook for all tests that change neither the cells nor the kernel."""
     with new_page(context) as page, serving(page, lab, "shared"):
         yield page
 
@@ -145,7 +145,7 @@ def test_a_deadline_ends_a_hanging_call(form: Locator) -> None:
 
 
 def test_everything_by_keyboard(form: Locator) -> None:
-    """With the keyboard only, a student makes a call and repeats it from the history."""
+    """With the keyboard only, a student makes a call and repeats the call from the history."""
     page = form.page
     form.get_by_label("Service", exact=True).focus()
     for text in ("2", "3", "4"):
@@ -197,7 +197,7 @@ def test_a_copy_button_copies(form: Locator) -> None:
 
 
 def test_the_end_of_the_kernel_is_reported(own_form: Locator, lab_page: Page) -> None:
-    """When the kernel is shut down, the panel shows this and makes no more calls."""
+    """When the kernel is shut down, the panel shows a message and makes no more calls."""
     form = own_form
     form.get_by_role("button", name="Call").click()
     expect(answer(form, "area")).to_have_text("0.0")

@@ -17,12 +17,12 @@ from tests.support import eventually
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(900)]
 
-# One block of commands may take at most this many seconds; catkin_make takes 3 s on an idle machine.
+# One block of commands may take at most this many seconds.
 BUILDING = 240.0
 LAST = "## 13."  # From this section on, the student works without a lab sheet.
 SERVER = "rosrun my_geometry server.py"
 SERVED = "until rosservice list | grep -q getGeometry; do sleep 0.2; done"
-# These functions run in the page. The functions open a terminal and return the text of a terminal.
+# These functions run in the page, open a terminal, and return the text of a terminal.
 OPEN = """async () => {
   const main = await window.jupyterapp.commands.execute("terminal:create-new");
   await main.content.ready;
@@ -48,7 +48,7 @@ class Terminal:
 
     @property
     def text(self) -> str:
-        """The whole text of the terminal, with the lines that are scrolled away."""
+        """The whole text of the terminal, not only the visible lines."""
         text: str = self._page.evaluate(TEXT, self._number)
         return text
 

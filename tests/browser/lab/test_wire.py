@@ -38,7 +38,7 @@ def lit(wire: Locator) -> str:
 
 
 def test_a_field_and_its_bytes_belong_together(page: Page, tmp_path: Path) -> None:
-    """When the pointer is on a value, the view highlights the bytes of this value, and vice versa."""
+    """When the pointer is on a value, the view highlights the value's bytes."""
     wire = show(page, tmp_path, WireView("/getGeometry", **SIDES))
     expect(wire.locator("[aria-current]")).to_contain_text("Request")
     pieces(wire, "width").hover()
@@ -82,7 +82,7 @@ def test_the_whole_exchange_is_a_table(page: Page, tmp_path: Path) -> None:
 
 
 def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
-    """The view shows the error message of a refused call and the header of a server with another MD5."""
+    """If a call is refused, the view shows the error message or the server's header."""
     wire = show(page, tmp_path, WireView("/getGeometry", **{**SIDES, "length": -1.0}))
     expect(wire.get_by_text("The call failed")).to_be_visible()
     wire.get_by_role("button", name=re.compile("Error$")).click()

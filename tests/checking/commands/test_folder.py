@@ -33,5 +33,5 @@ def test_wait_for_a_graph_ends(master: PrivateMaster) -> None:
 
 
 def test_master_may_start_during_the_wait() -> None:
-    """The check waits for roslaunch to start a master."""
+    """The check also waits if roslaunch has not started the master yet."""
     assert not becomes(f"http://localhost:{closed_port()}", lambda _: True, within=0.2)

@@ -91,7 +91,7 @@ def test_pwd_is_the_folder(bench: CommandFolders) -> None:
 
 
 def test_stop_ends_a_running_command(bench: CommandFolders) -> None:
-    """stop() interrupts the command like Ctrl-C, and returns its output."""
+    """If a command is stopped, stop() returns the output of the command."""
     script = "trap 'echo bye; exit 0' INT; echo hello; echo > ready; while :; do sleep 0.01; done"
     folder = bench.folder([], {})["folder"]
     process = bench.start(["bash", "-c", script], folder)["process"]

@@ -18,7 +18,7 @@ def ask(namespace: dict[str, Value], folder: Path | None = None, **question: Val
 
 
 def call(namespace: dict[str, Value], *args: Value, within: float = 1.0) -> Reply:
-    """Return the reply to a call of `f`."""
+    """Return the reply to a request that calls the function `f`."""
     return ask(namespace, do="call", name="f", args=list(args), kwargs={}, within=within)
 
 
@@ -39,7 +39,7 @@ def test_error_is_a_result(error: BaseException, kind: str) -> None:
 
 
 def test_an_interrupt_is_passed_on() -> None:
-    """A KeyboardInterrupt is raised in the notebook."""
+    """An interrupt raises KeyboardInterrupt in the notebook."""
 
     def f() -> None:
         raise KeyboardInterrupt
@@ -98,7 +98,7 @@ def test_the_traceback_of_a_handler_is_kept_once() -> None:
 
 
 def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
-    """If the wrong number of parameters prevents a handler's start, there is no traceback."""
+    """If a handler has a wrong number of parameters, its error has no traceback."""
     agent = KernelAgent({})
     try:
         logging.getLogger("rosout").error("Error processing request: takes 0 positional arguments")
@@ -135,7 +135,7 @@ def test_a_file_can_be_a_stub(tmp_path: Path) -> None:
 
 
 def test_missing_file_comes_with_a_similar_name(tmp_path: Path) -> None:
-    """If a file is missing, the reply contains a file name that differs only in upper and lower case."""
+    """If the name of a file differs only in upper and lower case, the reply contains the right name."""
     (tmp_path / "lamp.srv").write_text("---\n")
     assert ask({}, tmp_path, do="look", name="file:Lamp.srv") == {
         "answer": 1,

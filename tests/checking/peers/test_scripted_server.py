@@ -1,4 +1,4 @@
-"""A scripted server follows its script and then restores the previous server."""
+"""A scripted server sends prepared responses and then restores the previous server."""
 
 from __future__ import annotations
 

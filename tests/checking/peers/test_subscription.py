@@ -106,7 +106,7 @@ def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
 
 @pytest.mark.parametrize("publish", ["", "p.publish(1.5)"])
 def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) -> None:
-    """The report contains the wrong type, both before and after the first message."""
+    """The report contains the wrong type, even before the first message."""
     student.run(f"p = rospy.Publisher('/level', Float64, queue_size=10, latch=True); {publish}")
     _, seen, hint = check.run("result = broken(subscribe('/level'))")
     assert seen == "std_msgs/Float64"

@@ -70,7 +70,7 @@ def test_a_notebook_of_another_chapter_has_a_message(tmp_path: Path) -> None:
 
 
 def test_a_zip_inside_the_submission_has_a_message(tmp_path: Path) -> None:
-    """A zip file inside the submission is not opened, and the message says this."""
+    """A zip file inside the submission is not opened, and the results contain a message."""
     inside = zipped(tmp_path / "work.zip", {NAMES["05"]: blank()}).read_bytes()
     assert "archive" in str(graded(tmp_path / "root", {"work.zip": inside})["output"])
 

@@ -1,4 +1,4 @@
-"""Deadlines, extensions, and the choice of the counted attempt."""
+"""Tests of deadlines and extensions, and of the choice between several attempts."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def test_without_a_deadline_nothing_is_late() -> None:
 
 
 def test_the_last_attempt_by_time(tmp_path: Path) -> None:
-    """The last attempt is selected by its time, and a note names the other attempt."""
+    """The last attempt is selected by its time, and a note contains the other attempt."""
     content = raw(handed_out())
     source = folder(tmp_path, {f"s01/a/{FILE}": content, f"s01/b/{FILE}": content})
     (given,) = submissions(source)

@@ -28,7 +28,7 @@ BERLIN = zone_of("Europe/Berlin")
         ("Sunday, 1 November 2026, 23:59", "2026-11-01T22:59"),
         ("Sunday, 1 November 2026, 12:05\u202fAM", "2026-10-31T23:05"),
         ("1 Nov 2026, 12:05 p.m.", "2026-11-01T11:05"),
-        # On this day the local time 02:30 occurs twice, and the parser returns the first of the two times.
+        # The local time 02:30 occurs twice on this day, and the result is the first of the two times.
         ("2026-10-25 02:30", "2026-10-25T00:30"),
     ],
 )
@@ -62,7 +62,7 @@ def test_zones() -> None:
 
 
 def test_a_report_shows_the_offset() -> None:
-    """The text of a time contains its offset from UTC."""
+    """The text for a time contains the offset from UTC."""
     moment = moment_of("2026-11-01 23:59", BERLIN)
     assert moment is not None
     assert shown(moment) == "2026-11-01 23:59 +01:00"

@@ -101,7 +101,7 @@ def test_nbgrader(tmp_path: Path, outer: str) -> None:
 
 
 def test_a_table_of_the_instructor(tmp_path: Path) -> None:
-    """A row for a file replaces a row for a chapter, and a row for a chapter replaces a row for a student."""
+    """The row for a file is used first, then the row for a chapter, then the row for a student."""
     source = folder(tmp_path / "in", {f"{name}/{FILE}": NOTEBOOK for name in ("s01", "s02", "s03", "s04")})
     table = tmp_path / "times.csv"
     table.write_text(
@@ -115,7 +115,7 @@ def test_a_table_of_the_instructor(tmp_path: Path) -> None:
 
 
 def test_the_table_of_collected_files(tmp_path: Path) -> None:
-    """times.csv next to the students' folders is used, and the latest file of a submission counts."""
+    """The table times.csv next to the students' folders contains the times."""
     source = folder(
         tmp_path, {"s01/07_build_a_package.ipynb": raw(handed_out("07")), f"s02/{FILE}": NOTEBOOK}
     )

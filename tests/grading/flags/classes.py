@@ -19,7 +19,7 @@ def solutions(chapter: str) -> Mapping[str, str]:
 
 
 def submission(student: str, answers: Mapping[str, str], chapter: str = "05", origin: str = "") -> Submission:
-    """Return a submission with these answers; the other exercises are blank."""
+    """Return a submission with these answers, and with blank cells for all other exercises."""
     notebook = reference(chapter)
     for cell in code_cells(notebook):
         if part := exercise_of(cell):
@@ -28,7 +28,7 @@ def submission(student: str, answers: Mapping[str, str], chapter: str = "05", or
 
 
 def flags_of(kinds: Sequence[str], *submissions: Submission) -> dict[str, tuple[Flag, ...]]:
-    """Return the flags of these kinds for each student with flags."""
+    """For each student with flags, return the flags of the given kinds."""
     grades = [Grade(each.student, each.chapter, (), origin=each.origin) for each in submissions]
     flagged = with_flags(grades, submissions, kinds)
     return {grade.student: grade.flags for grade in flagged if grade.flags}

@@ -75,7 +75,7 @@ ORDINARY = [
 
 @pytest.fixture(scope="module")
 def found() -> dict[str, set[str]]:
-    """Return the kinds of flags for each line; each line is the first line of an answer to 05.1."""
+    """Return the kinds of flags for each line that the tests use."""
     lines = [*(line for line, _ in LINES), *ORDINARY]
     handed_in = [submission(line, {"05.1": ANSWER.format(line=line)}) for line in lines]
     flags = flags_of(SEARCHED, *handed_in)
@@ -110,8 +110,8 @@ def test_the_solutions_have_no_flags() -> None:
 
 
 def test_right_example_answers() -> None:
-    """Only one right example answer gets a flag, because this answer runs the command `rosservice find`."""
-    # The keys are a chapter and a number; the values are answers by part.
+    """Of all right example answers, only the answer with the command `rosservice find` gets a flag."""
+    # A key is a chapter and a number, and a value is a student's answers by part.
     students: dict[tuple[str, int], dict[str, str]] = {}
     for answer in every_answer():
         if answer.right:
@@ -137,7 +137,7 @@ def test_a_program_in_a_package() -> None:
 
 
 def test_programs_that_are_hard_to_read() -> None:
-    """The search continues after deep nesting, long chains and text that is not Python."""
+    """The search also works for deep nesting, long chains and text that is not Python."""
     sources = [
         "x = " + "(" * 90 + ")" * 90,
         "x = " + "-" * 5000 + "1",

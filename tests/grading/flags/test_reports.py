@@ -98,7 +98,7 @@ def test_the_option() -> None:
 
 
 def test_the_grade_of_an_earlier_run_keeps_its_flags() -> None:
-    """A grade from an earlier run without a new submission still has its flags."""
+    """If a grade has no new submission, its flags do not change."""
     flag = Flag("files", "05.1", WORDS)
     grade = replace(class_of(1)[0], flags=(flag,))
     assert with_flags([grade], [], ["files"]) == [grade]

@@ -1,4 +1,4 @@
-"""Packages in submissions."""
+"""Tests of packages in submissions."""
 
 from __future__ import annotations
 

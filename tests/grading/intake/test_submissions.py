@@ -1,4 +1,4 @@
-"""The layouts of submissions, and unusable files."""
+"""Tests of the layouts of submissions, and of unusable files."""
 
 from __future__ import annotations
 
@@ -130,14 +130,14 @@ def test_only_the_given_chapters_are_graded(tmp_path: Path, five: bytes, six: by
     "name", ["mine.ipynb", "Untitled.ipynb", "06_write_a_client.ipynb", "05 (1).ipynb", "5.ipynb.txt"]
 )
 def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> None:
-    """The exercises in a renamed notebook identify its chapter."""
+    """A renamed notebook belongs to the chapter of its exercises."""
     [found] = submissions(folder(tmp_path, {f"s01/{name}": five}))
     assert (found.chapter, found.problem) == ("05", "")
     assert any("chapter 06" in note for note in found.notes) == name.startswith("06")
 
 
 def test_notebook_without_exercises(tmp_path: Path) -> None:
-    """The ids of other cells identify the chapter of a notebook without exercises."""
+    """A notebook without exercises belongs to the chapter with the ids of its other cells."""
     notebook = handed_out("05")
     notebook["cells"] = [cell for cell in notebook["cells"] if "course" not in cell["metadata"]]
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(notebook)}))
@@ -205,14 +205,14 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
 def test_a_notebook_of_this_edition_under_a_name_of_the_first(
     tmp_path: Path, chapter: RenumberedChapter
 ) -> None:
-    """A notebook with exercises of this edition is graded under its old file name."""
+    """A notebook with exercises of this edition is graded, even under an old file name."""
     content = raw(handed_out(chapter.now))
     source = folder(tmp_path, {f"s01/{chapter.name}.ipynb": content, "s02/mine.ipynb": content})
     assert _kept(submissions(source)) == [("s01", chapter.now), ("s02", chapter.now)]
 
 
 def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
-    """The newest notebook of a chapter is used, and a note contains the other notebook."""
+    """The newest notebook of a chapter is graded, and a note contains the name of the other notebook."""
     source = folder(
         tmp_path,
         {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},
@@ -228,7 +228,7 @@ def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
 
 
 def test_readable_notebook_is_used_instead_of_a_broken_one(tmp_path: Path, five: bytes) -> None:
-    """If only one notebook of a chapter can be read, this notebook is used."""
+    """If only one notebook of a chapter can be read, this notebook is graded."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, "s01/05_write_a_server (2).ipynb": b"{"})
     [found] = submissions(source)
     assert (found.origin, found.problem) == (f"s01/{FIVE}", "")
@@ -326,7 +326,7 @@ def test_links_are_not_followed(tmp_path: Path, five: bytes) -> None:
 
 
 def test_pipe_is_not_opened(tmp_path: Path) -> None:
-    """A pipe is reported, and the program does not open the pipe."""
+    """The program reports a pipe without opening it."""
     (tmp_path / "s01").mkdir()
     os.mkfifo(tmp_path / "s01" / FIVE)
     [found] = submissions(tmp_path)
@@ -439,7 +439,7 @@ def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """In a student's folder, a file name cannot select another student."""
+    """In a student's folder, no file name can refer to another student."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,
@@ -468,7 +468,7 @@ def test_nothing_is_in_an_empty_folder(tmp_path: Path) -> None:
 
 
 def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
-    """The submissions are stored without outputs, and the rebuilt notebook is equal."""
+    """The submissions are stored without outputs."""
     notebook = json.loads(five)
     for cell in notebook["cells"]:
         if cell["cell_type"] == "code":
@@ -481,7 +481,7 @@ def test_outputs_are_not_kept_in_memory(tmp_path: Path, five: bytes) -> None:
 
 
 def test_one_notebook(tmp_path: Path, five: bytes) -> None:
-    """A single notebook belongs to the given student, or to the student in the name of its folder."""
+    """A single notebook belongs to the given student, or to the student in the folder's name."""
     source = folder(tmp_path, {f"s01/{FIVE}": five}) / "s01" / FIVE
     assert submissions(source) == [submission_of(source)]
     assert _kept([submission_of(source), submission_of(source, "s07")]) == [("s01", "05"), ("s07", "05")]
@@ -490,7 +490,7 @@ def test_one_notebook(tmp_path: Path, five: bytes) -> None:
 
 
 def test_names_of_any_letters(tmp_path: Path, five: bytes) -> None:
-    """Student names in all scripts are possible."""
+    """Student names may contain the letters of all languages."""
     names = ["Größe", "a\u202eb", "x" * 200, "名前", "\udcff"]
     found = submissions(folder(tmp_path, {f"{name}/{FIVE}": five for name in names}))
     assert len({each.student for each in found}) == len(names)

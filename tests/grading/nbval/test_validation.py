@@ -69,14 +69,14 @@ lines = [pathlib.Path(path).read_text() for path in glob.glob("/proc/[0-9]*/cmdl
 
 @pytest.mark.usefixtures("sandbox")
 def test_a_kernel_that_ends_is_noticed_in_time() -> None:
-    """If a cell ends the kernel, the run ends before nbval's limit of 2,000 s."""
+    """If a cell ends the kernel, the run ends long before nbval's time limit."""
     seen = outcomes_of(notebook(("import os; os._exit(0)", ""), ("1", "1")), cell=4)
     assert [each.outcome for each in seen] != ["passed", "passed"]
 
 
 @pytest.mark.usefixtures("sandbox")
 def test_a_kernel_with_damaged_connections_is_ended() -> None:
-    """A cell that writes to all open files ends the run. The results of earlier cells are not lost."""
+    """If a cell damages the kernel's connections, the run ends, and the earlier cells have results."""
     damage = (
         "import os\nfor number in range(3, 200):\n    try:\n        os.set_blocking(number, False)\n"
         "        os.write(number, b'{\"record\": 1}\\n')\n    except OSError:\n        pass\n"
@@ -93,7 +93,7 @@ def plain_nbval(path: Path, *words: str) -> subprocess.CompletedProcess[str]:
 
 
 def chapter_three(folder: Path, *headlines: str, first: str = "1") -> Path:
-    """Write a notebook whose checks of 03.1, 03.2 and so on have these headlines, and return its path."""
+    """Write a notebook with checks of 03.1, 03.2 and so on, and return its path."""
     shows = "from IPython.display import display\ndisplay({{'text/plain': {!r}}}, raw=True)"
     made = notebook((first, "1"), *((shows.format(each), "") for each in headlines))
     for number, cell in enumerate(made["cells"][1:], 1):

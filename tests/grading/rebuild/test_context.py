@@ -1,4 +1,4 @@
-"""Tests of the search for the cells that an answer needs."""
+"""Tests of the search for cells that an answer needs."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_the_variable_of_a_comprehension_is_not_given() -> None:
 
 
 def test_magics_are_read_as_ipython_reads_them() -> None:
-    """The names in a cell with an IPython magic are found."""
+    """The search finds names in a cell with an IPython magic."""
     assert needed("%time x = side", "", ABOVE) == ()
     assert needed("!ls\nx = side", "", ABOVE) == ("side = 2",)
 
@@ -54,4 +54,4 @@ def test_unusual_sources_take_little_time(answer: str, above: list[str]) -> None
     """The search is fast for unusual sources."""
     began = time.process_time()
     assert needed(answer, "", above) == ()
-    assert time.process_time() - began < 10.0  # Without the limit in the code, the search would take minutes.
+    assert time.process_time() - began < 10.0  # Without a limit, the search would take minutes.

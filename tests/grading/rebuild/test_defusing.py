@@ -1,4 +1,4 @@
-"""Tests that remove markers and magics from an answer."""
+"""Tests that an answer contains no nbval markers and no cell magics."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ DEF = "def f():\n    return 1"
 
 
 def test_the_markers_are_those_of_nbval() -> None:
-    """The course knows all markers of nbval."""
+    """The list of markers in the course is equal to the list in nbval."""
     assert set(MARKERS) == set(comment_markers)
     assert set(metadata_tags) < set(TAGS)
 

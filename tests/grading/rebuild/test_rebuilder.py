@@ -42,7 +42,7 @@ REFERENCE = book(
 def _student(change: Callable[[Cells], object] = lambda _: None, **answers: str) -> bytes:
     """Return a student's notebook with these answers, and apply `change`.
 
-    The keys are the letters of cells.
+    The keys of `answers` are the letters of cells.
     """
     notebook = derived(copy.deepcopy(REFERENCE))
     for cell in notebook["cells"]:
@@ -162,7 +162,7 @@ TAKEN = {
 
 @pytest.mark.parametrize("change", TAKEN.values(), ids=TAKEN)
 def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
-    """An answer is found after its cell was copied, moved or split, or lost its id or metadata."""
+    """An answer is found even if its cell was copied, moved or split."""
     made = _rebuilt(_student(change))
     assert [line for line in made.answers["05.1"].split("\n") if line] == [
         line for line in ANSWER.split("\n") if line
@@ -172,7 +172,7 @@ def test_the_answer_is_found(change: Callable[[Cells], object]) -> None:
 
 @pytest.mark.parametrize("kind", ["markdown", "raw"])
 def test_a_cell_of_another_kind(kind: str) -> None:
-    """A Markdown cell of an exercise is used as code, and gets a note."""
+    """If the cell of an exercise is a Markdown cell, its text is used as code."""
 
     def change(cells: Cells) -> None:
         cells[_place(cells, D)].update(cell_type=kind, source=ANSWER)
@@ -208,7 +208,7 @@ def test_a_helper_split_off_belongs_to_the_answer() -> None:
 
 
 def test_a_file_that_was_split() -> None:
-    """The two halves of a split file cell are joined into one file."""
+    """If a cell that writes a file was split, its two halves are joined."""
 
     def change(cells: Cells) -> None:
         _copied(cells, W, "int16 b")
@@ -229,7 +229,7 @@ def test_cells_that_the_answer_does_not_need_are_left_out(source: str) -> None:
 
 @pytest.mark.parametrize("shift", [-1, 0, 3])
 def test_a_helper_elsewhere_is_named(shift: int) -> None:
-    """If a needed helper function is in another cell, a note contains the function's name."""
+    """If a helper function is in a cell that is not used, a note contains the function's name."""
     answer = ANSWER.replace("x + x", "helper(x)")
     made = _rebuilt(
         _student(lambda cells: _own(cells, D, "def helper(x):\n    return x + x", shift=shift), d=answer)
@@ -240,7 +240,7 @@ def test_a_helper_elsewhere_is_named(shift: int) -> None:
 
 
 def test_an_import_in_a_given_cell_is_named() -> None:
-    """A student's change in a cell of the course has no effect, and a note says this."""
+    """A student's change in a cell of the course has no effect, and the student gets a note."""
     answer = ANSWER.replace("x + x", "numpy.add(x, math.floor(x))")
 
     def change(cells: Cells) -> None:
@@ -252,7 +252,7 @@ def test_an_import_in_a_given_cell_is_named() -> None:
 
 
 def test_missing_answer_has_a_reason() -> None:
-    """If an answer is missing, the rebuilt notebook contains the blank exercise, and the reason is stored."""
+    """If an answer is missing, the rebuilt notebook contains the blank exercise."""
 
     def change(cells: Cells) -> None:
         del cells[_place(cells, D)]
@@ -321,7 +321,7 @@ def test_checks_and_given_cells_do_not_change() -> None:
     "content", [b"", b"{", b"[]", b"\xff", b'{"cells": 1}', b'{"cells": ' + b"[" * 100_000]
 )
 def test_what_is_no_notebook(content: bytes) -> None:
-    """For a file that is not a notebook, each part gets a reason, and the result contains no solution."""
+    """For a file that is not a notebook, each part gets a reason."""
     made = _rebuilt(content)
     assert made.problem
     assert set(made.missing.values()) == {made.problem}

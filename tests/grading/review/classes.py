@@ -25,7 +25,7 @@ RIGHT = 'mistakes = {"A": "polls too rarely"}\n'
 
 
 def graded(student: str, code: str = RIGHT, **more: object) -> Grade:
-    """Return a grade with the failed part 05.1 and with the part 05.2, whose check did not finish."""
+    """Return a grade in which 05.1 has failed and the check of 05.2 did not finish."""
     reports = (
         report("05.1", Verdict.FAILED),
         report("05.2", Verdict.FAILED, assertions=(), inconclusive=True),

@@ -60,7 +60,7 @@ def test_a_review_can_be_applied_again_and_taken_back(tmp_path: Path) -> None:
 
 
 def test_a_changed_answer_is_reported() -> None:
-    """If an answer has changed after the review, the reports say this."""
+    """If an answer has changed after the review, the reports contain a message."""
     row = Override("s01", "05.1", 2, "", answer_of(graded("s01"), "05.1"))
     same, other = graded("s01"), graded("s01", "a = 2")
     assert "changed" not in " ".join(about_reviews(reviewed([same], _overrides(row))))
@@ -71,14 +71,14 @@ def test_a_changed_answer_is_reported() -> None:
 
 
 def test_a_reviewed_part_needs_no_look() -> None:
-    """After its review, a part with an unfinished check needs no more work."""
+    """After its review, a part needs no more work, even if its check did not finish."""
     grade = graded("s01")
     assert needs_look(grade)
     assert not needs_look(reviewed([grade], _overrides(Override("s01", "05.2", 0)))[0])
 
 
 def test_long_code_is_the_same_in_the_record(tmp_path: Path) -> None:
-    """The record of a long answer identifies the same answer."""
+    """The stored record of a long answer belongs to the same answer."""
     grade = replace(graded("s01"), code={"05.1": "line = 1\r\n" * 1500})
     _reports(tmp_path, [grade])
     assert answer_of(read_grades(tmp_path)[0], "05.1") == answer_of(grade, "05.1")

@@ -50,7 +50,10 @@ def test_other_encodings_and_columns(tmp_path: Path) -> None:
 
 
 def test_a_part_that_a_spreadsheet_may_have_changed(tmp_path: Path) -> None:
-    """If both 15.1 and 15.10 exist, 15.1 is refused. A spreadsheet changes 15.10 to 15.1."""
+    """If the parts 15.1 and 15.10 both exist, a row for 15.1 is refused.
+
+    A spreadsheet changes the text 15.10 to 15.1.
+    """
     (tmp_path / FILE).write_text(f"{HEAD}s01,05,5.1,1,,\n")
     grade = class_of_four()[0]
     read_overrides(tmp_path).require_parts([grade])
@@ -61,7 +64,7 @@ def test_a_part_that_a_spreadsheet_may_have_changed(tmp_path: Path) -> None:
 
 
 def test_a_german_spreadsheet_keeps_its_form(tmp_path: Path) -> None:
-    """The format of a German spreadsheet, such as semicolons and decimal commas, does not change."""
+    """The program does not change the format of a German spreadsheet, such as decimal commas."""
     before = "\ufeffstudent;chapter;part;note;points;comment;answer\r\ns01;5;5.1;mine;1,5;gut;\r\n\r\n"
     _read(tmp_path, before)
     current = read_overrides(tmp_path)

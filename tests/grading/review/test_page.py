@@ -24,7 +24,7 @@ from tests.support import eventually
 def opened(
     browser: Browser, url: str, width: int = 1280, colours: Literal["light", "dark"] = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page, and yield it with the console messages and the script errors."""
+    """Open the page, and yield the page, the console messages and the script errors."""
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
     page, words = context.new_page(), list[str]()
     page.on("console", lambda message: words.append(message.text))
@@ -75,7 +75,7 @@ def test_a_review_with_the_keyboard_only(browser: Browser, tmp_path: Path) -> No
         expect(page.locator("#part")).to_have_value("05.2")
         keys.press("g")
         keys.press("2")
-        keys.press("n")  # In the field for points, a letter is a keyboard command.
+        keys.press("n")  # A letter is a keyboard command, even in the field for points.
         expect(answer.get_by_role("heading", name="s02")).to_be_visible()
         expect(page.locator("#points")).to_be_focused()
         eventually(lambda: _rows(out).get(("s01", "Part 05.2")) == ("2", ""))
@@ -140,8 +140,8 @@ def test_the_page_is_accessible_and_fits(
                     assert page.evaluate("document.documentElement.scrollWidth") <= width
                     picture(page, f"review-{width}-{colours}-{shown}")
                     page.keyboard.press("n")
-                # The page's policy would allow a script from its own origin, so the test injects axe-core
-                # with the debugger.
+                # The page's policy allows scripts from the page's own origin, so the test adds axe-core with
+                # the debugger.
                 page.evaluate(AXE)
                 assert violations(page) == []
                 assert words == []

@@ -30,7 +30,7 @@ def test_unchanged_is_unchanged(text: str) -> None:
 
 
 def test_it_reads_as_the_csv_module_does() -> None:
-    """For a file in the format of RFC 4180, the values are equal to those from Python's csv module."""
+    """If a file follows RFC 4180, the values are equal to the values from Python's csv module."""
     draw = random.Random(4)  # noqa: S311 -- the files are the same each time
     for _ in range(300):
         rows = [
@@ -50,7 +50,7 @@ def test_quotes_of_php() -> None:
 
 
 def test_lines_are_counted_in_the_file() -> None:
-    """A record contains the line number of its beginning."""
+    """A record contains the number of its first line."""
     assert [each.line for each in records('a\n"1\n2"\nb\n', ",")] == [1, 2, 4]
 
 
@@ -65,7 +65,7 @@ def test_lines_are_counted_in_the_file() -> None:
     ],
 )
 def test_how_a_cell_is_written(before: str, value: str, after: str) -> None:
-    """A changed cell is quoted if the old cell was quoted or if the new value needs quotes."""
+    """A changed cell has quotes if the old cell had quotes or if the new value needs quotes."""
     record = Record([before, "x"], "\n", 1)
     record.put(0, value, ",")
     assert record.cells == [after, "x"]

@@ -72,13 +72,13 @@ def test_parts_that_contradict_each_other() -> None:
 
 
 def test_a_number_of_moodle_is_no_id() -> None:
-    """Moodle's participant number does not match an id in the roster."""
+    """Moodle's participant number is not compared with the ids in the roster."""
     found = _matched({"Jo New_18": ["Jo New_18_assignsubmission_file_/05.ipynb"]})
     assert (found.strangers, found.unclear) == (("Jo New_18",), {})
 
 
 def test_a_roster_with_the_numbers_of_moodle() -> None:
-    """If the number and the name both match, the number selects one of two students with the same name."""
+    """If the roster contains Moodle's numbers, the number selects one of two students with the same name."""
     found = _matched({"Ann Lee_20": ["Ann Lee_20_assignsubmission_file_/05.ipynb"]})
     assert found.people["Ann Lee_20"].username == "alee2"
 

@@ -32,7 +32,7 @@ def _file(folder: Path, content: str | bytes) -> Path:
     ids=["as documented", "another order", "Excel", "tabs", "blanks", "UTF-16", "two columns for the name"],
 )
 def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | bytes) -> None:
-    """A roster may have any column order, separator and capitals, and a byte order mark."""
+    """A roster may have any column order, any separator and a byte order mark."""
     [person] = read_roster(_file(tmp_path, content))
     assert (person.name, person.id, person.email, person.username, person.section) == (
         *("Jane Doe", "17", "jane@uni.example"),
@@ -50,7 +50,7 @@ def test_as_spreadsheets_and_platforms_save_it(tmp_path: Path, content: str | by
     ],
 )
 def test_columns_that_are_missing(tmp_path: Path, content: str, person: Person) -> None:
-    """One column that identifies students is enough."""
+    """A roster needs only one column that identifies students."""
     assert read_roster(_file(tmp_path, content)) == (person,)
 
 
@@ -99,6 +99,6 @@ def test_no_roster(tmp_path: Path) -> None:
 
 
 def test_labels() -> None:
-    """A student's label is the name; for students with the same name, the label contains the line number."""
+    """A student's label is the student's name. For equal names, the label also contains the line number."""
     people = [JANE, Person(email="a@b.example", line=3), Person("Jane Doe", line=4)]
     assert list(labels(people)) == ["Jane Doe (line 2)", "a@b.example", "Jane Doe (line 4)"]

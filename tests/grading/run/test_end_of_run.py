@@ -91,7 +91,7 @@ def test_the_last_line_and_the_status(grades: list[Grade], line: str, status: in
 
 
 def test_empty_folders_are_named() -> None:
-    """The line lists at most ten students with an empty folder."""
+    """The message lists at most ten students with an empty folder."""
     empty = [refused(f"s{number:02}", "", f"{NOTHING}: the folder is empty.") for number in range(12)]
     (line,) = about_empty([FULL, *empty])
     assert "s00, s01, " in line
@@ -100,7 +100,7 @@ def test_empty_folders_are_named() -> None:
 
 
 def test_results_that_stay(tmp_path: Path) -> None:
-    """The lines list the students without a new submission."""
+    """The output lists the students without a new submission."""
     marked, kept = about_rest([replace(FULL, absent=True), replace(FULL, student="s02")], tmp_path)
     assert "s01 (chapter 05)" in marked
     assert kept == f"1 other result in {tmp_path} stayed as it was."

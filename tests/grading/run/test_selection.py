@@ -57,7 +57,7 @@ def test_a_student_without_the_number_of_the_platform() -> None:
 
 @pytest.mark.parametrize(("name", "said"), [("A One", "fits 2 students"), ("s99", "of no student")])
 def test_a_name_that_does_not_fit_one_student(name: str, said: str) -> None:
-    """The error message names the file with the list of names, and contains no other student's name."""
+    """The error message contains the file with the list of names, but no other student's name."""
     with pytest.raises(GradingError, match=rf"--student {name} .*{said}.*grades\.csv") as caught:
         selection([name], (), ()).for_students(SUBMISSIONS)
     assert "s01" not in str(caught.value)
@@ -85,7 +85,7 @@ def _grade(*verdicts: Verdict, **more: object) -> Grade:
 
 
 def test_the_other_parts_keep_their_results() -> None:
-    """Only the selected parts are replaced, and a new part is inserted in the right order."""
+    """Only the selected parts get a new result."""
     base = _grade(Verdict.PASSED, Verdict.FAILED, notes=(f"{IN_PACKAGES}: 05.1.", "old"), absent=True)
     again = replace(base, reports=(report("05.3"), report("05.2")), notes=("new",), late=1.0)
     both = merged(base, again)
@@ -103,7 +103,7 @@ def test_the_other_parts_keep_their_results() -> None:
 
 
 def test_parts_of_two_versions_have_no_key() -> None:
-    """A grade whose parts come from different checks is not used as a complete grade."""
+    """If the parts of a grade come from different checks, the grade is not used as a complete grade."""
     base = _grade(Verdict.PASSED, Verdict.FAILED)
     assert merged(base, replace(base, key="other")).key == ""
 
@@ -120,7 +120,10 @@ def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
 
 
 def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
-    """A result that was not selected does not change. A selected result without a submission gets a mark."""
+    """A result that was not selected does not change.
+
+    A selected result without a submission is marked in the reports.
+    """
     write_reports([*class_of(3, ("05", "06")), refused("s09", "")], tmp_path)
     earlier = read_earlier(tmp_path)
     now = [grade for grade in earlier.grades if grade.student == "s01" and grade.chapter == "05"]

@@ -35,7 +35,7 @@ CMake Error at my_services/CMakeLists.txt:6 (add_service_files):
 
 -- Configuring incomplete, errors occurred!
 """
-# Each error message of rospy 1.15 has a text that the explanation must contain.
+# Each entry has an error message of rospy 1.15 and a text that its explanation must contain.
 RESPONDED = "ServiceException: service [/x] responded with an error: "
 SERVER_REFUSED = f"{RESPONDED}b'service cannot process request: "
 HANDLER_FAILED = f"{RESPONDED}b'error processing request: "
@@ -97,7 +97,7 @@ def test_an_exception_is_explained_by_its_own_message_first() -> None:
 
 
 def test_errors_of_the_course_are_explained() -> None:
-    """explain() explains errors of the course."""
+    """explain() has an explanation for each error of the course."""
     with pytest.raises(Exception, match="No ROS master") as raised:
         MasterClient("http://localhost:1").pid()
     assert "No master answers" in explain(raised.value).cause
@@ -111,7 +111,7 @@ def test_errors_of_the_course_are_explained() -> None:
 
 
 class Unshowable(Exception):
-    """An exception whose __str__ fails."""
+    """An exception whose __str__ raises an error."""
 
     def __str__(self) -> str:
         raise ValueError("no words")

@@ -1,4 +1,4 @@
-"""Tests of running a cell with an action server again, and of stop()."""
+"""Tests of action servers whose cell runs again, and of stop()."""
 
 from __future__ import annotations
 

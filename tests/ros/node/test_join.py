@@ -1,4 +1,4 @@
-"""Tests of join(), which makes a kernel a node."""
+"""Tests of join(), which registers a kernel as a node."""
 
 from __future__ import annotations
 
@@ -247,7 +247,7 @@ def test_exit_while_the_master_is_stopped() -> None:
 
 
 def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
-    """leave() unregisters everything, and after another join(), the kernel can offer services again."""
+    """After leave(), a kernel can call join() again and offer services."""
     kernel.run(
         JOIN
         + """
@@ -267,7 +267,7 @@ result = server.running
 
 
 def test_leaving_is_prompt(kernel: Kernel) -> None:
-    """leave() and the exit of the kernel are fast, because they do not wait for rospy's threads."""
+    """leave() is fast, because it does not wait for rospy's threads."""
     kernel.run(JOIN)
     assert kernel.ask("node.leave()").took < 0.3
     started = time.monotonic()

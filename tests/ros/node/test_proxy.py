@@ -250,7 +250,7 @@ def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch
 
 
 def test_no_deadline_is_missed_when_the_thread_ends_and_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An action is called at its deadline, even if the watchdog's thread ends at the same moment."""
+    """An action is called in time, even if the watchdog's thread ends at the same moment."""
     monkeypatch.setattr(watchdog, "LINGER", 0.0005)
     guard, missed = Watchdog(), list[int]()
 

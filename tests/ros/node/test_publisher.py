@@ -1,4 +1,4 @@
-"""Tests of running a cell with a publisher again, and of the message counts."""
+"""Tests of publishers whose cell runs again, and of the message counts."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
 
 
 def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
-    """A message that is published before a subscriber connects is counted as unheard."""
+    """If no subscriber is connected, a message is counted as unheard."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = node.advertise("/numbers", UInt32)
@@ -59,7 +59,7 @@ def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
 
 
 def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
-    """A latched message is sent to a later subscriber, and then counts as sent."""
+    """A latched message is sent to a later subscriber, and is then counted as sent."""
     assert joined.run("""
         spoken = node.advertise("/numbers", UInt32, latch=True)
         spoken.publish(1)
@@ -129,7 +129,7 @@ def test_counts_are_kept_after_the_subscriber_has_ended(joined: Kernel) -> None:
 
 
 def test_waiting_for_subscribers_has_a_timeout(joined: Kernel) -> None:
-    """wait() raises an error after its timeout, and the message contains a command for the subscribers."""
+    """After its timeout, wait() raises an error that contains a command to list the subscribers."""
     reply = joined.ask("""
         spoken = node.advertise("/numbers", UInt32)
         spoken.wait(1, timeout=0.2)
@@ -139,7 +139,7 @@ def test_waiting_for_subscribers_has_a_timeout(joined: Kernel) -> None:
 
 
 def test_leave_ends_a_publisher_and_join_does_not_restore_it(joined: Kernel, master: PrivateMaster) -> None:
-    """leave() unregisters the publisher, and join() does not register it again."""
+    """leave() unregisters the publisher, and join() does not register the publisher again."""
     joined.run("""
         spoken = node.advertise("/numbers", UInt32)
         node.leave()
@@ -150,7 +150,7 @@ def test_leave_ends_a_publisher_and_join_does_not_restore_it(joined: Kernel, mas
 
 
 def test_a_publisher_is_restored_when_rospy_starts_again(joined: Kernel) -> None:
-    """After a shutdown of the node, join() registers its topics again."""
+    """After a shutdown of the node, join() registers the node's topics again."""
     assert joined.run("""
         spoken = node.advertise("/numbers", UInt32)
         spoken.publish(1)

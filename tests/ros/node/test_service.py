@@ -1,4 +1,4 @@
-"""Tests of running a cell with a service again, and of the stored calls."""
+"""Tests of services whose cell runs again, and of the stored calls."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_serving_again_replaces(joined: Kernel) -> None:
 
 
 def test_serving_replaces_a_raw_service(joined: Kernel) -> None:
-    """serve() replaces a service of rospy.Service."""
+    """serve() replaces a service that rospy.Service created."""
     assert (
         joined.run("""
         raw = rospy.Service("/x", Trigger, lambda request: (True, "raw"))
@@ -131,7 +131,7 @@ def test_traceback_shows_the_handler(joined: Kernel) -> None:
 
 
 def test_printed_text_of_a_handler_is_stored(joined: Kernel) -> None:
-    """`output` contains the printed text of the handler, and the cell does not print this text."""
+    """`output` contains the text that the handler printed, and the cell does not show this text."""
     output = joined.run("""
         def chatty(request):
             print("from the handler")

@@ -1,4 +1,4 @@
-"""Tests of running cells with plain rospy again."""
+"""Tests of cells with plain rospy that run again."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def test_service_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """A service from `__init__` belongs to the cell that creates the object."""
+    """A service that a class creates in `__init__` belongs to the cell that creates the object."""
     notebook.run(
         """
         class Counter:
@@ -73,7 +73,7 @@ def test_subscriber_cell_runs_again(notebook: NotebookKernel) -> None:
 
 
 def test_publisher_and_subscriber_leave_the_graph(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """If the changed cell creates no publisher and no subscriber, the old ones are unregistered."""
+    """If the changed cell creates no publisher, the publisher of the last run is unregistered."""
     cell = """
     publisher = rospy.Publisher("/left", UInt32, queue_size=1)
     subscriber = rospy.Subscriber("/left", UInt32, print)
@@ -125,7 +125,7 @@ def test_action_server_cell_runs_again(notebook: NotebookKernel, master: Private
 
 
 def test_two_cells_with_one_service(notebook: NotebookKernel) -> None:
-    """If two cells offer the same service, the later cell prints one line and replaces the service."""
+    """If two cells offer the same service, the later service replaces the earlier one."""
     serve = "service = rospy.Service('/shared', Trigger, lambda r: (True, '{}'))"
     silent(notebook.run(serve.format("one"), "one"))
     for cell in ("two", "one", "two"):
@@ -151,7 +151,7 @@ def test_cells_without_ids(notebook: NotebookKernel) -> None:
 
 
 def test_creation_in_a_handler_belongs_to_no_cell(notebook: NotebookKernel, master: PrivateMaster) -> None:
-    """A publisher that a handler creates stays when the calling cell runs again."""
+    """If a handler creates a publisher, no cell removes this publisher."""
     cell = """
     def handle(request):
         global made
@@ -182,7 +182,7 @@ def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
 
 
 def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> None:
-    """After the service was replaced, an old persistent proxy raises an error with advice."""
+    """After the service was replaced, a persistent proxy of the old service raises an error with advice."""
     serve = "service = rospy.Service('/kept', Trigger, lambda r: (True, ''))"
     notebook.run(serve, "kept")
     notebook.run("proxy = rospy.ServiceProxy('/kept', Trigger, persistent=True)\nproxy()", "proxy")
@@ -215,7 +215,10 @@ def test_init_node_after_join(notebook: NotebookKernel) -> None:
 
 
 def test_cell_that_runs_again_without_a_master() -> None:
-    """Without a master, a cell can run again. With a new master, its service works again."""
+    """A cell can run again even if there is no master.
+
+    With a new master, the service of the cell works again.
+    """
     with PrivateMaster() as master, NotebookKernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run("import rospy\nfrom std_srvs.srv import Trigger\nfrom course_pkg import join")
         kernel.run("node = join('student')", "join")

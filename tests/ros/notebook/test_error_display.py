@@ -14,7 +14,7 @@ MOST = 12
 
 
 def without_cell_numbers(lines: list[str]) -> list[str]:
-    """Return the lines with In[*] instead of the cell numbers."""
+    """Return the lines with In[*] in place of each cell number."""
     return [
         line.split("In[")[0] + "In[*]" + line.split("]", 1)[1] if "In[" in line else line for line in lines
     ]

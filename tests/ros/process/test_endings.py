@@ -126,7 +126,7 @@ def test_interrupt_does_not_end_the_nodes(kernel: Kernel) -> None:
 
 
 def test_thread_that_started_a_node_may_end(kernel: Kernel) -> None:
-    """A node continues after the thread that started it has ended."""
+    """A node continues to run after the end of the thread that started the node."""
     kernel.run("""
         import threading
         from course_pkg.ros import NodeProcess, join

@@ -146,7 +146,7 @@ def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
 
 
 def test_running_again_replaces(kernel: Kernel) -> None:
-    """A second run() of a program ends the first process, except if the name differs."""
+    """A second run() of a program ends the first process unless the second run has another name."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")
@@ -229,7 +229,7 @@ def test_close_ends_everything_of_a_private_graph() -> None:
 
 
 def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateMaster) -> None:
-    """run() raises an error with similar program names, or with the output of the program that exited."""
+    """If the program is unknown or exits, run() raises an error with similar names or with the output."""
     started = time.monotonic()
     with PrivateGraph() as graph:
         with pytest.raises(UnknownExecutable, match="Did you mean 'pulse'"):

@@ -66,7 +66,7 @@ def test_it_listens_on_loopback_only(core: Roscore) -> None:
 
 
 def test_stop_ends_all_processes_and_start_works_again(core: Roscore) -> None:
-    """stop() ends both processes, and a second start() works."""
+    """stop() ends both processes, and start() works again after stop()."""
     core.start()
     first, pids = core.uri, descendants(os.getpid())
     assert processes(pids)

@@ -51,7 +51,7 @@ def test_equal_snapshots_of_the_same_graph(server: NodeProcess) -> None:
 
 
 def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> None:
-    """A stopped node is listed as silent, and remove_stale() does not unregister this node."""
+    """A stopped node is listed as silent, and remove_stale() does not remove its registrations."""
     with stopped(server.pid):
         started = time.monotonic()
         seen = look()

@@ -26,7 +26,7 @@ class Notes:
         self.looks += 1
 
     def reader(self) -> BulkReader:
-        """Return a reader that passes each number to this object."""
+        """Return a reader that passes the messages to this object."""
         return BulkReader(["std_msgs/UInt32"], self.hear, self.missed.append, self.look)
 
 

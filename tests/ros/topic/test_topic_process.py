@@ -81,7 +81,7 @@ def test_rate_of_recent_messages() -> None:
 
 
 def test_rate_of_rare_and_of_frequent_messages() -> None:
-    """One message per 10 s gives a rate, and at 10,000 messages per second the memory is limited."""
+    """The rate works for one message per 10 s and for 10,000 messages per second."""
     slow, fast = RateStatistics(), RateStatistics()
     for number in range(10):
         slow.beat(10.0 * number)
@@ -115,7 +115,7 @@ def test_a_curve_counts_invalid_numbers() -> None:
 
 
 def test_a_timer_ticks_until_it_is_stopped() -> None:
-    """After stop(), the timer does not call its function, and its thread has ended."""
+    """After stop(), the timer does not call its function any more."""
     ticks: list[int] = []
     timer = Timer(1000.0, lambda: ticks.append(1), lambda _: None)
     eventually(lambda: len(ticks) > 20)
@@ -153,7 +153,7 @@ def test_a_failing_timer_reports_the_error() -> None:
 
 
 def test_a_channel_transfers_whole_messages() -> None:
-    """A channel transfers long messages without a change."""
+    """A channel transfers long messages unchanged."""
     one, other = map(JsonChannel, socket.socketpair())
     long = {"texts": ["x" * 1000] * 300, "nan": None}
     sender = threading.Thread(target=lambda: [one.send(each) for each in (long, {"n": 1})])
@@ -170,7 +170,7 @@ def test_a_channel_transfers_whole_messages() -> None:
 
 
 def test_the_numbers_of_a_message_have_paths() -> None:
-    """Numbers in fields, in nested messages and in first elements of arrays have paths."""
+    """Number fields, also in nested messages and arrays, have paths."""
     assert numbers(message_type("std_msgs/Float64")) == ["data"]
     assert numbers(message_type("std_msgs/String")) == []
     assert numbers(message_type("geometry_msgs/Twist"))[:2] == ["linear.x", "linear.y"]
@@ -199,7 +199,7 @@ def test_the_numbers_of_a_message_have_paths() -> None:
     ],
 )
 def test_the_first_measurement_of_a_message(name: str, path: str) -> None:
-    """measurement() returns the first number that is neither in a header nor a sensor limit."""
+    """measurement() returns the first number that is neither in a header nor a limit of the sensor."""
     assert measurement(message_type(name)) == path
 
 

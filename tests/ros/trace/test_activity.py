@@ -78,7 +78,7 @@ def counted(wanted: Callable[[Traffic], bool]) -> int | None:
 
 
 def test_messages_are_counted_by_connection(pair: tuple[Kernel, Kernel]) -> None:
-    """A poll returns the nodes of each connection and its number of messages."""
+    """A poll returns the two nodes of each connection and the number of messages."""
     speaker, _ = pair
     before = [topic for topic in look().topics if topic.name == "/words"]
     speaker.run("for number in range(3): speaker.publish(str(number))")
@@ -98,7 +98,7 @@ def test_without_a_listener_there_is_no_connection(kernel: Kernel) -> None:
 
 
 def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) -> None:
-    """A node whose byte count is too large for XML-RPC is listed as silent."""
+    """If a node's byte count is too large for XML-RPC, the node is listed as silent."""
     speaker, _ = pair
     speaker.run("speaker.impl.connections[0].stat_bytes = 2**31")
     speaker.run("speaker.publish('x')")
@@ -117,7 +117,7 @@ def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
 
 
 def test_a_node_written_in_cpp(master: PrivateMaster) -> None:
-    """The counts of a C++ node are read, although their format differs.
+    """The counts of a C++ node are read, although a C++ node uses another format.
 
     A C++ node does not report callers.
     """
@@ -172,7 +172,7 @@ def test_an_empty_graph() -> None:
     ],
 )
 def test_an_answer_in_another_format_does_no_harm(answer: object) -> None:
-    """The unreadable data in a response of another library are ignored."""
+    """If a node's response has an unknown format, the unreadable data are ignored."""
     server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
     server.register_function(lambda _: answer, "getBusStats")
     server.register_function(lambda _: [1, "", [[1, "/listener", "o", "TCPROS", "/words"]]], "getBusInfo")
@@ -197,7 +197,7 @@ def ask(master: PrivateMaster, *nodes: str) -> Callers:
 
 
 def test_callers_are_counted(kernel: Kernel, master: PrivateMaster) -> None:
-    """A service reports each caller with its number of calls and the time."""
+    """A service reports the number of calls for each caller, and the time of the last call."""
     kernel.run(SERVE)
     before = time.time()
     with Kernel() as asker:

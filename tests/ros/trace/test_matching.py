@@ -1,4 +1,4 @@
-"""Tests that match the recorded spans of callers and handlers."""
+"""Tests that find out which recorded spans of different nodes belong together."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def call(number: int, start: float, end: float) -> list[SpanData]:
 
 
 def test_same_connection_and_number_is_the_same_call() -> None:
-    """A handler is matched with the call on the same connection with the same number."""
+    """A handler belongs to the call with the same connection and the same number."""
     assert keys(events(call(1, 1, 3), [span("handler", 2, 2.5)])) == [
         ("request", "call 1"),
         ("wait", "call 1"),
@@ -76,33 +76,33 @@ def test_another_number_is_another_call() -> None:
 
 
 def test_another_service_on_the_same_ports() -> None:
-    """A handler of another service is not matched, even if the ports are the same."""
+    """A handler of another service does not belong to the call, even if the ports are the same."""
     assert ("handler", "call 2") in keys(events(call(1, 1, 3), [span("handler", 2, 2.5, name="/y")]))
 
 
 def test_a_port_that_was_used_again() -> None:
-    """If two calls have the same ports and the same number, their handlers are not matched."""
+    """If two calls have the same ports and the same number, no handler is assigned to them."""
     twice = events([*call(1, 1, 3), *call(2, 11, 13)], [span("handler", 2, 2.5), span("handler", 12, 12.5)])
     assert [key for kind, key in keys(twice) if kind == "handler"] == ["call 2", "call 4"]
     assert [key for kind, key in keys(twice) if kind == "request"] == ["call 1", "call 3"]
 
 
 def test_contradictory_times() -> None:
-    """A handler that began before the request, or after the response, is not matched."""
+    """A handler that began before the request does not belong to the call."""
     for start in (0.5, 4.0):
         found = dict(keys(events(call(1, 1, 3), [span("handler", start, start + 0.1)])))
         assert found["handler"] != found["request"]
 
 
 def test_calls_of_two_processes_with_one_number() -> None:
-    """Calls of two processes with the same number are different calls."""
+    """Calls of two processes are different calls, even if their numbers are equal."""
     first, second = ([span("lookup", start, start + 0.1, call=1, transfers=[])] for start in (1.0, 2.0))
     records = [NodeRecord("/n", 10, first), NodeRecord("/n", 11, second)]
     assert [event.key for event in match_events(records, 0, 100)] == ["call 1", "call 2"]
 
 
 def test_one_message_many_callbacks() -> None:
-    """A message is matched with all callbacks that received it."""
+    """All callbacks that received a message are assigned to this message."""
     wires = [TRANSFER, ["127.0.0.1:40001>50000", 9, "/n2"]]
     found = events(
         [span("publish", 1, 1.1, transfers=wires)],
@@ -114,7 +114,7 @@ def test_one_message_many_callbacks() -> None:
 
 
 def test_a_callback_of_an_unknown_message() -> None:
-    """If the message of a callback was not recorded, the callback is not matched."""
+    """If the message of a callback was not recorded, the callback is not assigned to a message."""
     assert keys(events([span("callback", 2, 3, transfers=[])])) == [("callback", "message 1")]
     assert len({event.key for event in events([span("publish", 5, 6)], [span("callback", 2, 3)])}) == 2
 
@@ -136,7 +136,7 @@ def test_threads_of_one_name() -> None:
 
 
 def test_a_message_that_was_dropped() -> None:
-    """If a message was sent only to some connections, its note contains this fact."""
+    """If a message was sent only to some connections, the message has a note."""
     (lost,) = events([span("publish", 1, 2, connections=2)])
     assert "sent to 1 of 2" in lost.note
     (going,) = events([span("publish", 1, None, connections=2)])

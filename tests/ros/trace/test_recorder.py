@@ -22,7 +22,7 @@ def test_the_number_of_stored_spans_is_bounded() -> None:
 
 
 def test_a_memory_that_is_not_full_is_complete() -> None:
-    """While the recorder has free memory, its record is complete."""
+    """While the recorder has free memory, no span is missing."""
     recorder = Recorder(size=3)
     recorder.end(recorder.begin("publish", "/x", "", []))
     assert recorder.since(0.0)["complete_from"] == 0.0
@@ -82,7 +82,7 @@ def test_calls_are_counted_by_caller() -> None:
 
 
 def test_the_caller_with_the_oldest_call_is_forgotten() -> None:
-    """The counter stores a limited number of callers, and all waiting callers."""
+    """The counter stores a limited number of callers, and never deletes a waiting caller."""
     counter = CallCounter()
     counter.begin("/x", "/waiting")
     for number in range(CALLERS + 10):

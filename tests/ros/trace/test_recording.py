@@ -125,7 +125,7 @@ def test_a_persistent_connection_is_looked_up_once(asker: Kernel) -> None:
 
 
 def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
-    """If the server refuses a call, the caller's event and the handler's event contain the error message."""
+    """If the server refuses a call, the events of the caller and of the handler contain the error message."""
     recording = recorded(
         asker,
         """
@@ -143,7 +143,7 @@ def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
 
 
 def test_a_service_that_does_not_exist(asker: Kernel) -> None:
-    """A call to an unknown service has a look-up and an error."""
+    """For a call to an unknown service, the recording contains a look-up and an error."""
     recording = recorded(asker, "with node.record() as recording:\n    called('/nope', Trigger)")
     assert kinds(recording, "call 1") == ["lookup", "error"]
     assert (recording.events[1].peer, "unavailable" in recording.events[1].note) == ("", True)
@@ -275,7 +275,7 @@ def test_a_node_without_the_course(asker: Kernel, master: PrivateMaster) -> None
 
 
 def test_messages_and_their_callbacks(asker: Kernel) -> None:
-    """Each callback of each subscriber is matched with its message."""
+    """Each callback is assigned to the message that it received."""
     recording = recorded(
         asker,
         """
@@ -322,7 +322,7 @@ result = [(sent.get(key), value) for key, value in by_key(recording, "callback",
 
 @pytest.mark.parametrize(("outgoing", "incoming"), [(3, None), (200, 1), (2, 2)])
 def test_dropped_messages_are_not_matched(asker: Kernel, outgoing: int, incoming: int | None) -> None:
-    """Each callback is matched with its message, even if queues drop other messages."""
+    """Each callback is assigned to the right message, even if queues drop other messages."""
     pairs: list[tuple[int | None, int]] = asker.run(FLOOD.format(outgoing=outgoing, incoming=incoming))
     assert 0 < len(pairs) < 150
     assert [sent for sent, _ in pairs] == [received for _, received in pairs]
@@ -342,7 +342,7 @@ def test_a_message_without_a_subscriber(asker: Kernel) -> None:
 
 
 def test_a_latched_message_is_sent_again(asker: Kernel) -> None:
-    """The callback of a new subscriber is matched with the latched message."""
+    """The callback of a new subscriber is assigned to the latched message."""
     recording = recorded(
         asker,
         """
@@ -382,7 +382,7 @@ def test_a_call_from_a_callback(asker: Kernel) -> None:
 
 
 def test_without_a_master() -> None:
-    """Without a master, only the kernel's own events are recorded."""
+    """Without a master, the recording contains only the kernel's own events."""
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(START)
         kernel.run("""
@@ -408,7 +408,7 @@ def test_an_error_in_the_block(asker: Kernel) -> None:
 
 
 def test_a_rospy_with_other_methods(kernel: Kernel) -> None:
-    """If a rospy method has unexpected parameters, it is not recorded, and the recording contains a note."""
+    """If a rospy method has unexpected parameters, the recording contains a note."""
     assert kernel.run("""
         from rospy.impl.tcpros_service import ServiceImpl
         bare = ServiceImpl._handle_request

@@ -74,7 +74,7 @@ def test_every_byte_is_forwarded_and_kept(echo: int) -> None:
 
 
 def test_bytes_beyond_the_limit_are_forwarded_and_counted(echo: int) -> None:
-    """The relay forwards all bytes, but stores only a limited number."""
+    """The relay forwards all bytes, but stores only the first bytes up to a limit."""
     sent = bytes(MOST + 100_000)
     with Relay("127.0.0.1", echo) as relay, socket.create_connection(("127.0.0.1", relay.port)) as sock:
         threading.Thread(
@@ -102,7 +102,7 @@ def test_a_relay_to_an_unreachable_server() -> None:
 
 
 def test_a_closed_relay_ends_its_connections(echo: int) -> None:
-    """close() closes all connections and the port of the relay."""
+    """close() closes the port and all connections of the relay."""
     relay = Relay("127.0.0.1", echo)
     with socket.create_connection(("127.0.0.1", relay.port)) as sock:
         sock.sendall(b"x")

@@ -120,7 +120,7 @@ def ask_a_question(context: CheckContext) -> None:
         length, width, height = context.random.numbers(3, 0.5, 9.0)
         area, volume = (
             whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
-        )  # these numbers are exact as a float32
+        )  # These numbers are exact as a float32.
         server = context.serve(
             name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v}
         )
@@ -194,7 +194,7 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     goals=[RECEIVED, MISSED],
 )
 def count_what_was_missed(context: CheckContext) -> None:
-    """Run the function twice; each time, a new topic has consecutive numbers, and the pause is different."""
+    """Run the function twice with different pauses; each time, a new topic publishes consecutive numbers."""
     for _ in range(2):
         topic = f"/{context.random.word()}"
         first = context.random.integer(1000, 9000)

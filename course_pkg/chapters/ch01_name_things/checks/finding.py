@@ -1,4 +1,4 @@
-"""Services and publishers have to be found; a node may be running or only registered."""
+"""Checks of functions that find services and publishers; a node can be running, or only registered."""
 
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -26,7 +26,7 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
     """Serve the name and similar names in three namespaces.
 
-    Then pass the name of a service that does not exist.
+    After that, pass the name of a service that does not exist.
     """
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
@@ -39,7 +39,8 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             f"{wanted}x": others[2],
             wanted: volume,
         }
-        servers = {  # in a random order, because the master lists services in the order of their registration
+        # The order is random, because the master lists services in the order of their registration.
+        servers = {
             name: context.serve(name, GEOMETRY, lambda _, v=named[name]: {"volume": v, "area": v + 1})
             for name in context.random.shuffled([*named])
         }
@@ -115,7 +116,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Call the function with new names, so that an answer that counts its calls fails."""
+    """Call the function with new names, so that a function that only counts its calls fails."""
     volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
     missing: list[float | None] = [None] * context.random.integer(1, 3)
     for volume in context.random.shuffled([*volumes, *missing]):
@@ -169,7 +170,7 @@ _NOBODY = [
 def who_really_publishes(context: CheckContext) -> None:
     """Register running and killed publishers of two topics.
 
-    Then pass topics that have no running publisher.
+    After that, pass topics without a running publisher.
     """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
@@ -231,7 +232,7 @@ def _living(context: CheckContext, topic: str) -> object:
     return context.run(
         "living_publishers",
         topic,
-        within=8.0,  # a node that does not answer is pinged three times, which takes 6 s
+        within=8.0,  # A node without a response is pinged three times, which takes 6 s.
         hints=[
             (
                 matches("TimesUp"),

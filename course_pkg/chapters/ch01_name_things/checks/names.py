@@ -13,7 +13,7 @@ from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
 
 GEOMETRY = "course_pkg/geometry"
-START = 20.0  # maximum time in s until a program has started; usually, this takes 0.5 s
+START = 20.0  # A program may take this many s to start; usually, it takes 0.5 s.
 WHERE = "the service of a room is measure, in the namespace of the room"
 OWN_SERVICE = "Start a server whose service is `measure`, in the namespace of the room."
 OWN_NODE = "Name its node `measurer`, in the namespace of the room."
@@ -73,7 +73,7 @@ def a_viewer_for_each_arm(context: CheckContext) -> None:
 def _start(context: CheckContext, running: ExitStack, function: str, name: str, program: str) -> Running:
     """Call the student's `function` with `name`.
 
-    Run the command that it returns until `running` is closed.
+    Run the command that the function returns until `running` is closed.
     """
     command = context.run(function, name).returned()
     words = next(iter(commands_of(command)), [])
@@ -106,7 +106,7 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
     """Assert that the room's node serves the room's service.
 
-    `before` contains the services' earlier addresses.
+    `before` contains the earlier addresses of the services.
     """
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None
@@ -115,7 +115,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         seen = context.look()
         service = seen.service(wanted)
         others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
-        new = new or others  # keep the first result, because a busy server may not answer a later request
+        new = new or others  # Keep the first result, because a busy server may not answer a later request.
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
         found = new[0].name if new else ""
@@ -144,7 +144,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
 
 
 def _astray(room: str, found: str) -> str:
-    """Return the hint for the service `found`, whose name should be ROOM/measure."""
+    """Return the hint for the service `found`; the right name is ROOM/measure."""
     if found == "/measure":
         return (
             "The service is /measure for every room. Set the namespace of the node, and write "
@@ -238,7 +238,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
 
 
 def _viewer(context: CheckContext, viewer: Running, before: set[str]) -> tuple[str, Snapshot]:
-    """Return the new node that subscribes to a topic ("" if there is none), and the last snapshot."""
+    """Return the new node that subscribes to a topic, or "", and the last snapshot."""
     deadline = time.monotonic() + START
     while True:
         seen = context.look()

@@ -1,4 +1,7 @@
-"""Publishers: one publishes at a rate and must not lose a message; the other one publishes each change."""
+"""Publishers: one node publishes at a rate and must not lose a message.
+
+Another node publishes each change.
+"""
 
 import threading
 import time
@@ -13,12 +16,12 @@ WAITS_FOR_EVER = (
     "A topic can have no subscriber. Wait for a subscriber for at most 2 s, and then "
     "publish even if there is none."
 )
-# Times in s for a count without a subscriber; the student's function waits 2 s, and then publishes 11 numbers
-# in 1.1 s. A subscriber connects 2.3 s after the publisher.
+# These times in s are for a count without a subscriber. The student's function waits 2 s, and then publishes
+# 11 numbers in 1.1 s. The subscriber connects 2.3 s after the publisher.
 NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at the given rate."
-SOON = 4.0  # maximum time in s until a message arrives on a busy machine
-AT_ONCE = 0.3  # maximum duration in s of the fastest of several calls
+SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.
+AT_ONCE = 0.3  # AT_ONCE is the maximum duration in s of the fastest of several calls.
 TOO_SOON = (
     "A subscriber that connects in the first 2 s would not receive the value 0. If there "
     "is no subscriber, wait for the full 2 s."
@@ -87,7 +90,7 @@ def count_aloud(context: CheckContext) -> None:
 
 
 def _counts_alone(context: CheckContext, topic: str) -> None:
-    """Start a count without a subscriber; subscribe at a time when it should already publish."""
+    """Start a count without a subscriber; subscribe when the function should already publish."""
     late: list[Subscription] = []
 
     def come() -> None:
@@ -128,7 +131,7 @@ def _counts_alone(context: CheckContext, topic: str) -> None:
 
 
 def _numbers_until_the_last(subscription: Subscription) -> list[int]:
-    """Return the numbers that have arrived; wait at most 0.5 s for the last one."""
+    """Return the received numbers; wait at most 0.5 s for the last number."""
     last = {"data": ALONE - 1}
     subscription.until(lambda arrivals: bool(arrivals) and arrivals[-1].fields == last, 0.5)
     return [arrival.fields["data"] for arrival in subscription.arrivals]
@@ -216,12 +219,12 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
 def a_notice(context: CheckContext) -> None:
     """Set values without a subscriber, with a subscriber, and before a late subscriber.
 
-    One of them may be 0.
+    One of the values may be 0.
     """
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
     earlier, first, third = context.random.numbers(3, 1.0, 90.0)
-    second = first + 0.0625  # a very small difference also counts as a change
+    second = first + 0.0625  # A very small difference also counts as a change.
     for name in (zero, topic, twin):
         context.run("create", Its("Notice"), name, worded="Notice(topic)").returned()
     took = [_set(context, *each) for each in ((zero, 0.0), (topic, earlier), (topic, first), (twin, first))]
@@ -245,7 +248,7 @@ def a_notice(context: CheckContext) -> None:
     _set(context, topic, second)
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     _set(context, topic, third)
-    subscriber.wait(3, within=SOON)  # in a short queue, the next value would otherwise replace this one
+    subscriber.wait(3, within=SOON)  # In a short queue, the next value would otherwise replace this one.
     _set(context, topic, second)
     _receives(
         context,

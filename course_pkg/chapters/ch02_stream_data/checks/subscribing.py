@@ -50,9 +50,10 @@ def witness(message):
     witnessed.append(message)
 """
 FIELDS = ("name", "position", "velocity")
-DRAWING, PREPARING = 0.25, 0.02  # duration of one call in s
-RETURNS = 1.5  # maximum time in s until a function returns; it takes some ms on an idle machine
-OLDEST = 0.5  # maximum age in s of an angle when a drawing begins
+DRAWING, PREPARING = 0.25, 0.02  # A drawing takes DRAWING s, and preparing an order takes PREPARING s.
+# A function must return within this time in s; on an idle machine, a function returns after some ms.
+RETURNS = 1.5
+OLDEST = 0.5  # OLDEST is the maximum age in s of an angle when a drawing begins.
 ANGLES, ORDERS = 60, 20
 HEADER = "the header and its time stamp stay the same"
 NO_SUBSCRIBER = "Return the rospy.Subscriber, so that the caller can unregister it."
@@ -66,9 +67,9 @@ NEVER_RETURNS = (
 
 
 class Work:
-    """A callable that takes `pause` s.
+    """A callable that sleeps for `pause` s.
 
-    It records the beginning of each call, and the number of simultaneous calls.
+    The object records the beginning of each call, and the number of simultaneous calls.
     """
 
     def __init__(self, pause: float) -> None:
@@ -159,7 +160,7 @@ def a_mirror(context: CheckContext) -> None:
 
 
 def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[Json, Json]:
-    """Return the first message that was changed, before and after the change; ({}, {}) if there is none."""
+    """Return the first changed message, before and after the change, or ({}, {}) without a change."""
     given, seen = (
         [{field: each[field] for field in FIELDS} for each in all_] for all_ in (messages, witnessed)
     )
@@ -183,7 +184,7 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
 
 
 def _of_both_signs(context: CheckContext) -> list[float]:
-    """Return positive and negative random numbers, so that each wrong sign changes the result."""
+    """Return positive and negative random numbers; each wrong sign then changes the result."""
     return context.random.shuffled(
         [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(2, -3.0, -0.1)]
     )
@@ -193,7 +194,7 @@ def _of_both_signs(context: CheckContext) -> list[float]:
 def _begun(
     context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
 ) -> Iterator[None]:
-    """Call the student's function, which returns the subscribers of `topics`; at the end, unregister them."""
+    """Call the student's function, which returns the subscribers of `topics`; unregister them at the end."""
     context.prepare(KEEPER)
     try:
         started = context.run(
@@ -356,7 +357,7 @@ def two_queues(context: CheckContext) -> None:
         )
         arm.finish(10.0)
         customers.finish(10.0)
-        # wait until the calls with the last values have ended
+        # Wait until the calls with the last values have ended.
         time.sleep(max(2 * DRAWING, ORDERS * PREPARING))
         drawn, prepared = [*draw.done], [value for _, value in prepare.done]
     with context.goal(NEWEST):
@@ -368,9 +369,9 @@ def two_queues(context: CheckContext) -> None:
 def _drawn(
     context: CheckContext, at_once: int, drawn: list[tuple[float, Value]], sent: Mapping[float, float]
 ) -> None:
-    """Assert that each angle in `drawn` (time, angle) was the newest one.
+    """Assert that each angle in `drawn` (time, angle) was the newest angle at its time.
 
-    `sent` contains the time of each angle.
+    `sent` contains the time of each published angle.
     """
     angles = [angle for _, angle in drawn]
     context.require(

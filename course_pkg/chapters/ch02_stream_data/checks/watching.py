@@ -1,4 +1,4 @@
-"""The student's watch: it distinguishes a running stream from one that has ended."""
+"""The student's watch distinguishes a running stream from a stream that has ended."""
 
 import time
 
@@ -29,8 +29,8 @@ def end():
     watches.clear()
 """
 WORDS = ("waiting", "running", "ended")
-LIMIT = 1.0  # s; after this time without a message, a stream has ended
-AT_ONCE = 0.4  # maximum duration in s of the fastest of several calls
+LIMIT = 1.0  # After this time in s without a message, a stream has ended.
+AT_ONCE = 0.4  # AT_ONCE is the maximum duration in s of the fastest of several calls.
 RUNS = 'Return "waiting" before the first message, and "running" while messages arrive.'
 
 
@@ -64,7 +64,7 @@ def watch_a_stream(context: CheckContext) -> None:
         time.sleep(1.3)
         _says(context, topic, 'before the first message, the state is "waiting"', "waiting", _BEFORE)
         publisher = _speaks(context, unasked)
-        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # after this, the watch has received messages
+        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # At this time, the watch has received messages.
         _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
         _says(context, topic, "two watches are independent", "waiting", _APART)
         _runs(context, topic)
@@ -103,7 +103,7 @@ def _runs(context: CheckContext, topic: str) -> None:
         before=end,
     )
     time.sleep(max(end + 0.1 - time.monotonic(), 0.0))
-    # on a busy machine, the last message may reach the watch late
+    # On a busy machine, the last message may reach the watch late.
     wait_until(lambda: _asked(context, topic).returned() != "running", at_this_load(0.1))
     ended = 'more than 1 s after the last message, the state is "ended"'
     _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))
@@ -124,10 +124,10 @@ def _says(
     pause: float = 0.0,
     before: float = float("inf"),
 ) -> None:
-    """Assert that state() returns `word` in each of `times` calls which end before the time `before`.
+    """Assert that state() returns `word` in each of `times` calls that end before the time `before`.
 
-    There are `pause` s between the calls. The duration of the fastest call shows whether state() waits: a
-    wait in state() makes all calls slow, but a busy machine makes only some of them slow.
+    The check waits `pause` s between the calls. The duration of the fastest call shows whether state() waits,
+    because a busy machine makes only some of the calls slow.
     """
     took = []
     for _ in range(times):

@@ -1,4 +1,4 @@
-"""03.4: the design that fits each task, and the reason for it."""
+"""03.4: the right design for each task, and the reason for the design."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from course_pkg.checking.plain_values import of_kind
 DESIGNS = ("topic", "service", "action")
 REASONS = ("answer", "many", "newest", "seldom", "latched", "long")
 
-# For each task, the right designs, and for each of these designs, the right reasons.
+# For each task, the dict contains the right designs and, for each of these designs, the right reasons.
 JOBS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "wheel speed": {"topic": ("newest", "many")},
     "open the gripper": {"service": ("answer",), "action": ("answer", "long")},

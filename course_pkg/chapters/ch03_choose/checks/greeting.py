@@ -10,7 +10,7 @@ from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
 NUMBER = "std_msgs/UInt32"
-GREETING = 0.2  # duration of say_good_day() in s
+GREETING = 0.2  # GREETING is the duration of say_good_day() in s.
 EAR = """
 class Ear:
     def __init__(self):
@@ -39,7 +39,7 @@ def begin(start, *topics):
 def end():
     for name, names in ear.names.items():
         names[name] = ear.say
-"""  # reports the calls, because the topic may not show that two calls run at the same time
+"""  # The kernel code reports the calls, because the topic may not show that two calls run at the same time.
 MIXED_UP = "The function publishes on `customers`. Subscribe to `customers`, and publish on `greetings`."
 TOO_LATE = (
     "There is no publisher before the first customer comes, so the first greeting is lost. "
@@ -55,7 +55,8 @@ class Greetings:
     """Records the calls of say_good_day(), and the number of simultaneous calls."""
 
     def __init__(self) -> None:
-        self.said: list[Value] = []  # the argument of each call: a number, or the name of a wrong type
+        # `said` contains the argument of each call: a number, or the name of a wrong type.
+        self.said: list[Value] = []
         self.at_once = 0
         self._busy = 0
         self._lock = threading.Lock()
@@ -89,7 +90,7 @@ GREETED = "Greet five customers once and in order, and publish each number after
 def greet_everyone(context: CheckContext) -> None:
     """Publish five customers quickly, two of them twice.
 
-    After a pause, publish two new customers and an old one.
+    After a pause, publish two new customers and a customer that was already published.
     """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)
@@ -112,9 +113,9 @@ def _greets(
     numbers: list[int],
 ) -> None:
     if numbers[2] > max(numbers[:2]):
-        # numbers[2] is the last number that _told() publishes a subscriber with queue_size=1 keeps this
-        # message a node that stores only the largest number ignores it, because an earlier number is larger
-        # therefore, exactly one of the two hints fits
+        # numbers[2] is the last number that _told() publishes. A subscriber with queue_size=1 receives this
+        # message. A node that stores only the largest number ignores the message, because an earlier number
+        # is larger. Therefore, exactly one hint is right.
         numbers[0], numbers[2] = numbers[2], numbers[0]
     first, later = numbers[:5], numbers[5:]
     start, call = Its("start_greeting"), "start_greeting()"
@@ -144,7 +145,10 @@ def _greets(
 
 
 def _starts_again(context: CheckContext, number: int) -> None:
-    """Call start_greeting() again with other topics. It must not store the customers of the first call."""
+    """Call start_greeting() again with other topics.
+
+    The second call must not use the customers of the first call.
+    """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     subscription = context.subscribe(greetings, NUMBER)
     context.run(
@@ -191,7 +195,7 @@ def _greeted(
 ) -> None:
     """Assert that each customer in `numbers` was greeted once, in the right order."""
     subscription.until(lambda arrivals: set(numbers) <= {each.fields["data"] for each in arrivals}, 8.0)
-    subscription.during(2 * GREETING + 0.2)  # a second greeting, which would be wrong, arrives in this time
+    subscription.during(2 * GREETING + 0.2)  # A wrong second greeting would arrive in this time.
     seen = [each.fields["data"] for each in subscription.arrivals]
     said = [*greetings.said]
     context.require(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.cases import Cases, compare_cases
 
-# The notebook describes the cases; this dict contains their mistakes.
+# The notebook describes the cases; this dict contains the mistake in each case.
 RIGHT = {
     "A": "polls too rarely",
     "B": "polls too often",
@@ -45,5 +45,5 @@ CASES = Cases(
 
 @part("03.3", points=2, goal="Find the design mistake in each of six reports.", needs=["mistakes"])
 def find_the_mistake(context: CheckContext) -> None:
-    """Compare the mistake that the student chose for each case with the right one."""
+    """Compare the student's choice for each case with the right mistake."""
     compare_cases(context, "mistakes", CASES)

@@ -13,7 +13,7 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 DETECT = "course_pkg/DetectCustomer"
-SLACK = 0.7  # additional s for a busy machine
+SLACK = 0.7  # On a busy machine, a poll may take this many s longer.
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "Pause 1 / rate seconds between two calls."
 NO_END = (
@@ -30,7 +30,10 @@ COUNTED = (
 
 @dataclass
 class Counter:
-    """A detector with one customer, who comes `after` s from now; each response takes `slow` s."""
+    """A detector with one customer.
+
+    The customer comes `after` s from now, and each response takes `slow` s.
+    """
 
     number: int
     after: float
@@ -39,7 +42,7 @@ class Counter:
     opened: float = field(default_factory=time.monotonic)
 
     def answer(self, _: Message) -> Act:
-        """Return the response to a request at this time."""
+        """Return the response to a request at the current time."""
         self.asked.append(time.monotonic())
         there = self.asked[-1] - self.opened >= self.after
         answer: dict[str, Json] = {"detected": there, "number": self.number if there else 0}
@@ -58,9 +61,9 @@ FOUND = "Return the number of a customer who is there, or who comes later."
     goals=[FOUND, "Return None when the time is over, and make no more calls than the rate allows."],
 )
 def poll_with_a_deadline(context: CheckContext) -> None:
-    """Try a customer who is present and one who comes later.
+    """Try a customer who is present and a customer who comes later.
 
-    Then try no customer, with a fast and a slow detector.
+    After that, try a fast and a slow detector without a customer.
     """
     _one_who_is_there(context)
     _one_who_comes(context)

@@ -1,9 +1,9 @@
 """The node `cashier`: greets every customer once, with one of three designs.
 
 The parameter `~design` is `poll`, `topic` or `wait`. With `poll`, the node calls `detect_customer` `~rate`
-times per second; after a new customer, it calls again at once. With `topic`, it subscribes to `customers`.
-With `wait`, it calls `detect_customer`, and the response comes within `~patience` s. The node publishes the
-number of each greeted customer on `greetings` (std_msgs/UInt32), and serves `~report`
+times per second. After a new customer, the node calls again at once. With `topic`, the node subscribes to
+`customers`. With `wait`, the node calls `detect_customer`, and the response comes within `~patience` s. The
+node publishes the number of each greeted customer on `greetings` (std_msgs/UInt32), and serves `~report`
 (course_pkg/CashierReport).
 """
 
@@ -23,10 +23,10 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import CashierReport, CashierReportResponse, DetectCustomer
 
 DESIGNS = ("poll", "topic", "wait")
-KEPT = 10_000  # maximum number of times in the report
-GRACE = 2.0  # maximum time in s by which a call may exceed `~patience`
-AGAIN = 0.5  # s between a failed call and the next call
-CONNECTED = 5.0  # s for which the cashier waits for a publisher before it serves the report
+KEPT = 10_000  # The report contains at most this many times.
+GRACE = 2.0  # A call may take this many s longer than `~patience`.
+AGAIN = 0.5  # After a failed call, the cashier waits this many s before the next call.
+CONNECTED = 5.0  # The cashier waits this many s for a publisher before it serves the report.
 
 
 class Cashier:
@@ -39,7 +39,7 @@ class Cashier:
         self._informed: deque[rospy.Time] = deque(maxlen=KEPT)
         self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
         self._detect = BoundedProxy("detect_customer", DetectCustomer)
-        rospy.on_shutdown(self._detect.cancel)  # otherwise, the shutdown would wait for the end of a call
+        rospy.on_shutdown(self._detect.cancel)  # Without this, the shutdown would wait for the end of a call.
 
     def handle_report(self, _: object) -> CashierReportResponse:
         """Return the numbers and times of all greetings."""
@@ -64,16 +64,16 @@ class Cashier:
         rospy.spin()
 
     def run_client(self, patience: float, pause: float) -> None:
-        """Call until there is no new customer; do this every `pause` s until the node is shut down."""
+        """Call until there is no new customer; repeat this every `pause` s until the node is shut down."""
         self.offer_report()
         due = time.monotonic()
         while not rospy.is_shutdown():
             try:
-                while self._ask(patience):  # there may be several new customers at the same time
+                while self._ask(patience):  # There may be several new customers at the same time.
                     pass
                 rest = pause
             except (rospy.ServiceException, CourseError) as error:
-                if rospy.is_shutdown():  # the call failed because the shutdown has cancelled it
+                if rospy.is_shutdown():  # The shutdown has cancelled the call.
                     return
                 rospy.logwarn_throttle(10, f"No answer, so the next call follows soon: {error}")
                 rest = max(pause, AGAIN)
@@ -81,12 +81,15 @@ class Cashier:
             rospy.sleep(due - time.monotonic())
 
     def offer_report(self) -> None:
-        """Serve the report; when this service exists, the cashier is ready."""
+        """Serve the report; the cashier is ready when this service exists."""
         with undisturbed():
             rospy.Service("~report", CashierReport, self.handle_report)
 
     def _ask(self, patience: float) -> bool:
-        """Request the next customer; return whether there is a new one. Raises the same errors as a call."""
+        """Request the next customer; return whether there is a new customer.
+
+        Raises the same errors as a service call.
+        """
         with self._lock:
             self._asked += 1
         answer = self._detect.call(after=self._last, patience=patience, timeout=patience + GRACE)
@@ -126,5 +129,5 @@ def main() -> None:
             # The server waits up to `patience` s before it responds without a customer. Therefore, this
             # client needs no pause.
             cashier.run_client(patience=patience, pause=patience)
-    except rospy.ROSInterruptException:  # the node was shut down during a sleep
+    except rospy.ROSInterruptException:  # The node was shut down during a sleep.
         return

@@ -1,7 +1,7 @@
 """The node `detector`: finds new customers in the messages on `counter`, which a camera publishes.
 
-The node publishes the number of each customer once on `customers` (std_msgs/UInt32). It serves
-`detect_customer` (course_pkg/DetectCustomer): a call waits for a customer, for at most the time in the
+The node publishes the number of each customer once on `customers` (std_msgs/UInt32). The node also serves
+`detect_customer` (course_pkg/DetectCustomer). A call waits for a customer for at most the time in the
 request.
 """
 
@@ -19,9 +19,9 @@ from course_pkg.ros.node.program import start_node, undisturbed, wait_until
 from course_pkg.shop.watch import Customer, Watch
 from course_pkg.srv import DetectCustomer, DetectCustomerRequest, DetectCustomerResponse
 
-LONGEST = 60.0  # maximum time in s for which a caller can wait
-SILENCE = 2.0  # s; after this time without a message, the camera counts as stopped
-CALLERS = 64  # maximum number of simultaneous callers; each of them needs a thread
+LONGEST = 60.0  # A caller can wait at most this many s.
+SILENCE = 2.0  # After this many s without a message, the camera counts as stopped.
+CALLERS = 64  # At most this many callers can wait at the same time, because each caller needs a thread.
 
 
 class Detector:
@@ -43,12 +43,12 @@ class Detector:
             self._publisher.publish(customer.number)
 
     def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
-        """Return the first customer whose number is above `after`, or no customer after `patience` s.
+        """Return the first customer with a number above `after`, or no customer after `patience` s.
 
         Raises ServiceException if `patience` is out of range, if too many callers are waiting, or if the
         camera sends no messages.
         """
-        if not 0.0 <= request.patience <= LONGEST:  # this condition is false for NaN
+        if not 0.0 <= request.patience <= LONGEST:  # The condition is False for NaN.
             message = f"a wait of {request.patience:g} s is not possible"
             wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", message)
             raise rospy.ServiceException(str(wrong))
@@ -59,7 +59,7 @@ class Detector:
         return DetectCustomerResponse(True, customer.number, customer.arrived)
 
     def _wait(self, after: int, patience: float) -> Customer | None:
-        """Wait for a customer; return None if there is none.
+        """Wait for a customer; return None if no customer comes.
 
         Raises ServiceException if the camera sends no messages.
         """
@@ -72,7 +72,10 @@ class Detector:
 
     @contextmanager
     def _place(self) -> Iterator[None]:
-        """Count as one waiting caller during the block; raises ServiceException if there are too many."""
+        """Count as a waiting caller during the block.
+
+        Raises ServiceException if too many callers are waiting.
+        """
         if not self._places.acquire(blocking=False):
             raise rospy.ServiceException(f"{CALLERS} callers wait already: call again later")
         try:
@@ -87,7 +90,7 @@ def main() -> None:
         return
     with undisturbed():
         detector = Detector()
-    # without this wait, the first call would fail, because there is no message yet
+    # Without this wait, the first call would fail, because there is no message yet.
     wait_until(detector.has_data, SILENCE)
     with undisturbed():
         rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)

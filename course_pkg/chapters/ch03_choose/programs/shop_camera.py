@@ -1,8 +1,8 @@
 """The node `shop_camera`: a shop with a counter, and a camera above the counter.
 
-It publishes the numbers of the customers who are present on `counter` (std_msgs/UInt32MultiArray), at each
-change and ten times per second. It serves `let_in` (course_pkg/LetIn). If `~every` is above 0, random
-customers come, too: on average, one customer every `~every` s.
+The node publishes the numbers of the present customers on `counter` (std_msgs/UInt32MultiArray), at each
+change and ten times per second. The node also serves `let_in` (course_pkg/LetIn). If `~every` is above 0,
+additional random customers come: on average, one customer every `~every` s.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from course_pkg.ros.node.program import number_parameter, start_node, undisturbe
 from course_pkg.shop.counter import Counter, Visit
 from course_pkg.srv import LetIn, LetInRequest, LetInResponse
 
-PERIOD = 0.1  # s between two messages while nothing changes
-STAY = 4.0  # s for which a random customer stays
+PERIOD = 0.1  # While nothing changes, the camera publishes every PERIOD s.
+STAY = 4.0  # A random customer stays for STAY s.
 
 
 class ShopCamera:
@@ -36,7 +36,7 @@ class ShopCamera:
         self._publisher = rospy.Publisher("counter", UInt32MultiArray, queue_size=10)
 
     def handle_let_in(self, request: LetInRequest) -> LetInResponse:
-        """Let customers in, and return the time at which each of them comes.
+        """Let customers in, and return the times at which they come.
 
         Raises ServiceException for invalid values.
         """
@@ -62,9 +62,9 @@ class ShopCamera:
         with self._changed:
             visits = self._counter.let_in(time.time(), after, stay)
             self._changed.notify()
-        # A client waits for a number that is higher than the last one that it received. Therefore, the
-        # numbers have to continue after a restart of this node. If there is no master, the parameter cannot
-        # be stored; then the numbers start again at 1.
+        # A client waits for a number that is higher than the last number that it received. Therefore, the
+        # numbers must continue after a restart of this node. Without a master, the parameter cannot be
+        # stored, and the numbers start again at 1.
         with suppress(OSError, rospy.ROSException):
             rospy.set_param("~number", self._counter.number)
         return visits

@@ -1,6 +1,6 @@
-"""Compatible definitions.
+"""Checks the student's results about compatible definitions.
 
-The check compares the student's results with the MD5 sums of random definitions.
+The check compares the results with the MD5 sums of random definitions.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
 
 @dataclass(frozen=True)
 class Pair:
-    """Two definitions, an assertion about the difference between them, and a hint."""
+    """Two definitions, an assertion about their difference, and a hint."""
 
     assertion: str
     server: str
@@ -35,7 +35,7 @@ class Pair:
 def who_talks_to_whom(context: CheckContext) -> None:
     """Try differences that change the MD5 sum, and differences that do not change it."""
     again = context.random.shuffled(_pairs(context))[: context.random.integer(6, 9)]
-    # the order is random, so that an answer that counts its calls fails
+    # In a random order, a function that only counts its calls fails.
     for pair in (*_pairs(context), *again):
         for server, client in context.random.shuffled(
             [(pair.server, pair.client), (pair.client, pair.server)]
@@ -125,5 +125,5 @@ def _text(top: list[str], above: list[str], below: list[str]) -> str:
 
 
 def _slip(name: str) -> str:
-    """Return the name with another last letter."""
+    """Return the name with a different last letter."""
     return name[:-1] + ("a" if name[-1] != "a" else "b")

@@ -1,4 +1,4 @@
-"""The definition: the check parses it as ROS does, compares each field, and builds it."""
+"""The definition: the check parses it in the same way as ROS, compares each field, and builds it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FIELDS = "Write the fields of the request and of the response, with their types.
 def the_lamp(context: CheckContext) -> None:
     """Parse the text in the same way as ROS, and compare it with the description.
 
-    Build it in another folder.
+    After that, build the definition in another folder.
     """
     text = context.source(f"file:{FILE}")
     asked, given = compile_service(TYPE, DEFINITION), read_definition(context, TYPE, text)
@@ -162,7 +162,7 @@ def _about_constants(wanted: list[str], found: list[str], below: list[str], text
 
 
 def _line(text: str, name: str) -> str:
-    """Return "Line 3: " for the line that declares `name`, or an empty string if no line declares it."""
+    """Return text such as "Line 3: " for the line that declares `name`, or "" if no line declares it."""
     for line in lines(text):
         if any(word.text.partition("=")[0] == name for word in line.words()[1:]):
             return f"Line {line.number}: "

@@ -16,8 +16,10 @@ from course_pkg.workspace.fault import locate
 
 PACKAGE = "src/lamp_services"
 TYPE = "lamp_services/Lamp"
-LIMITS = "ulimit -t 6 -f 100000"  # maximum CPU time in s and file size in KiB; a step needs 1 s of CPU time
-# maximum time in s for the whole build; it takes 1.5 s on an idle machine and 20 s on a very busy one
+# A build step may use this CPU time in s and write files of this size in KiB; it needs about 1 s of CPU time.
+LIMITS = "ulimit -t 6 -f 100000"
+# The whole build may take this many s; a build takes 1.5 s on an idle machine and 20 s on a very busy
+# machine.
 BUILD = 40.0
 
 GENERATION = re.compile("catkin_package lists message_generation")
@@ -72,7 +74,7 @@ SOUND = {
     f"{PACKAGE}/srv/Lamp.srv": DEFINITION,
     f"{PACKAGE}/package.xml": MANIFEST,
     f"{PACKAGE}/CMakeLists.txt": LISTS,
-    # the CMakeLists.txt may install this file
+    # The student's CMakeLists.txt may install this file.
     f"{PACKAGE}/scripts/lamp_server.py": "#!/usr/bin/env python3\n",
 }
 
@@ -85,7 +87,7 @@ def lamp_class() -> ServiceClass:
 def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
     """Build a workspace with the student's files or folders `given`.
 
-    All other files are the check's own versions.
+    The check supplies all other files.
     """
     texts = {path: text for path, text in SOUND.items() if not path.startswith(tuple(given))}
     folder = context.folder(files=given, texts=texts)
@@ -100,7 +102,7 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
 def md5_in(folder: Folder) -> tuple[str, str]:
     """Return the MD5 sum of the type that Python finds in `folder`, and "".
 
-    If there is none, return "" and the error output.
+    If Python finds no type, return "" and the error output.
     """
     line = "python3 -c 'from lamp_services.srv import Lamp; print(Lamp._md5sum)'"
     done = folder.command("bash", "-c", f". devel/setup.bash && {line}", within=10.0, worded=line)
@@ -108,7 +110,7 @@ def md5_in(folder: Folder) -> tuple[str, str]:
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return the fault as one in the student's file, because the check's own files are correct."""
+    """Return the fault as a fault in the student's file, because the check's own files are correct."""
     theirs = given[0].removeprefix("src/")
     if GENERATION.search(fault.problem):
         fault = replace(fault, remedy=RUNTIME)

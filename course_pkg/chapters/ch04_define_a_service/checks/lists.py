@@ -1,4 +1,4 @@
-"""The repaired CMakeLists.txt: the build has to succeed, and Python has to be able to import the type."""
+"""The repaired CMakeLists.txt: the build must succeed, and Python must be able to import the type."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ GENERATED = "Let the build pass, and generate the type Lamp."
     goals={GENERATED: 3, "Let other packages find this package.": 1},
 )
 def the_list_file(context: CheckContext) -> None:
-    """Build the package with this file and the check's other files; then import the type."""
+    """Build the package with the student's file and the check's other files; then import the type."""
     folder = built(context, given=[FILE])
     text = context.source(f"file:{FILE}")
     md5, printed = md5_in(folder)
@@ -71,7 +71,7 @@ def _why_no_type(text: str) -> str:
 
 
 def _about(text: str, name: str, reason: str) -> str:
-    """Return a hint: the command is only in a comment, or it is missing."""
+    """Return a hint that the command is missing, or occurs only in a comment."""
     for each in cmake_commands(text):
         if each.name == name and each.is_comment:
             return f"Line {each.line}: {name} is only a comment. Remove the #. {reason}"

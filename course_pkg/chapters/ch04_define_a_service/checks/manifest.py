@@ -1,4 +1,4 @@
-"""The repaired package.xml: catkin has to accept it, and it has to contain the package's dependencies."""
+"""The repaired package.xml: catkin must accept it, and it must contain the package's dependencies."""
 
 from __future__ import annotations
 
@@ -36,7 +36,10 @@ LISTED = {"built": "List what is needed to build.", "run": "List what is needed 
     goals=[ACCEPTED, *LISTED.values()],
 )
 def the_manifest(context: CheckContext) -> None:
-    """Build the package with this file and the check's other files; then compare the dependencies."""
+    """Build the package with the student's file and the check's other files.
+
+    After that, compare the dependencies.
+    """
     built(context, given=[FILE])
     context.fulfilled(ACCEPTED)
     text = context.source(f"file:{FILE}")

@@ -1,4 +1,4 @@
-"""The server as a program of the package: rosrun has to find it, and it has to serve the new type."""
+"""The server as a program of the package: rosrun must find it, and it must serve the new type."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ from course_pkg.workspace import explain
 
 NAME = "lamp_server.py"
 FILE = f"{PACKAGE}/scripts/{NAME}"
-STARTING = 20.0  # maximum time in s until the program serves; it takes 1 s on an idle machine
-LOOK = 0.1  # s between two snapshots of the graph
+# The program must serve within this many s; it takes 1 s on an idle machine.
+STARTING = 20.0
+LOOK = 0.1  # LOOK is the time in s between two snapshots of the graph.
 
-ENDINGS = (  # a pattern for the program's output, and a hint
+ENDINGS = (  # Each entry contains a pattern for the program's output, and a hint.
     (r"rospy\.init_node\(\) first", "A service belongs to a node: call rospy.init_node first."),
     (
         r"no attribute '_request_class'",
@@ -113,7 +114,7 @@ def _run_bit(context: CheckContext, folder: Folder) -> None:
 
 
 def _serves(context: CheckContext, running: Running, name: str, node: str) -> None:
-    """Wait until the program serves `name`; if it does not, report what happened."""
+    """Wait until the program serves `name`; otherwise, report what happened."""
     deadline = time.monotonic() + STARTING
     while context.look().service(name) is None:
         if running.status is not None or time.monotonic() > deadline:
@@ -157,7 +158,7 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
 
 
 def _own_line(printed: str) -> str:
-    """Return a sentence that contains the wrong line of the student's script.
+    """Return a sentence with the wrong line of the student's script.
 
     If the line is not known, return "".
     """

@@ -1,4 +1,4 @@
-"""05.5: a program with two services, of which one can be shut down and served again."""
+"""05.5: a program with two services; one service can be shut down and served again."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "arm.py"
 MOVE, MAINTENANCE = "/move_arm", "/maintenance"
-STARTS = 8.0  # maximum time in s until the program serves; it takes 0.5 s on an idle machine
-POLL = 0.1  # s between two snapshots of the graph
-IMPORTED = 77  # exit status of an import that ends without sys.exit or os._exit
+STARTS = 8.0  # The program must serve within this many s; it takes 0.5 s on an idle machine.
+POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
+IMPORTED = 77  # An import has this exit status if it ends without sys.exit or os._exit.
 IMPORT = f"import arm; raise SystemExit({IMPORTED})"
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -122,7 +122,7 @@ def _works(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) -> None:
-    """Switch and move in a random order, so that a program that counts its calls fails."""
+    """Switch and move in a random order, so that a program that only counts its calls fails."""
     closed = False
     for _ in range(context.random.integer(5, 8)):
         data = context.random.choice([True, False])

@@ -1,4 +1,4 @@
-"""The geometry servers: one measures every box, and the other one refuses impossible boxes."""
+"""The geometry servers: one server measures every box, and the other server refuses impossible boxes."""
 
 import re
 from collections.abc import Mapping
@@ -11,8 +11,9 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-MANY = 6  # maximum number of numbers in a message; with more of them, one may be right by chance
-# Matches an error message from the student's handler, but no message that rospy itself writes.
+# A message may contain at most this many numbers. With more numbers, one number may be right by chance.
+MANY = 6
+# The pattern matches an error message from the student's handler, but no message of rospy itself.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 AREA, VOLUME = "Return the area of the floor.", "Return the volume."
 MEASURED = "Measure a box without a negative side."
@@ -87,7 +88,7 @@ def _about_area(width: float, length: float, height: float) -> Hints:
     goals={MEASURED: 1, REFUSED: 2, NAMED: 1},
 )
 def a_box_that_cannot_be(context: CheckContext) -> None:
-    """Send a normal box and three flat ones; then send boxes with one and with two negative sides."""
+    """Send a normal box and three flat boxes; then send boxes with one and with two negative sides."""
     get_geometry = context.service(
         "/getGeometryChecked",
         "course_pkg/geometry",
@@ -110,7 +111,8 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    depths = [*(-depth / 2 for depth in context.random.integers(2, 3, 99)), -1 / 1024]  # exact as float32
+    # These numbers are exact as a float32.
+    depths = [*(-depth / 2 for depth in context.random.integers(2, 3, 99)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})
     for pair in combinations(SIDES, 2):
@@ -126,7 +128,7 @@ def _box(context: CheckContext, given: Mapping[str, float]) -> dict[str, float]:
 def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str, float]) -> None:
     """Assert that the box is refused.
 
-    The error message has to contain the name of the first negative side.
+    The error message must contain the name of the first negative side.
     """
     error = get_geometry.refused(
         "a negative side is refused",
@@ -180,7 +182,7 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 
 def _unclear(named: list[str], side: str, reason: str) -> str:
-    """Return the hint for a message that contains the names `named`, but should contain only `side`."""
+    """Return the hint for a message with the names `named`; the right message contains only `side`."""
     if len(re.findall(NUMBER, reason)) > MANY:
         return "The message contains many numbers. Write only the value of the negative side."
     if "{" in reason:

@@ -1,4 +1,4 @@
-"""The servers that have a state: the counter and the switch."""
+"""Servers with a state: the counter and the switch."""
 
 from collections.abc import Callable
 
@@ -68,7 +68,7 @@ MOVED = "Return in success whether the switch moved."
     goals={COUNTED: 3, SUCCESS: 1},
 )
 def a_counter_that_resets(context: CheckContext) -> None:
-    """Call /count to find out the present count; then reset it, and count to more than 9."""
+    """Call /count to read the current count; then reset it, and count to more than 9."""
     count = context.service(
         "/count",
         "std_srvs/Trigger",
@@ -156,7 +156,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
 def _starts_from_zero(context: CheckContext) -> None:
     """Count once with a new object while /count is not at zero.
 
-    A class with another interface is left out.
+    A class with another interface is not tested.
     """
     if not context.has("Counter"):
         return
@@ -194,7 +194,10 @@ def _follows(before: str) -> Callable[[str], bool]:
     goals={POSITION: 2, MOVED: 2, "Let each new Switch() be off.": 1},
 )
 def a_switch_that_tells(context: CheckContext) -> None:
-    """Call /switch with data=False, and then ten more times; then try a new Switch(), which must be off."""
+    """Call /switch with data=False, and then ten more times.
+
+    After that, try a new Switch(), which must be off.
+    """
     turn = context.service(
         "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]
     )
@@ -246,7 +249,7 @@ def a_switch_that_tells(context: CheckContext) -> None:
     context.fulfilled(POSITION)
     context.fulfilled(MOVED)
     context.prepare(A_NEW_SWITCH)
-    if not context.has("Switch"):  # the handler is not a method of a class Switch
+    if not context.has("Switch"):  # Without this name, the handler is not a method of a class Switch.
         return
     for stands, hint in ((False, STARTS_ON), (True, SHARES)):
         turn(data=stands)

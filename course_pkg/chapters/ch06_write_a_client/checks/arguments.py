@@ -5,7 +5,7 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 IS_LIST = """
 def is_list(function, *args):
     return isinstance(function(*args), list)
-"""  # a check receives a tuple as a list, so only the kernel sees the difference
+"""  # A check receives a tuple as a list, so only code in the kernel sees the difference.
 FOR_ROS = "An argument with := is for ROS. Use rospy.myargv(argv), which returns the other arguments."
 NUMBERS = "Return the three numbers, and ignore arguments for ROS."
 
@@ -18,7 +18,10 @@ NUMBERS = "Return the three numbers, and ignore arguments for ROS."
     goals=[NUMBERS, "Return None if there are not exactly three numbers."],
 )
 def read_the_arguments(context: CheckContext) -> None:
-    """Try valid arguments with and without arguments for ROS; then too few, too many, and a word."""
+    """Try valid arguments with and without arguments for ROS.
+
+    Then try too few arguments, too many arguments, and a word.
+    """
     name_first = (
         "The first item of the list is the name of the program. The sides begin with the second item."
     )
@@ -132,7 +135,7 @@ def read_the_arguments(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, program: str) -> None:
-    """Try valid and invalid lists of arguments, so that an answer that counts its calls fails."""
+    """Try valid and invalid lists of arguments, so that a program that only counts its calls fails."""
     counts = [3] * context.random.integer(2, 4) + [2] * context.random.integer(1, 2) + [4, 5]
     for count in context.random.shuffled(counts):
         numbers = context.random.numbers(count, 0.5, 9.0)

@@ -1,4 +1,4 @@
-"""The client that makes one call."""
+"""The client with a single call."""
 
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
 from course_pkg.checking import ANYTHING, CheckContext, matches, part

@@ -30,15 +30,15 @@ def interrupted(function, *args):
     finally:
         over.set()
         signal.signal(signal.SIGUSR1, before)
-"""  # interrupts the function as the Stop button interrupts a waiting cell
+"""  # The kernel code interrupts the function in the same way as the Stop button.
 
 
 def stops(context: CheckContext, function: str, *args: Value, catch: str) -> None:
     """Assert that an interrupt ends the student's function while it waits.
 
-    It should catch only the error `catch`.
+    The function should catch only the error `catch`.
 
-    A report contains this assertion only if it fails.
+    A report contains this assertion only if the assertion fails.
     """
     context.prepare(STOP_BUTTON)
     result = context.run("interrupted", Its(function), *args, worded=f"{function}()")
@@ -57,6 +57,6 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
 def volumes(context: CheckContext, count: int) -> list[float]:
     """Return volumes that are exact as a float32.
 
-    They are not whole numbers, so that a check notices rounding.
+    The volumes are not whole numbers, so that the check notices rounding.
     """
     return [whole + 0.375 for whole in context.random.integers(count, 1000, 9000)]

@@ -24,7 +24,7 @@ class Slip:
 
 class no_name:
     TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
-"""  # each use of this object raises the same error as a name of a wrong type
+"""  # Each use of this object raises the same error as a service name of a wrong type.
 
 DEPENDS = "The result must depend on the response of this call, not on earlier calls."
 VOLUME = "Return the volume of the response."
@@ -90,7 +90,7 @@ def catch_what_can_happen(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
-    """Try new servers that respond or refuse, so that an answer that counts its calls fails."""
+    """Try new servers that respond or refuse, so that a function that only counts its calls fails."""
     responding = volumes(context, context.random.integer(2, 4))
     failing = [None] * context.random.integer(2, 4)
     for volume in context.random.shuffled([*responding, *failing]):
@@ -181,7 +181,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
 def _failing(context: CheckContext) -> list[tuple[str, str, ScriptedServer | None]]:
     """Return the failures.
 
-    Each is its name, the name of the service, and the server, or None if there is none.
+    Each tuple contains the name of the failure, the name of the service, and the server or None.
     """
     refusing, dying, killed, nowhere = (f"/{context.random.word()}" for _ in range(4))
     refuses = context.serve(refusing, GEOMETRY, lambda _: Refuse("not today"))

@@ -15,10 +15,10 @@ from course_pkg.checking.shared.script import require_shebang
 from course_pkg.waiting import at_this_load, wait_until
 
 FILE = "fits.py"
-RUNS = 9.0  # maximum time in s for all runs, which start at the same time; the program waits for at most 2 s
-LATE = 0.5  # s between the first snapshot with the node and the start of the service
-POLL = 0.2  # s between two tests whether the runs have ended
-IMPORTED = 77  # exit status of an import that ends without sys.exit or os._exit
+RUNS = 9.0  # All runs start at the same time and may take this many s; the program waits at most 2 s.
+LATE = 0.5  # The service starts this many s after the first snapshot that contains the node.
+POLL = 0.2  # The check tests every POLL s whether the runs have ended.
+IMPORTED = 77  # An import has this exit status if it ends without sys.exit or os._exit.
 IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"
 USAGE = "usage"
 ENDED_WITH_TEXT = (
@@ -34,17 +34,17 @@ START = f"""%%writefile {FILE}
 class Case:
     """One run of the program."""
 
-    title: str  # name of the case in the titles of assertions
+    title: str  # `title` is the name of the case in the titles of assertions.
     arguments: list[str]
-    script: Script | None  # the responses of the service; None if there is no service
+    script: Script | None  # `script` contains the responses of the service, or None without a service.
     status: int
-    prints: str  # a part of the program's output, in small letters
+    prints: str  # The program's output must contain this text, in lower case.
     calls: int = 1
-    hint: str = ""  # the hint for a wrong exit status
-    # whether getGeometry is remapped; if it is not, the program runs in another namespace
+    hint: str = ""  # The report shows `hint` if the exit status is wrong.
+    # If `remapped` is True, getGeometry is remapped; otherwise, the program runs in another namespace.
     remapped: bool = False
-    late: bool = False  # whether the service starts after the program
-    ends: str = ""  # the goal that is fulfilled if this run and all earlier runs are right
+    late: bool = False  # `late` is True if the service starts after the program.
+    ends: str = ""  # The goal `ends` is reached if this run and all earlier runs are right.
 
 
 COMPARED = "Call getGeometry, and print whether the volume is at most LIMIT."
@@ -175,7 +175,7 @@ def _cases(context: CheckContext) -> list[Case]:
 
 
 class Started:
-    """One run of the program, which has to call the service in `namespace`.
+    """One run of the program; the program has to call the service in `namespace`.
 
     The program either runs in this namespace, or getGeometry is remapped to it.
     """
@@ -185,7 +185,7 @@ class Started:
         self._context = context
         self._service = f"{namespace}/getGeometry"
         self._node = f"{namespace}/{namespace.replace('/', '')}"
-        # For a late service, the time at which the program's node was first on the graph.
+        # For a late service, this is the time when the program's node was first on the graph.
         self._seen: float | None = None
         self.server = self._serve() if case.script and not case.late else None
         named = f"getGeometry:={self._service}" if case.remapped else f"__ns:={namespace}"
@@ -202,7 +202,7 @@ class Started:
             self.server = self._serve()
 
     def _serve(self) -> ScriptedServer:
-        assert self.case.script  # without a script, there is no service
+        assert self.case.script  # Without a script, there is no service.
         return self._context.serve(self._service, GEOMETRY, self.case.script)
 
 

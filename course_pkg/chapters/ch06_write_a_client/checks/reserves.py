@@ -27,9 +27,9 @@ NEXT = "Return the volume of the next service if a service does not exist or ref
 def ask_the_next_one(context: CheckContext) -> None:
     """Try a working server, first alone and then after each kind of failing server.
 
-    At last, try only failing servers.
+    Finally, try only failing servers.
     """
-    # the name must not tell the kind of the server
+    # The name must not show the kind of the server.
     names = {kind: f"/{context.random.word()}" for kind in KINDS}
     first, second, late, tardy = volumes(context, 4)
     primary = context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})
@@ -126,7 +126,8 @@ def ask_the_next_one(context: CheckContext) -> None:
     )
     context.require(
         "a frozen service delays the result by about one second",
-        holds=frozen.took - working.took < 1.75,  # a right function may wait 1 s for each of the two services
+        # A right function may wait 1 s for each of the two services.
+        holds=frozen.took - working.took < 1.75,
         expected="at most 1 s for the frozen service",
         actual=f"a result after {frozen.took:.1f} s",
         hints="The function waits too long for one service. The time limit is one second for each service.",
@@ -154,7 +155,7 @@ def ask_the_next_one(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:
-    """Mix lists with and without a working service, so that an answer that counts its calls fails."""
+    """Mix lists with and without a working service, so that a function that only counts its calls fails."""
     used = [*context.random.shuffled(list(works))[:2], *[""] * context.random.integer(1, 3)]
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]

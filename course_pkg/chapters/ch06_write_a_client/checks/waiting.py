@@ -6,7 +6,7 @@ from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops
 from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
-# maximum time in s for services that exist and for others; a busy machine connects within this time
+# A call for existing or missing services may take this many s; a busy machine connects within this time.
 SAME = 1.5
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
@@ -25,7 +25,7 @@ THERE = "Return True for a service that exists, and False for a service that doe
 def is_anybody_there(context: CheckContext) -> None:
     """Try a running server, and two names without a running server.
 
-    Then start a server while the client waits.
+    After that, start a server while the client waits.
     """
     here, nowhere, killed, later = (f"/{context.random.word()}" for _ in range(4))
     server = context.serve(here, GEOMETRY, lambda _: {})
@@ -63,7 +63,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # the same limit as for services that do not exist
+        ).returned(),  # This call has the same limit as the calls for services that do not exist.
         hints=[
             (
                 False,
@@ -111,7 +111,7 @@ def is_anybody_there(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Try new names, so that an answer that counts its calls fails."""
+    """Try new names, so that a function that only counts its calls fails."""
     fixed = (
         "The result was wrong for a second service. Your result must depend on the given "
         "service, not on earlier calls."
@@ -130,7 +130,7 @@ def _in_a_random_order(context: CheckContext) -> None:
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:
-    """Call the function with a limit of 0.5 s, in which rospy tries twice.
+    """Call the function with a limit of 0.5 s; rospy tries twice within this limit.
 
     A result after 1.4 s is too late.
     """

@@ -23,4 +23,4 @@ def main() -> None:
 
 
 def _die(_: object) -> NoReturn:
-    os._exit(1)  # without a clean-up, so that the registration stays at the master
+    os._exit(1)  # Without a clean-up, the registration at the master is not removed.

@@ -1,4 +1,4 @@
-"""07.3: the CMakeLists.txt, which has to generate a type before programs use it."""
+"""07.3: the CMakeLists.txt, which must generate a type before programs use it."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ WAITS = "Let the target my_geometry_programs wait for the type."
 def the_build(context: CheckContext) -> None:
     """Build the package; then remove the generated classes, and build only the student's target."""
     text = context.source(f"file:{FILE}")
-    # so that a CMakeLists.txt cannot contain the right MD5 sum
+    # With a random field, the CMakeLists.txt cannot contain the right MD5 sum.
     definition = f"float32 {context.random.word()}\n{GEOMETRY}"
     package = built(context, MY_GEOMETRY, examined=NAME, drawn={"srv/geometry.srv": definition})
     md5 = compile_service("my_geometry/geometry", definition).md5
@@ -85,7 +85,7 @@ def _why_no_type(text: str) -> str:
 
 
 def _target_waits(context: CheckContext, package: BuiltPackage, text: str, wanted: str) -> None:
-    """Build only the target while the classes are missing; afterwards, the classes must exist."""
+    """Build only the target while the classes are missing; the build must generate the classes."""
     line = f"rm -rf {CLASSES} && make -C build {TARGET}"
     done = package.folder.command("bash", "-c", line, within=20.0, worded=f"make {TARGET}")
     unknown = "No rule to make target" in done.out + done.err

@@ -1,4 +1,4 @@
-"""07.6: the install rules; the installed files have to work while the folder src is hidden."""
+"""07.6: the install rules; the installed files must work while the folder src is hidden."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 
 SCRIPTS = ("server.py", "client.py")
 PLACE = "lib/my_geometry"
-INSTALLING = 20.0  # maximum time in s; it takes 1 s on an idle machine
+INSTALLING = 20.0  # The installation may take this many s; it takes 1 s on an idle machine.
 INSTALLED = "Install server.py and client.py in the folder in which rosrun finds them."
 
 
@@ -77,7 +77,7 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
         actual=", ".join(places) + (", a file that can only be read" if there else "") or "no such file",
         hints=_why_not_there(context.source(f"file:{FILE}"), script, places, there=there),
     )
-    # catkin_install_python may change the first line
+    # catkin_install_python may change the first line.
     both = f"<(tail -n +2 {MY_GEOMETRY.path(f'scripts/{script}')}) <(tail -n +2 install/{PLACE}/{script})"
     if package.folder.command("bash", "-c", f"cmp {both}", worded=f"cmp {script}").status != 0:
         context.fail(

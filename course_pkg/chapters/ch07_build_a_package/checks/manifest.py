@@ -1,4 +1,4 @@
-"""07.1: the completed package.xml; catkin_create_pkg wrote its first version."""
+"""07.1: the package.xml that catkin_create_pkg wrote and the student completed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.workspace.fault import dependencies, manifest_tags, without_comm
 
 NAME = "package.xml"
 FILE = MY_GEOMETRY.path(NAME)
-GENERATED = {  # for each tag, the text that catkin_create_pkg writes, and a hint
+GENERATED = {  # Each tag has the text that catkin_create_pkg writes, and a hint.
     "description": ("The my_geometry package", "Describe in one sentence what the package does."),
     "license": ("TODO", "Write the name of a licence, for example MIT or BSD."),
 }
@@ -55,7 +55,7 @@ COMPLETE = "List all packages that are needed, in a package.xml that catkin acce
     goals={COMPLETE: 3, "Write your own description, address and licence.": 1},
 )
 def the_manifest(context: CheckContext) -> None:
-    """Compare the dependencies, build the package, and read the texts without influence on the build."""
+    """Compare the dependencies, build the package, and read the texts that do not affect the build."""
     text = context.source(f"file:{FILE}")
     for purpose, tag, packages in NEEDS:
         named = dependencies(text, purpose)

@@ -26,8 +26,9 @@ SERVER = Program("scripts/on_off_server.py", "ON_OFF_SERVER", "/onOff")
 CLIENT = Program("scripts/on_off_client.py")
 SERVER_FILE = SERVICE_EXAMPLE_PACKAGE.path(SERVER.file)
 CLIENT_FILE = SERVICE_EXAMPLE_PACKAGE.path(CLIENT.file)
-WITHIN = 12.0  # maximum time of a run of the client in s
-# Number of a client's calls; with fewer calls, a right client could send the same number each time by chance.
+WITHIN = 12.0  # A run of the client may take this many s.
+# The client is called this many times. With fewer calls, a right client could send the same number each time
+# by chance.
 CALLS = 24
 
 SERVER_START = f"""%%writefile {SERVER_FILE}
@@ -117,7 +118,7 @@ def the_on_off_server(context: CheckContext) -> None:
     goals=[CALLED, "Print a line for each call."],
 )
 def the_on_off_client(context: CheckContext) -> None:
-    """Run the client with a server whose states are random words."""
+    """Run the client with a server that returns random words as states."""
     is_a_script(context, CLIENT_FILE)
     is_executable(context, CLIENT_FILE)
     package = built(context, SERVICE_EXAMPLE_PACKAGE, examined=CLIENT.file)

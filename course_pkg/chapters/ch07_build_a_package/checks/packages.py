@@ -1,6 +1,6 @@
 """The two packages of chapter 07.
 
-For each file that the student has not written yet, the check uses its own version.
+For each missing file, the check uses its own version.
 """
 
 from __future__ import annotations

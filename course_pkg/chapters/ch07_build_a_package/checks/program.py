@@ -1,4 +1,4 @@
-"""Assertions about the programs of chapter 07: Linux can execute it, rosrun finds it, and it serves."""
+"""Assertions about the programs of chapter 07: Linux can execute them, rosrun finds them, and they serve."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.errors import CheckError
 from course_pkg.workspace import explain
 
-# maximum time in s until a program serves; it takes 1 s on an idle machine, and 3 s on a busy one
+# A program may take this many s until it serves; it takes 1 s on an idle machine, and 3 s on a busy machine.
 STARTING = 15.0
-IMPORTING = 15.0  # maximum time in s for an import; it needs 0.4 s of CPU time
-MUCH = 6.0  # maximum CPU time in s; an import that needs more is in an endless loop
-POLL = 0.1  # s between two snapshots of the graph
-LOGGERS = ("/get_loggers", "/set_logger_level")  # every rospy node has these services
+IMPORTING = 15.0  # An import may take this many s; it needs 0.4 s of CPU time.
+MUCH = 6.0  # An import that needs more CPU time (s) than this is in an endless loop.
+POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
+LOGGERS = ("/get_loggers", "/set_logger_level")  # Every rospy node has these services.
 
-# This code imports the script as a module. Each call that only a running node makes ends the import with a
+# This code imports the script as a module. Calls that only a running node makes end the import with a
 # message.
 IMPORTS = """\
 import importlib.util, sys, rospy
@@ -35,8 +35,8 @@ spec = importlib.util.spec_from_file_location("imported", sys.argv[1])
 spec.loader.exec_module(importlib.util.module_from_spec(spec))
 sys.exit(77)
 """
-IMPORTED = 77  # exit status of an import that ends without sys.exit or os._exit
-ENDINGS = (  # a pattern for the program's output, and a hint
+IMPORTED = 77  # An import has this exit status if it ends without sys.exit or os._exit.
+ENDINGS = (  # Each entry contains a pattern for the program's output, and a hint.
     (r"rospy\.init_node\(\) first", "A service needs a node. Call rospy.init_node before rospy.Service."),
     (
         r"no attribute '_request_class'",
@@ -95,7 +95,7 @@ def is_executable(context: CheckContext, path: str) -> None:
 
 
 def can_be_imported(context: CheckContext, package: BuiltPackage, program: Program) -> None:
-    """Assert that an import of the script starts nothing; `if __name__ == "__main__"` has this effect."""
+    """Assert that an import of the script starts nothing, as with `if __name__ == "__main__"`."""
     path = package.package.path(program.file)
     line = f". devel/setup.bash && exec python3 -c '{IMPORTS}' {path}"
     done = package.folder.command("bash", "-c", line, within=IMPORTING, worded=f"import {program.name}")
@@ -121,9 +121,9 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
 
 
 def _never_ends(done: Finished) -> bool:
-    """Return whether an import that reached its time limit would never end, because it waits or is in a loop.
+    """Return whether an import that reached its time limit waits for ever or is in an endless loop.
 
-    A slow import on a busy machine is different, because it waits for the CPU most of the time.
+    A slow import on a busy machine is different: most of the time, it waits for the CPU.
     """
     return done.ran + done.queued < done.took / 2 or done.ran > MUCH
 
@@ -131,7 +131,7 @@ def _never_ends(done: Finished) -> bool:
 def serves(
     context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
 ) -> None:
-    """Wait until the program serves `name` as the node `node`; if it does not, report what happened."""
+    """Wait until the program serves `name` as the node `node`; otherwise, report what happened."""
     assertion = f"rosrun starts it, and it serves {program.service}"
     deadline = time.monotonic() + STARTING
     while (found := context.look().service(name)) is None:
@@ -189,7 +189,7 @@ def why_not(
 
 
 def own_line(program: Program, printed: str) -> str:
-    """Return a sentence that contains the wrong line of the student's script.
+    """Return a sentence with the wrong line of the student's script.
 
     If the line is not known, return "".
     """

@@ -1,6 +1,6 @@
-"""07.7: a README.
+"""07.7: a README with commands.
 
-Its commands tell another person how to build and start the server, and how to call the service.
+The commands tell another person how to build and start the server, and how to call the service.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ CALL = re.compile(
     rf"(?:{NUMBER} +{NUMBER} +{NUMBER}|['\"]\{{?\s*{FIELD}(?:(?: *, *|\s+){FIELD}){{2}}\s*\}}?['\"])"
 )
 CLIENT = re.compile(rf"rosrun +my_geometry +client\.py(?: +{NUMBER}){{3}}")
-COMMANDS = (  # for each command: a pattern, its name, and a hint
+COMMANDS = (  # Each command has a pattern, a name, and a hint.
     (
         r"catkin_make\b",
         "catkin_make",
@@ -80,7 +80,7 @@ def the_readme(context: CheckContext) -> None:
 
 
 def _place(context: CheckContext, commands: str, pattern: str, name: str, hint: str) -> int:
-    """Assert that `commands` contains the command `name`; return the position at which it first begins."""
+    """Assert that `commands` contains the command `name`; return the position of its first occurrence."""
     found = re.search(pattern, commands)
     context.require(
         f"it contains {name}",

@@ -15,7 +15,7 @@ from course_pkg.checking.shared.command_line import commands_of
 from course_pkg.ros.protocol.json_channel import Json
 
 PRINTS = (["echo"], ["printf"])
-WORDS = 4  # number of words in a line: rosservice, call, the name, and one word with all fields
+WORDS = 4  # A line has this many words: rosservice, call, the name, and one word with all fields.
 SPLIT = (
     "bash has split the fields at spaces, or removed quotes. Use shlex.quote, which turns "
     "any text into one word for bash."
@@ -155,7 +155,7 @@ def _lost(actual: Fields) -> bool:
 
 def _complaint(line: str, output: str) -> str:
     """Return the hint for a line that has made no call."""
-    with suppress(ValueError):  # a quotation mark is not closed
+    with suppress(ValueError):  # A quotation mark is not closed.
         if len(shlex.split(line)) == WORDS and matches("ParserError|ScannerError|Too many").search(output):
             return NO_YAML
     return hint_for(COMPLAINTS, f"{line}\n{output}")

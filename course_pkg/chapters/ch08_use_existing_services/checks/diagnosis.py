@@ -24,7 +24,7 @@ DEFINITIONS = {
     "SetBool": "bool data\n---\nbool success\nstring message",
     "Trigger": "---\nbool success\nstring message",
 }
-CHANGED = "float64 first\nfloat64 second\n---\nfloat64 result"  # no type of the course has these fields
+CHANGED = "float64 first\nfloat64 second\n---\nfloat64 result"  # No type of the course has these fields.
 RESULTS = ("not registered", "server is gone", "another type", "another definition", "ok")
 ERRORS: Hints = [
     (
@@ -101,9 +101,11 @@ def find_the_cause(context: CheckContext) -> None:
 
 
 def _services(context: CheckContext, kind: str, other: str, changed: ServiceClass) -> dict[str, str]:
-    """Provide services for all results except "ok"; return the result for each name; "ok" comes first.
+    """Provide services for all results except "ok", and return the result for each name.
 
-    The names are random, so that they do not tell the results.
+    The first result is "ok".
+
+    The names are random, so the names do not show the results.
     """
     works, missing, gone, typed, copied, renewed = (f"/{context.random.word()}" for _ in range(6))
     package = f"{context.random.word()}_pkg"

@@ -12,13 +12,13 @@ from course_pkg.checking.plain_values import Fields, Value
 class ExampleCall:
     """Fields for a request of one type, and the fields of the response."""
 
-    what: str  # name of the call in the titles of assertions
+    what: str  # `what` is the name of the call in the titles of assertions.
     kind: str
     fields: Fields
     answer: Fields
 
     def given(self, received: Value) -> Value:
-        """Return only those fields of a received request that the call has set, also in nested messages."""
+        """Return only the fields of a received request that the call has set, also in nested messages."""
         return _given(self.fields, received)
 
     def mixed_up(self, received: Fields) -> bool:
@@ -47,7 +47,7 @@ def _numbers(context: CheckContext) -> ExampleCall:
 def _texts(context: CheckContext) -> ExampleCall:
     """Return a call with nested messages and with quotation marks.
 
-    It also contains the word off, which YAML reads as False.
+    One value is the text "off", which YAML reads as False.
     """
     width, height, offset = context.random.integers(3, 100, 999)
     frame = f'{context.random.word()}\'s "own" $HOME'

@@ -43,13 +43,16 @@ FOUND = "Return the names of all services of the type, without a call."
     goals=[FOUND, "Leave out a service whose server has ended, and find a new one."],
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve two types and types with similar names; then add a service, and a service of a dead server."""
+    """Serve two types and types with similar names.
+
+    After that, add a service, and register a service of a dead server.
+    """
     kind, other = context.random.shuffled(KINDS)[:2]
     short = kind.partition("/")[2]
     word = context.random.word()
     mine = {f"/{word}/one", f"/{word}/{context.random.word()}"}
     servers = [context.serve(name, kind, lambda _: {}) for name in sorted(mine)]
-    misnamed = f"/{word}/{short}"  # the last part of its name is the name of another type
+    misnamed = f"/{word}/{short}"  # The last part of the name is the name of another type.
     context.serve(misnamed, other, lambda _: {})
     for decoy in (f"{word}_pkg/{short}", f"{kind}Stamped"):
         made = compile_service(decoy, "---\nint32 found").cls
@@ -86,7 +89,7 @@ def find_by_type(context: CheckContext) -> None:
 
 
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str]) -> None:
-    """Assert that the function returns all services of type `kind`; `mine` are the check's services.
+    """Assert that the function returns all services of type `kind`; `mine` contains the check's services.
 
     `incomplete` is the hint if a service is missing.
     """
@@ -94,7 +97,7 @@ def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str]) ->
     _is_a_list_of_names(context, names)
     found: list[str] = of_kind(list, names, "the result")
     types = {service.name: service.type for service in context.look().services}
-    # this includes services of other nodes
+    # The right result includes services of other nodes.
     right = mine | {name for name, actual in types.items() if actual == kind}
     missing, extra = sorted(right.difference(found)), sorted(set(found) - right)
     context.require(
@@ -130,9 +133,9 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
 
 
 def _why_wrong(types: set[str | None], kind: str) -> str:
-    """Return the hint for wrong names whose services have these types.
+    """Return the hint for wrong names; `types` contains the types of their services.
 
-    None means that there is no service, and "" means that the server is dead.
+    None means that the service does not exist, and "" means that the server is dead.
     """
     if None in types:
         return "The list has strings that are not names of services. Return only the names of services."

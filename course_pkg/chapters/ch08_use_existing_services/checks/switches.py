@@ -12,14 +12,14 @@ from course_pkg.checking.plain_values import Fields, Message
 
 @dataclass(frozen=True)
 class Case:
-    """What a switch does in a call, and the value that `move` has to return."""
+    """The behaviour of a switch in a call, and the value that `move` must return."""
 
-    name: str  # name of the case in the titles of assertions
-    there: bool  # whether the switch is already in the requested position
-    obeys: bool  # whether it moves
-    success: bool  # the value in the response
-    expected: str  # the value that `move` has to return
-    wrong_results: list[tuple[str, str]]  # wrong results, each with a hint
+    name: str  # `name` is the name of the case in the titles of assertions.
+    there: bool  # `there` is True if the switch is already in the requested position.
+    obeys: bool  # `obeys` is True if the switch moves.
+    success: bool  # `success` is the value in the response.
+    expected: str  # `expected` is the value that `move` must return.
+    wrong_results: list[tuple[str, str]]  # Each tuple contains a wrong result and a hint.
 
 
 CASES = (
@@ -135,7 +135,7 @@ def move_and_verify(context: CheckContext) -> None:
     for case in CASES:
         for to_open in context.random.shuffled([True, False]):
             _move(context, case, to_open)
-    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:  # the order is random
+    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:  # The order is random.
         _move(context, case, context.random.choice([True, False]))
 
 

@@ -1,7 +1,7 @@
 """The node `add_two_floats_client`: calls `add_two_ints` with another definition, and the server refuses it.
 
-Its definition has the same name, AddTwoInts, but the fields have the type float64 instead of int64. In
-practice, this happens if a definition was changed, but only the client was built again. When a client
+The client's definition has the same name, AddTwoInts, but its fields have the type float64 instead of int64.
+In practice, this happens if a definition was changed, and only the client was built again. When a client
 connects, the server compares the MD5 sums.
 """
 

@@ -7,7 +7,7 @@ import rospy
 from course_pkg.ros.node.program import serve_until_shutdown
 from course_pkg.srv import AddTwoInts, AddTwoIntsRequest, AddTwoIntsResponse
 
-LARGEST = 2**63 - 1  # the largest int64; the smallest is -LARGEST - 1
+LARGEST = 2**63 - 1  # LARGEST is the largest int64; the smallest is -LARGEST - 1.
 
 
 def main() -> None:

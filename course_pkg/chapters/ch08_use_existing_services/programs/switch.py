@@ -1,7 +1,7 @@
 """The node `switch`: a client can open and close the switch, and read its position.
 
-Its services are `~set` (std_srvs/SetBool: True opens and False closes the switch), `~toggle` and `~report`
-(std_srvs/Trigger), and `~reset` (std_srvs/Empty). It starts closed.
+The services are `~set` (std_srvs/SetBool: True opens and False closes the switch), `~toggle` and `~report`
+(std_srvs/Trigger), and `~reset` (std_srvs/Empty). The switch is closed at the start.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from std_srvs.srv import Empty, EmptyRequest, EmptyResponse, SetBool, SetBoolReq
 
 from course_pkg.ros.node.program import serve_until_shutdown
 
-Response = tuple[bool, str]  # success and message
+Response = tuple[bool, str]  # The tuple contains the fields `success` and `message`.
 
 
 class Switch:
@@ -27,7 +27,7 @@ class Switch:
     def handle_set(self, request: SetBoolRequest) -> Response:
         """Open the switch for True, and close it for False.
 
-        `success` says whether it moved, and the message describes the move.
+        `success` says whether the switch moved, and the message describes the move.
         """
         with self._lock:
             if request.data == self._open:

@@ -26,11 +26,11 @@ PROGRAM = script("spawn_turtle_plus")
 ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # m/s
-LATER = 0.5  # s after which /toggle_forward is served
+LATER = 0.5  # The service /toggle_forward starts after this many s.
 WHERE = "Publish only on /NAME/cmd_vel, where NAME is the name in the response of /spawn."
 ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
-ENDING = 0.6  # time in s in which a program without spin() ends
-COUNT = 20  # number of velocities that the check publishes
+ENDING = 0.6  # A program without spin() ends within this many s.
+COUNT = 20  # COUNT is the number of velocities that the check publishes.
 STOPS = (
     "if a service is missing for 5 s or refuses a call, the program calls no further service and ends with 1"
 )
@@ -96,7 +96,7 @@ class Driver:
 def follows(context: CheckContext, program: TurtleProgram) -> None:
     """Assert that a program does what the exercise requires of spawn_turtle_plus.
 
-    Three runs of the program overlap, because one of them takes 5 s.
+    Three runs of the program overlap, because one run takes 5 s.
     """
     copy = program.prepare(context, program)
     name = context.random.word()
@@ -169,7 +169,10 @@ def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
 
 
 def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
-    """Assert that turtle1's velocities reach the new turtle; its name in the response is random."""
+    """Assert that the new turtle gets turtle1's velocities.
+
+    The response contains a random name for the new turtle.
+    """
     standing = _velocity(0.0, 0.0, 0.0)
     velocities = [standing, *(_velocity(*context.random.numbers(3, -2.0, 2.0)) for _ in range(COUNT - 1))]
     subscription = context.subscribe(driver.world.name(f"{driver.name}/cmd_vel"), TWIST)

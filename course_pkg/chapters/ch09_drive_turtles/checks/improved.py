@@ -18,7 +18,7 @@ from course_pkg.checking.peers.service_calls import Service
 PROGRAM = script("improved_pubvel_toggle")
 CHANGE_SPEED = "course_pkg/ChangeSpeed"
 SERVICES = ("toggle_forward", "change_rate", "change_speed", "start_stop")
-RATE = 20.0  # messages per second; the check sets this rate, so that it takes less time
+RATE = 20.0  # The check sets this rate in messages per second, which makes the check faster.
 STANDING = (0.0, 0.0)
 ANY_SPEED = (
     "The node refused a speed that is allowed. Accept every finite number; a negative speed means backwards."

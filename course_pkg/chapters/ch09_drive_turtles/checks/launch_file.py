@@ -20,8 +20,8 @@ from course_pkg.ros import Snapshot
 
 DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
 ALWAYS = {"/turtlesim", f"/{DRIVER}"}
-READY = 20.0  # maximum time in s until a launch file has started its nodes on a busy machine
-# a script that starts the course's program in place of the student's program from an earlier exercise
+READY = 20.0  # READY is the maximum time in s until a launch file has started its nodes on a busy machine.
+# The script starts the course's program instead of the student's program from an earlier exercise.
 STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'
 
 
@@ -154,7 +154,7 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
 
 
 def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
-    """Assert that roslaunch finds each program; this happens before nodes are started."""
+    """Assert that roslaunch finds each program; the check does this before it starts nodes."""
     names = ("turtlesim", DRIVER, SECOND)
     each = (
         f"for n in {' '.join(names)}; do roslaunch --args /$n {file.path} addturtle:=true 2>&1"

@@ -12,8 +12,8 @@ from course_pkg.checking.peers.service_calls import Service
 
 PROGRAM = script("pubvel_toggle_plus")
 KIND = "course_pkg/ChangeRate"
-AT_FIRST = 2.0  # messages per second
-# messages per second; the check sets this rate at the end, because the next message then comes after 1000 s
+AT_FIRST = 2.0  # The first rate is in messages per second.
+# The check sets this rate (messages per second) at the end, because the next message then comes after 1000 s.
 TINY = 0.001
 ALLOWED = "The node refused a rate that is allowed. Accept every number above 0 and up to 100, such as 2.5."
 REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
@@ -103,7 +103,7 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
 def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
     """Set allowed rates and measure some of them, try forbidden rates, and return the last allowed rate.
 
-    One slow rate is below 1 Hz, and its period is far from a whole number of seconds. The number of rates is
+    One rate is below 1 Hz, and its period is not close to a whole number of seconds. The number of rates is
     random.
     """
     fast, slow = context.random.number(40.0, 50.0), context.random.number(0.6, 0.7)
@@ -157,9 +157,9 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
-    """Assert that the node refuses a request deliberately.
+    """Assert that the node deliberately refuses a request.
 
-    With rospy, it raises a ServiceException for this.
+    With rospy, the node does this with a ServiceException.
     """
     (number,) = fields.values()
     why = (

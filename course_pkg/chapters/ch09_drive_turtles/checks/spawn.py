@@ -22,12 +22,12 @@ from course_pkg.waiting import at_this_load, wait_until
 PROGRAM = script("spawn_turtle")
 SPAWN = "turtlesim/Spawn"
 TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
-LIMIT = 5.0  # s for which the student's program waits for a service
+LIMIT = 5.0  # LIMIT is the time in s for which the student's program waits for a service.
 NO_WAIT = "Without a wait, the call fails immediately: wait for the service first, for at most 5 s."
-NO_WAIT_ENDS = 1.0  # time in s in which a program without a wait has ended
-WITHOUT_A_WAIT = 0.5  # time in s in which a program that does not wait ends
-LATE = 2.5  # additional s that the program may need to start and to end
-EARLY = 3.0  # s; if a program ends earlier, its limit is not 5 s
+NO_WAIT_ENDS = 1.0  # A program without a wait has ended after this time in s.
+WITHOUT_A_WAIT = 0.5  # A program that does not wait ends within this time in s.
+LATE = 2.5  # LATE is the additional time in s that the program may need to start and to end.
+EARLY = 3.0  # If a program ends earlier than this time in s, its limit is not 5 s.
 REFUSED = "a second MyTurtle is refused, and the exit status is 1"
 GIVES_UP = "without /spawn, the program gives up after 5 s with the exit status 1"
 
@@ -60,14 +60,14 @@ SPAWN_GOALS = {SPAWNED: 3, ENDS: 1}
     goals=SPAWN_GOALS,
 )
 def wait_and_spawn(context: CheckContext) -> None:
-    """Run the program with a server, without one, and with a server that starts later."""
+    """Run the program with a server, without a server, and with a server that starts later."""
     spawns(context, PROGRAM)
 
 
 def spawns(context: CheckContext, program: TurtleProgram) -> None:
     """Assert that a program does what the exercise requires of spawn_turtle.
 
-    The runs overlap, because one of them takes 5 s.
+    The runs overlap, because one run takes 5 s.
     """
     copy = program.prepare(context, program)
     alone, early, served, real = (World(context, copy, program) for _ in range(4))
@@ -84,7 +84,7 @@ def spawns(context: CheckContext, program: TurtleProgram) -> None:
 def _served_late(context: CheckContext, world: World, running: Running) -> tuple[float, Finished]:
     """Start a server while the program is waiting.
 
-    Returns the time at which the program started (s, time.monotonic()), and how it ended.
+    Returns the start time of the program (s, time.monotonic()), and how the program ended.
     """
     began = world.begins(running)
     wait_until(lambda: running.status is not None, at_this_load(WITHOUT_A_WAIT), 0.05)

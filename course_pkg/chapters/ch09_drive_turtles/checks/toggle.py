@@ -10,8 +10,8 @@ from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.service_calls import Service
 
 PROGRAM = script("pubvel_toggle")
-RATE = 2.0  # messages per second
-STRAIGHT, TURNING = (1.0, 0.0), (0.0, 1.0)  # m/s, rad/s
+RATE = 2.0  # The rate is in messages per second.
+STRAIGHT, TURNING = (1.0, 0.0), (0.0, 1.0)  # The speed is in m/s, and the angular velocity is in rad/s.
 ONE_CALL = "after a call, the turtle turns at 1.0 rad/s"
 NEXT_CALL = "after the next call, the turtle goes straight ahead again"
 AT_FIRST: Hints = [
@@ -101,7 +101,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _counts_each_call(toggle: Service, stream: Stream) -> None:
-    """Make several calls quickly, so that there are several calls between two messages."""
+    """Make several calls quickly, so that several calls come between two messages."""
     for _ in range(2):
         toggle()
     stream.becomes(STRAIGHT, NEXT_CALL, BACK)
@@ -113,7 +113,7 @@ def _counts_each_call(toggle: Service, stream: Stream) -> None:
 def toggles_the_stream(
     toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
 ) -> None:
-    """Change the direction to turning and back to straight ahead; do this `times` times."""
+    """Change the direction to turning and back to straight ahead, `times` times."""
     for _ in range(times):
         toggle()
         stream.becomes(TURNING, ONE_CALL, TOGGLED)

@@ -16,13 +16,14 @@ from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.waiting import wait_until
 from course_pkg.workspace import explain
 
-STARTING = 30.0  # maximum time in s until a node is on the graph; it takes 1 s on an idle machine
-SETTLING = 4.0  # maximum time in s until this node serves its services
-POLL = 0.05  # s between two snapshots of the graph
+# A node must be on the graph within this many s; it takes 1 s on an idle machine.
+STARTING = 30.0
+SETTLING = 4.0  # SETTLING is the maximum time in s until this node serves its services.
+POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")
 TOPICS = ("turtle1/cmd_vel", "turtle1/pose", "MyTurtle/cmd_vel", "MyTurtle/pose")
-LOGGERS = ("/get_loggers", "/set_logger_level")  # every node has these services
+LOGGERS = ("/get_loggers", "/set_logger_level")  # Every node has these services.
 
 
 class World:
@@ -50,7 +51,7 @@ class World:
         self._arguments = f"__ns:={self._space} {remapped}"
 
     def name(self, relative: str) -> str:
-        """Return the full name in this namespace of a topic or service, such as "turtle1/pose"."""
+        """Return the full name of a topic or service in this namespace, such as "turtle1/pose"."""
         return f"{self._space}/{relative}"
 
     def run(self, arguments: str = "") -> Running:
@@ -68,7 +69,10 @@ class World:
         return self._context.service(self.name(relative), kind, hints=hints, timeout=5.0)
 
     def appears(self, relative: str, within: float = STARTING) -> bool:
-        """Wait for at most `within` s until the service `relative` is registered; return whether it is."""
+        """Wait at most `within` s until the service `relative` is registered.
+
+        Return whether it is registered.
+        """
         wanted = self.name(relative)
         return bool(wait_until(lambda: self._context.look().service(wanted), within, POLL))
 
@@ -83,14 +87,14 @@ class World:
         return time.monotonic()
 
     def ends(self, running: Running, within: float) -> Finished:
-        """Wait for at most `within` s until the student's program ends; return how it ended."""
+        """Wait at most `within` s until the student's program ends; return how it ended."""
         wait_until(lambda: running.status is not None, within, POLL)
         return running.stop()
 
     def serves(self, running: Running, *names: str) -> None:
         """Wait until the student's program serves all these services.
 
-        If it does not, report what happened.
+        Otherwise, report what happened.
         """
         assertion = f"{self._program.line} starts a node that offers {_listed(names)}"
         began, seen = time.monotonic(), 0.0

@@ -15,13 +15,15 @@ from course_pkg.waiting import wait_until
 
 TWIST = "geometry_msgs/Twist"
 KEEP_COMING = "the program publishes velocities all the time"
-SILENCE = 4.0  # maximum s without a message; in the check, the programs publish at least twice per second
-FLYING = 0.05  # s after a response; in this time, a message from before the call may still arrive
+# SILENCE is the maximum time in s without a message; during the check, the programs publish at least twice
+# per second.
+SILENCE = 4.0
+FLYING = 0.05  # Within this time in s after a response, a message from before the call may still arrive.
 SILENT = (
     "No velocity arrived for 4 s. Publish a message in each round of the loop, even if the velocity is "
     "0, and do not add other pauses to the loop."
 )
-NEAR = 0.25  # allowed relative error of a rate, because the machine may be busy
+NEAR = 0.25  # A measured rate may differ by this fraction, because the machine may be busy.
 
 
 class Stream:
@@ -44,7 +46,7 @@ class Stream:
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
-        """Return the next `count` messages; assert that none of them takes longer than `within` s."""
+        """Return the next `count` messages; assert that no message takes longer than `within` s."""
         before = len(self._subscription.arrivals)
         for number in range(before + 1, before + count + 1):
             if len(self._subscription.wait(number, within)) < number:
@@ -65,7 +67,7 @@ class Stream:
     def becomes(self, wanted: tuple[float, float], assertion: str, hints: Hints) -> None:
         """Assert that the velocity is `wanted` (m/s, rad/s) from now on.
 
-        Messages from before are left out.
+        Earlier messages are left out.
         """
         now = time.monotonic()
         arrival = self.next(1)[-1]
@@ -84,7 +86,7 @@ class Stream:
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
         """Assert that `wanted` messages per second arrive.
 
-        Some messages before may still have the old rate.
+        The first messages may still have the old rate.
         """
         count = max(2, int(wanted))
         measured = rate(self.next(count + 2)[1:])

@@ -10,10 +10,10 @@ from course_pkg.checking.kernel.small_stacks import SMALL_STACKS
 from course_pkg.checking.peers.service_calls import Reply, Service
 from course_pkg.checking.plain_values import Message
 
-LIMIT = 1.6  # time (s) that a handler waits in the basket that is checked
-SLACK = 0.8  # additional s for a busy machine
-LATER = 0.3  # s until an item is put into the basket
-LAST = 1.2  # s until the last of several items is put into the basket
+LIMIT = 1.6  # In the basket of the check, a handler waits at most this many s.
+SLACK = 0.8  # On a busy machine, a call may take this many s longer.
+LATER = 0.3  # An item is put into the basket after this many s.
+LAST = 1.2  # The last of several items is put into the basket after this many s.
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -95,9 +95,9 @@ ERRORS = [
     deadline=45.0,
 )
 def wait_for_another_call(context: CheckContext) -> None:
-    """Take from a filled and an empty basket; put an item while a client is waiting.
+    """Take from a filled and an empty basket; put an item into the basket while a client is waiting.
 
-    Then use many clients.
+    After that, use many clients.
     """
     names = [f"/{context.random.word()}" for _ in range(2)]
     context.prepare(KERNEL_CODE)
@@ -201,7 +201,7 @@ def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> No
 
 
 def _shares_the_items(context: CheckContext, put: Service, take: Service) -> None:
-    """Let several clients wait, and put fewer items than there are clients, with a pause after each item."""
+    """Let several clients wait, and put fewer items than clients, with a pause after each item."""
     items = context.random.integer(2, 4)
     clients = items + context.random.integer(2, 4)
     pause = (LAST - LATER) / (items - 1)

@@ -16,11 +16,12 @@ from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
 TRIGGER = "std_srvs/Trigger"
-TOGETHER = 1.0  # s for which the server lets a call wait until the other calls have arrived
-LIMIT = 6.0  # time limit for the student's function (s)
-# s after the last response; if a function returns later, it may sleep in place of joining its threads
+TOGETHER = 1.0  # The server waits at most this many s until the other calls have arrived.
+LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
+# A function must return within this many s after the last response; otherwise, it may sleep instead of
+# joining its threads.
 PROMPT = 0.3
-LONGER = 1.0  # s by which the calls of an additional round are longer than this delay
+LONGER = 1.0  # In an additional round, the calls are longer than PROMPT by this many s.
 
 # This code reports each call through a persistent proxy, on the thread that makes the call.
 KERNEL_CODE = (
@@ -77,19 +78,20 @@ class Proxies:
 
 
 class Gate:
-    """A service whose response comes `hold` s after `count` clients have called it, or after TOGETHER s."""
+    """A service that responds `hold` s after `count` clients have called it, or after TOGETHER s."""
 
     def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
-        self.most = 0  # maximum number of clients that waited at the same time
+        self.most = 0  # `most` is the maximum number of clients that waited at the same time.
         self.requests = 0
-        self.answered = 0.0  # time at which the last response was sent (s, time.monotonic())
+        # `answered` is the time at which the last response was sent (s, time.monotonic()).
+        self.answered = 0.0
         self._count, self._words, self._hold = count, words, hold
         self._inside = 0
         self._full = False
         self._changed = threading.Condition()
 
     def __call__(self, _: Message) -> dict[str, Json]:
-        """Handle a request: wait for the other clients, and return a different word for each of them."""
+        """Handle a request: wait for the other clients, and return a different text for each client."""
         with self._changed:
             word = self._words[self.requests % len(self._words)]
             self.requests += 1
@@ -139,10 +141,7 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Serve a response that comes only after all clients have called.
-
-    Use two different numbers of clients.
-    """
+    """Respond only after all clients have called; use two different numbers of clients."""
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
@@ -155,9 +154,9 @@ def calls_at_once(context: CheckContext) -> None:
 
 
 def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
-    """Run the function with `count` calls of `hold` s.
+    """Run the function with `count` calls that take `hold` s each.
 
-    Return the time from the last response to its end, in s.
+    Return the time in s from the last response to the end of the function.
     """
     name = f"/{context.random.word()}"
     proxies = Proxies()
@@ -176,7 +175,7 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
 
 
 def _called(context: CheckContext, count: int, gate: Gate) -> None:
-    # threads that the function did not join may call later
+    # Threads that the function did not join may still call later.
     wait_until(lambda: gate.requests >= count, TOGETHER)
     context.expect(
         "the service is called `count` times",

@@ -14,13 +14,15 @@ from course_pkg.waiting import wait_until
 
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
-SLACK = 1.5  # additional s for a busy machine
-LONG = 2.0  # request.patience in s if no customer comes; a handler that waits twice as long exceeds SLACK
-LATER = 0.6  # s until a customer comes
-PATIENCE = 5.0  # request.patience in s; it is longer than every wait for a customer
-CHANGE = 2.2  # s until a change for which no client waits
-SELDOM = 8  # number of calls of watch.next() in LONG s; a handler with fewer calls and no wait is too slow
-LOOKS = 3000  # number of calls of watch.next() in LONG s; a loop without a pause makes many more calls
+SLACK = 1.5  # On a busy machine, a call may take this many s longer.
+# If no customer comes, request.patience has this value in s. A handler that waits twice as long exceeds
+# SLACK.
+LONG = 2.0
+LATER = 0.6  # A customer comes after this many s.
+PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
+CHANGE = 2.2  # After this many s, the customers change although no client waits.
+SELDOM = 8  # A handler with fewer calls of watch.next() in LONG s, but no real wait, is too slow.
+LOOKS = 3000  # A loop without a pause makes many more calls of watch.next() in LONG s than this.
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"
 AT_ONCE = (
@@ -100,7 +102,7 @@ FOUND = "Respond as soon as a customer is there, and after request.patience at t
 def wait_for_a_customer(context: CheckContext) -> None:
     """Call without a customer; then with a present, a known and a late customer.
 
-    Then from several clients.
+    Then call from several clients.
     """
     counter, name = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(A_SHOP)
@@ -122,7 +124,7 @@ def wait_for_a_customer(context: CheckContext) -> None:
 
 
 class _Shop:
-    """Publishes the customers at the counter again and again, like the camera."""
+    """Publishes the customers at the counter repeatedly, like the camera."""
 
     def __init__(self, context: CheckContext, counter: str) -> None:
         self._context, self._counter = context, counter
@@ -137,7 +139,7 @@ class _Shop:
         self._saying = self._context.publish(self._counter, COUNTER, [{"data": numbers}], every=0.05)
 
     def later(self, seconds: float, *numbers: int) -> None:
-        """Publish that these customers are at the counter, `seconds` from now."""
+        """Publish after `seconds` s that these customers are at the counter."""
         Timer(seconds, self.there, numbers).start()
 
     def await_sight(self, count: int) -> None:
@@ -212,7 +214,7 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
             "the customer was first seen, customer.arrived."
         ),
     )
-    shop.later(LATER / 2)  # the known customer leaves; this change must not end the wait
+    shop.later(LATER / 2)  # The known customer leaves; this change must not end the wait.
     shop.later(LATER, coming)
     response = detect(after=known, patience=PATIENCE)
     context.require(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.cases import Cases, compare_cases
 
-# The notebook describes the observations of each case; this dict contains their causes.
+# The notebook describes the observations of each case; this dict contains the causes.
 RIGHT = {
     "A": "lock across a call",
     "B": "lock order",
@@ -48,5 +48,5 @@ CASES = Cases(
 
 @part("10.7", points=2, goal="Find the cause of each of six observations.", needs=["causes"])
 def find_the_cause(context: CheckContext) -> None:
-    """Compare the cause that the student chose for each case with the right one."""
+    """Compare the student's choice for each case with the right cause."""
     compare_cases(context, "causes", CASES)

@@ -1,4 +1,4 @@
-"""10.5: a server that calls another server, while it serves its own clients."""
+"""10.5: a server that calls another server while it serves its own clients."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from course_pkg.errors import GraphError
 from course_pkg.ros.node.proxy import BoundedProxy
 
 CHARGE = "course_pkg/Charge"
-MEETING = 2.0  # s for which a call to the till waits for another call
-ABSENT = 4.0  # time limit for a sale without a server of the till, on a busy machine (s)
-CALL_BACK = 2.0  # s; after this time, the till continues without a response from the shop
+MEETING = 2.0  # A call to the till waits at most this many s for another call.
+ABSENT = 4.0  # Without a till, a sale may take this many s on a busy machine.
+CALL_BACK = 2.0  # After this many s, the till continues without a response from the shop.
 LOCKED = (
     "The till called /left while it was charging, but got no response, because your handler holds the "
     "lock that /left needs. Release the lock before you call the till."
@@ -62,16 +62,16 @@ class Till:
     """A till that charges amounts; during the first charge, it calls the shop."""
 
     def __init__(self, context: CheckContext, left: str) -> None:
-        # the results of the next calls; None means that the till charges the amount
+        # `acts` contains the results of the next calls; None means that the till charges the amount.
         self.acts: list[Act | None] = []
         self.charged: list[int] = []  # cents
         self.ids: list[str] = []
-        # the shop's responses to calls of /left; "" means that there was no response yet
+        # `answers` contains the shop's responses to calls of /left; "" means that there was no response yet.
         self.answers: list[str] = []
         self._first = context.random.integer(1000, 9000)
         self._left, self._kind = left, context.service_class(TRIGGER)
         self._inside, self._meets = 0, False
-        self.together = 0  # maximum number of simultaneous calls
+        self.together = 0  # `together` is the maximum number of simultaneous calls.
         self._changed = threading.Condition()
 
     def await_crowd(self) -> None:
@@ -128,7 +128,7 @@ PUT_BACK = "Put the thing back if the till fails."
     goals=[SOLD, PUT_BACK, "Sell to 50 clients at the same time."],
 )
 def no_lock_across_a_call(context: CheckContext) -> None:
-    """Buy once, with a till that calls /left; then with tills that fail; then in 50 threads."""
+    """Buy once with a till that calls /left; then buy with tills that fail; then buy in 50 threads."""
     buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
     till = Till(context, left)
     context.prepare(KERNEL_CODE)
@@ -172,7 +172,7 @@ def _opened(
 
 
 def _has_no_till(context: CheckContext, cents: int) -> None:
-    """Buy in a shop whose till does not run, so that the call of the till fails at once."""
+    """Buy in a shop without a running till, so that the call to the till fails at once."""
     buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
     count = context.random.integer(2, 9)
     services = {buy: "handle_buy", left: "handle_left"}

@@ -1,4 +1,4 @@
-"""A shelf on which threads without a lock make mistakes, and a shop in the kernel that uses this shelf."""
+"""A shelf that shows mistakes of threads without a lock, and a shop in the kernel that uses this shelf."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from course_pkg.checking.plain_values import Value
 
 TRIGGER = "std_srvs/Trigger"
 CALLERS = 50
-ONE = 6.0  # time limit for a single call (s)
+ONE = 6.0  # ONE is the time limit in s for a single call.
 SHELF_ERRORS = [
     (
         matches("field message must be"),
@@ -22,10 +22,11 @@ SHELF_ERRORS = [
         "A shelf has only the methods read() and write(count). Use only these two methods.",
     ),
 ]
-MANY = 20.0  # time limit for 50 simultaneous calls on a busy machine (s)
-MEETING = 0.01  # s for which a thread waits for another thread
-FIRST_MEETING = 0.3  # s for which the first of many threads waits until the others have started
-FIRST = 2  # number of such waits of a first thread
+MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.
+MEETING = 0.01  # A thread waits at most this many s for another thread.
+# The first of many threads waits at most this many s until the other threads have started.
+FIRST_MEETING = 0.3
+FIRST = 2  # This many calls of read() or write() wait for up to FIRST_MEETING s.
 
 KERNEL_CODE = (
     SMALL_STACKS
@@ -53,10 +54,10 @@ checked_shop = CheckedShop()
 
 
 class CheckedShelf:
-    """A shelf with `count` things; the kernel has a proxy for it. The kernel has a proxy for it.
+    """A shelf with `count` things. The kernel has a proxy for the shelf.
 
     Each read and each write returns when another thread reads, or after a short time. Therefore, two threads
-    without a lock read the same number. With a lock, the other thread cannot read in this time.
+    without a lock read the same number. With a lock, no other thread can read during this time.
     """
 
     def __init__(self, count: int) -> None:

@@ -10,12 +10,13 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
-LIMIT = 4.0  # s for which a thread of the check waits for a lock, or tries to acquire it again and again
-THREADS, MOVES = 4, 6  # number of threads, and number of moves per thread
-RUN = 8.0  # time limit for all threads together (s)
+# A thread of the check waits for a lock, or tries to acquire it repeatedly, for at most this many s.
+LIMIT = 4.0
+THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES moves.
+RUN = 8.0  # RUN is the time limit in s for all threads together.
 
-MEETING = 0.01  # s for which a thread that holds a lock waits for another thread
-FIRST_MEETING = 0.3  # s for which the first thread waits, so that the other threads can start
+MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
+FIRST_MEETING = 0.3  # The first thread waits at most this many s, so that the other threads can start.
 
 # This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
 KERNEL_CODE = """
@@ -51,7 +52,7 @@ class Deadlock(Exception):
 
 
 class CheckedLock:
-    """A lock; `acquire` returns when another thread holds the other lock, or after a short time.
+    """A lock; `acquire` returns when another thread has acquired the second lock, or after a short time.
 
     Therefore, two threads that acquire the two locks in opposite order always block each other. A thread that
     waits too long gets an error, so that all threads end.
@@ -87,7 +88,7 @@ class CheckedLock:
 
     @remote
     def locked(self) -> bool:
-        """Return whether a thread holds the lock."""
+        """Return whether a thread has acquired the lock."""
         return self._lock.locked()
 
     @remote
@@ -135,7 +136,10 @@ class CheckedShelf:
 
 
 class CheckedPair:
-    """Two shelves. It records how many locks a thread held when it read or changed a count."""
+    """Two shelves.
+
+    The object records how many locks a thread held when the thread read or changed a count.
+    """
 
     def __init__(self, numbers: Sequence[int], counts: Sequence[int], *, crowd: bool = False) -> None:
         self.reads: list[int] = []
@@ -160,12 +164,12 @@ class CheckedPair:
 
     @remote
     def returned(self, value: Value) -> None:
-        """Record the result of one of the calls."""
+        """Record the result of a call."""
         self.results.append(value)
 
     @remote
     def raised(self, error: str) -> None:
-        """Record the error that ended one of the threads."""
+        """Record the error that ended a thread."""
         self.errors.append(str(error))
 
     @property
@@ -175,20 +179,20 @@ class CheckedPair:
 
     @property
     def locked(self) -> bool:
-        """Whether a thread holds one of the locks."""
+        """Whether a thread has acquired a lock."""
         return any(shelf.lock.locked() for shelf in self._shelves)
 
     @property
     def error(self) -> str:
-        """One of the recorded errors, or "" if there is none."""
+        """One of the recorded errors, or ""."""
         return min(self.errors, key=lambda error: "in vain" not in error, default="")
 
     def held(self) -> int:
-        """Return the number of locks that the current thread holds."""
+        """Return the number of locks that the current thread has acquired."""
         return sum(shelf.lock.owner == threading.get_ident() for shelf in self._shelves)
 
     def meet(self) -> None:
-        """Wait until another thread also holds a lock, but only for a short time."""
+        """Wait until another thread has also acquired a lock, but only for a short time."""
         with self._turn:
             limit, self._meeting = self._meeting, MEETING
             self._turn.notify_all()
@@ -246,7 +250,7 @@ MOVED = "Move a thing in one thread, but not from an empty shelf."
 def move_without_deadlock(context: CheckContext) -> None:
     """Move things in one thread, even from an empty shelf.
 
-    Then move things in both directions at the same time.
+    After that, move things in both directions at the same time.
     """
     context.prepare(KERNEL_CODE)
     numbers = sorted(context.random.integers(2, 1, 99))
@@ -299,7 +303,10 @@ def move_without_deadlock(context: CheckContext) -> None:
 def _moves_one(
     context: CheckContext, pair: CheckedPair, source: int, counts: list[int], *, possible: bool
 ) -> None:
-    """Move a thing from the shelf with the index `source`; afterwards, `counts` are the right counts."""
+    """Move a thing from the shelf with the index `source`.
+
+    `counts` contains the right counts after the move.
+    """
     its = Its("move"), Its("checked_pair")
     result = context.run(
         "checked_move", *its, source, 1 - source, hints=ERRORS, worded="move(source, target)"

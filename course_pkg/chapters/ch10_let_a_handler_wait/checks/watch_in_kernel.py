@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-# A shop of the check: it serves the student's handler with a new Watch, and its names are random.
+# This code makes a shop with random names, which serves the student's handler with a new Watch.
 A_SHOP = """
 import collections
 import functools

@@ -65,7 +65,10 @@ class Client:
 
 
 class ResettingPort:
-    """A program at the old address of a server; it is not a ROS server, and it resets each connection."""
+    """A program at the old address of a server.
+
+    The program is not a ROS server, and resets each connection.
+    """
 
     def __init__(self, uri: str) -> None:
         self._listener = socket.create_server(("127.0.0.1", int(uri.rpartition(":")[2])))
@@ -81,7 +84,7 @@ class ResettingPort:
         self._listener.close()
 
     def _reset(self) -> None:
-        with suppress(OSError):  # the listening socket is closed when the block ends
+        with suppress(OSError):  # The listening socket is closed when the block ends.
             while True:
                 connection, _ = self._listener.accept()
                 connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))

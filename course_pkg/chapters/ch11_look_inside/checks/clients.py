@@ -1,4 +1,4 @@
-"""11.5 and 11.6: a client that keeps its connection open, and a client that stores the server's address."""
+"""11.5 and 11.6: a client with a persistent connection, and a client that stores the server's address."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def persistent_client(context: CheckContext) -> None:
 
 
 def _next_act(acts: list[Act]) -> Act:
-    """Return the next act of the script. A refusal is repeated until it is removed.
+    """Return the next act of the script. A refusal is repeated until the check removes it from the script.
 
     After the last act, close the connection.
     """
@@ -142,7 +142,10 @@ def _reports_a_refusal(
 
 
 def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer) -> None:
-    """Close the first and the new connection; there has to be one more request, and then an error."""
+    """Close the first and the new connection.
+
+    The client must send another request, and then raise an error.
+    """
     before = len(server.requests)
     result = client.measure(ERRORS)
     asked = len(server.requests) - before
@@ -249,7 +252,10 @@ def client_with_a_known_address(context: CheckContext) -> None:
 def _finds_it_after_a_reset(
     context: CheckContext, name: str, client: Client, former: ScriptedServer, numbers: list[float]
 ) -> None:
-    """Let another program take the port, and start the server at another address; then stop the server."""
+    """Start another program at the server's port, and start the server at another address.
+
+    Then stop the server.
+    """
     former.leave()
     assertion = "a server that moved is found again"
     with ResettingPort(former.uri):
@@ -268,7 +274,10 @@ def _finds_it_after_a_reset(
 
 
 def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers: list[float]) -> None:
-    """Register another server with the same name; only a client that looks up the name again calls it."""
+    """Register another server with the same name.
+
+    Only a client that looks up the name again calls this server.
+    """
     wrong = context.random.numbers(2, 100.0, 900.0)
     other = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), wrong, strict=True)))
     again = (

@@ -35,10 +35,10 @@ ERRORS = [
         "encode() without an argument.",
     )
 ]
-WITHIN = 3.0  # time limit for one call (s)
-# s after which the next part is sent to a client that peeks at the bytes and does not read them
+WITHIN = 3.0  # WITHIN is the time limit in s for one call.
+# Wait this many s before sending the next part to a client that peeks at the bytes without reading them.
 PEEKING = 0.4
-CONNECTING = 5.0  # time limit for the kernel to connect (s)
+CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 
 
 def _wrong_header(orders: list[dict[str, str]]) -> Hints:
@@ -107,7 +107,7 @@ def _packed(
     lengths: bool = True,
     code: str = "utf-8",
 ) -> bytes:
-    """Return the bytes of the header, or those with the mistake that the arguments describe."""
+    """Return the bytes of the right header, or of a header with the mistake that the arguments describe."""
     texts = [f"{name}{joint}{value}" for name, value in fields.items()]
     coded = [(count(text), text.encode(code)) for text in texts]
     body = b"".join((struct.pack(order, length) if lengths else b"") + data for length, data in coded)
@@ -183,7 +183,7 @@ NOT_RAISED: Hints = [
 def exact_read(context: CheckContext) -> None:
     """Send the bytes in one piece, in several pieces, and with additional bytes.
 
-    Then close the connection too early.
+    After that, close the connection too early.
     """
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
@@ -210,15 +210,17 @@ TAKEN = (
 
 
 class OtherEnd:
-    """The other end of the student's socket. It sends `pieces`, and stays open until the end of the block.
+    """The check's end of the connection to the student's socket.
 
-    It sends each piece after the client has read the previous one. Therefore, a client that reads only once
+    The object sends `pieces`, and does not close the connection before the end of the block.
+
+    Each piece is sent after the client has read the previous piece. Therefore, a client that reads only once
     gets only one piece.
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False) -> None:
-        # The socket is in Linux's abstract namespace: it needs no file, and only this network namespace can
-        # see it.
+        # The socket is in Linux's abstract namespace. The socket needs no file, and only this network
+        # namespace can use the socket.
         self.name = f"course-{secrets.token_hex(8)}"
         self._pieces, self._closes = pieces, closes
         self._listener = socket.socket(socket.AF_UNIX)
@@ -241,13 +243,13 @@ class OtherEnd:
         self._listener.close()
 
     def has_more(self) -> bool:
-        """Return whether there are bytes in the client's socket that the client has not read."""
+        """Return whether the client's socket contains unread bytes."""
         with suppress(OSError):
             return bool(self._sock and _unread(self._sock))
         return False
 
     def _send(self) -> None:
-        with suppress(OSError):  # the kernel has closed its socket, or has not connected
+        with suppress(OSError):  # The kernel has closed its socket, or has not connected.
             sock, _ = self._listener.accept()
             with sock:
                 self._sock = sock
@@ -286,7 +288,7 @@ def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: lis
 
 
 def _not_received(count: int) -> Hints:
-    """Return hints for the case that the function did not return the next `count` bytes."""
+    """Return hints for a function that did not return the next `count` bytes."""
     return [
         (None, NO_RETURN),
         (

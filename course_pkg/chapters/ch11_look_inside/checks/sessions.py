@@ -11,7 +11,7 @@ from course_pkg.checking.shared.own_program import require_kernel
 from course_pkg.ros.node.proxy import BoundedProxy
 
 NAME, KIND = "/my_add_up", "course_pkg/AddUp"
-TIMEOUT = 4.0  # time limit for a call on a busy machine (s)
+TIMEOUT = 4.0  # TIMEOUT is the time limit in s for a call on a busy machine.
 REFUSED = (
     'The header had the field "session", but your handler refused the call. Check '
     "the name of the field in your code."
@@ -29,13 +29,13 @@ TOTALS = "Keep a separate total for each session."
     goals={TOTALS: 2, "Refuse a call without a session.": 1},
 )
 def totals_of_sessions(context: CheckContext) -> None:
-    """Call in two sessions; continue one of them from another node; then call without a session."""
+    """Call in two sessions; continue one session from another node; then call without a session."""
     kind = context.service(NAME, KIND).kind
     require_kernel(context, [service.node for service in context.look().services if service.name == NAME])
     first, second = context.random.word(), context.random.word()
     others = [first.upper(), *(context.random.word() for _ in range(context.random.integer(4, 9)))]
     turns = [first, second, first, first, second, second, *others, first]
-    # larger than the number of calls, so that a total is different from a number of calls
+    # The amounts are larger than the number of calls, so a total differs from a number of calls.
     amounts = context.random.integers(len(turns), 20, 900)
     totals = dict.fromkeys(turns, 0)
     counts = dict.fromkeys(turns, 0)

@@ -18,7 +18,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
-# A float32 stores this fraction exactly, but a result with only a few decimals is different.
+# A float32 stores this fraction exactly, and the fraction has many decimals.
 BINARY = 65 / 512
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
 NO_PROXY = "Do not use a proxy: connect a socket to the address, and send the bytes yourself."
@@ -45,7 +45,7 @@ def begin():
 def end():
     for each, code in zip(FUNCTIONS, CODE):
         each.__code__ = code
-"""  # a client of ROS, or a program such as rosservice, cannot call the service during the check
+"""  # During the check, a client of ROS or a program such as rosservice cannot call the service.
 AS_BYTES = matches(r"\bb['\"]")
 NO_HEADER = "The header has to start with its length, in 4 bytes. Use pack_header."
 NO_LENGTH = "The request has to start with its length, 12, in 4 bytes. The three numbers follow."
@@ -123,10 +123,10 @@ def call_over_a_socket(context: CheckContext) -> None:
 
 
 def _names(source: str) -> set[str]:
-    """Return the names in the code of a function, without words in comments and docstrings."""
+    """Return the names in the code of a function; comments and docstrings are ignored."""
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
-    except SyntaxError:  # for example, the source of a lambda is only a part of a line
+    except SyntaxError:  # For example, the source of a lambda is only a part of a line.
         return set()
     return {node.id for node in nodes if isinstance(node, ast.Name)} | {
         node.attr for node in nodes if isinstance(node, ast.Attribute)

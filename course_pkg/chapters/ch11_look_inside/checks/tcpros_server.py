@@ -18,24 +18,24 @@ from types import TracebackType
 
 from course_pkg.waiting import wait_until
 
-LONGEST = 4096  # maximum bytes of a header or of a request
-TIMEOUT = 8.0  # time limit for the next bytes of a client on a busy machine (s)
-EARLY = 0.1  # s for which the server waits for a request that comes too early
-# s after the response; the client has to close the connection within this time, even on a busy machine
+LONGEST = 4096  # LONGEST is the maximum number of bytes of a header or of a request.
+TIMEOUT = 8.0  # TIMEOUT is the time limit in s for the next bytes of a client on a busy machine.
+EARLY = 0.1  # The server waits this many s for a request that comes too early.
+# After the response, the client must close the connection within this many s, even on a busy machine.
 LINGER = 3.0
-UNREAD = 1.0  # s; sum of the times for which a slow response waits until the client has read a byte
-REQUEST = 12  # bytes of three float32 values
+UNREAD = 1.0  # A slow response waits at most this many s in total until the client has read its bytes.
+REQUEST = 12  # Three float32 values have this many bytes.
 
 
 @dataclass
 class Conversation:
-    """The data that one client has sent; `mistake` is its first mistake."""
+    """The data that one client has sent; `mistake` is the client's first mistake."""
 
     header: dict[str, str] = field(default_factory=dict)
     sides: list[float] = field(default_factory=list)
     mistake: str = ""
     over: bool = False
-    left_open: bool = False  # whether the client left the connection open after the response
+    left_open: bool = False  # `left_open` is True if the client left the connection open after the response.
 
 
 class ProtocolMistake(Exception):
@@ -45,8 +45,8 @@ class ProtocolMistake(Exception):
 class TcprosServer:
     """Responds to geometry calls with the two `numbers`, area and volume, until the end of the block.
 
-    With a `refusal`, it sends this error message in place of a response; with `in_handshake`, the message is
-    in the server's header. With `slowly`, it sends each byte separately.
+    With a `refusal`, the server sends this error message instead of a response. With `in_handshake`, the
+    message is in the server's header. With `slowly`, the server sends each byte separately.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class TcprosServer:
 
     @property
     def uri(self) -> str:
-        """The address of the service, in the same form as from the master."""
+        """The address of the service, in the same format as the master's response."""
         return f"rosrpc://localhost:{self._listener.getsockname()[1]}"
 
     def __enter__(self) -> TcprosServer:
@@ -80,7 +80,7 @@ class TcprosServer:
         self._listener.close()
 
     def _accept(self) -> None:
-        with suppress(OSError):  # the listening socket is closed when the block ends
+        with suppress(OSError):  # The listening socket is closed when the block ends.
             while True:
                 sock, _ = self._listener.accept()
                 self.conversations.append(Conversation())
@@ -126,12 +126,12 @@ class TcprosServer:
         deadline = time.monotonic() + UNREAD
         for each in data:
             sock.sendall(bytes([each]))
-            time.sleep(0.0005)  # without this pause, TCP would send several bytes together
+            time.sleep(0.0005)  # Without this pause, TCP would send several bytes together.
             wait_until(lambda: not _has_unread_bytes(sock), deadline - time.monotonic(), interval=0.001)
 
 
 def _has_unread_bytes(sock: socket.socket) -> bool:
-    """Return whether the client on this computer has unread bytes; /proc/net/tcp contains this number."""
+    """Return whether the client on this computer has unread bytes, according to /proc/net/tcp."""
     ends = [f":{port:04X}" for port in (sock.getpeername()[1], sock.getsockname()[1])]
     for line in Path("/proc/net/tcp").read_text().splitlines()[1:]:
         _, local, remote, _, queues, *_ = line.split()

@@ -15,15 +15,16 @@ from course_pkg.ros.node.program import serve_until_shutdown
 from course_pkg.srv import AddUp, AddUpRequest, AddUpResponse
 
 FIELD = "session"
-LARGEST = 2**31 - 1  # maximum value of an int32
-MOST = 1000  # maximum number of sessions; a further session replaces the one whose last call is the oldest
+LARGEST = 2**31 - 1  # LARGEST is the maximum value of an int32.
+# At most this many sessions are stored; a new session replaces the session with the oldest last call.
+MOST = 1000
 
 
 class Sessions:
     """The totals of all sessions; a lock protects them, because rospy handles each call on its own thread."""
 
     def __init__(self) -> None:
-        # total and number of calls, in the order of the last call
+        # Each value contains the total and the number of calls; the dict has the order of the last calls.
         self._totals: dict[str, tuple[int, int]] = {}
         self._lock = threading.Lock()
 

@@ -1,7 +1,7 @@
 """The node `tcp_echo`: listens on the TCP port `~port`, and sends back all bytes that it receives.
 
-It uses no protocol of ROS. Therefore, a round trip to this program is the shortest possible time of a service
-call.
+The program uses no protocol of ROS. Therefore, a round trip to this program is the shortest possible time of
+a service call.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def main() -> None:
 
 
 def _accept(listener: socket.socket) -> None:
-    with suppress(OSError):  # the listening socket was closed
+    with suppress(OSError):  # The listening socket was closed.
         while True:
             sock, _ = listener.accept()
             threading.Thread(target=_echo, args=(sock,), daemon=True).start()

@@ -1,4 +1,4 @@
-"""The checks of chapter 12 are about servers and clients that handle errors, crashes and concurrent calls."""
+"""The checks of chapter 12: servers and clients that handle errors, crashes and simultaneous calls."""
 
 from course_pkg.chapters.ch12_survive_trouble.checks.diagnosis import diagnose
 from course_pkg.chapters.ch12_survive_trouble.checks.policies import choose_a_policy

@@ -5,7 +5,7 @@ from __future__ import annotations
 from course_pkg.checking import CheckContext, part
 from course_pkg.checking.shared.cases import Cases, compare_cases
 
-# The table in the notebook describes the symptoms; this dict contains their causes.
+# The table in the notebook describes the symptoms; this dict contains the causes.
 RIGHT = {
     "A": "killed",
     "B": "new master",
@@ -50,5 +50,5 @@ CASES = Cases(
 
 @part("12.5", points=2, goal="Find the cause of each of seven problems.", needs=["diagnosis"])
 def diagnose(context: CheckContext) -> None:
-    """Compare the cause that the student chose for each case with the right one."""
+    """Compare the student's choice for each case with the right cause."""
     compare_cases(context, "diagnosis", CASES)

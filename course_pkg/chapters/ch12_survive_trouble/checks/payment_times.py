@@ -1,4 +1,4 @@
-"""The times that 12.3 measures; each is the shortest of several, because the machine may be busy."""
+"""Measures times for 12.3; each result is the shortest of several times, because the machine may be busy."""
 
 from __future__ import annotations
 
@@ -6,12 +6,15 @@ from course_pkg.chapters.ch12_survive_trouble.checks.payments import DEADLINE, G
 from course_pkg.checking import CheckContext, HangUp, matches
 from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
-PAUSE = 0.1  # s before the second attempt
-FIRST = 1.8 * PAUSE  # s; maximum time for the first pause and a new connection, in the fastest payment
-PAYMENTS = 5  # maximum number of payments; the fastest one counts
-AT_END = 0.9  # s until the deadline. it is in the fourth pause, which would end after 1.5 s
-ENDED = 1.3  # s; maximum duration of the fastest of these payments
-AT_WORK = 0.5  # s; least time in which a client has to make attempts
+PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
+# In the fastest payment, the first pause and a new connection may take at most this many s.
+FIRST = 1.8 * PAUSE
+PAYMENTS = 5  # The check makes at most this many payments; the fastest payment counts.
+# The deadline comes after this many s. At this time, the client is in its fourth pause, which would end after
+# 1.5 s.
+AT_END = 0.9
+ENDED = 1.3  # The fastest of these payments may take at most this many s.
+AT_WORK = 0.5  # A client must make attempts for at least this many s.
 GONE = (
     "The till has no server, but pay() waits for it without a time limit. Use the "
     "remaining time as the limit of each wait."

@@ -12,7 +12,7 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 CHARGE = "course_pkg/Charge"
-DEADLINE = 6.0  # s until the deadline in the cases in which the client succeeds
+DEADLINE = 6.0  # In cases where the client succeeds, the deadline comes after this many s.
 ERRORS = [
     (
         matches("TimesUp"),
@@ -36,7 +36,7 @@ GIVEN_UP = [(matches("^TimeoutError|^ServiceException"), UNKNOWN), *ERRORS]
 
 
 class Books:
-    """The payments that a till has charged, one for each request id."""
+    """The payments that a till has charged, with one payment for each request id."""
 
     def __init__(self, context: CheckContext) -> None:
         self.charged: dict[str, int] = {}
@@ -56,7 +56,7 @@ class Books:
 
 
 def pay(context: CheckContext, name: str, cents: int, deadline: float, hints: Hints = ERRORS) -> Result:
-    """Run the student's function with a `deadline` (s); stop it 6 s after the deadline."""
+    """Run the student's function with a `deadline` (s); stop the function 6 s after the deadline."""
     return context.run("pay", name, cents, deadline, within=deadline + 6.0, hints=hints)
 
 
@@ -70,7 +70,7 @@ def pays_after(
 ) -> int:
     """Assert that a payment succeeds; return the number of requests.
 
-    `words` describe the state of the till.
+    `words` is a text about the state of the till.
     """
     before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
     result = pay(context, name, context.random.integer(100, 900), deadline)

@@ -58,5 +58,5 @@ CASES = Cases(
     "12.6", points=2, goal="Choose the right policy of a client after each of six errors.", needs=["policies"]
 )
 def choose_a_policy(context: CheckContext) -> None:
-    """Compare the policy that the student chose for each situation with the right one."""
+    """Compare the student's choice for each situation with the right policy."""
     compare_cases(context, "policies", CASES)

@@ -1,4 +1,4 @@
-"""12.2: a server that has to charge a repeated request only once."""
+"""12.2: a server that must charge a repeated request only once."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from course_pkg.checking.plain_values import Value
 from course_pkg.checking.result import Result
 
 AT_ONCE = 50
-ONE = 6.0  # time limit for a single call (s)
-MANY = 20.0  # time limit for 50 simultaneous calls on a busy machine (s)
-MEETING = 0.05  # s for which a call of take() waits for another call with the same amount
-FIRST_MEETING = 0.5  # s for which the first of many calls waits, so that the other calls can start
-BUYERS = 10  # number of clients; each of them sends its request five times
+ONE = 6.0  # ONE is the time limit in s for a single call.
+MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.
+MEETING = 0.05  # A call of take() waits at most this many s for another call with the same amount.
+FIRST_MEETING = 0.5  # The first of many calls waits at most this many s, so that the other calls can start.
+BUYERS = 10  # This many clients each send their request five times.
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -87,9 +87,9 @@ FAILED = "Charge again after the purse has failed, and refuse a request without 
     goals={CHARGED: 2, FAILED: 1, "Charge only once when 50 requests come at the same time.": 1},
 )
 def charge_once(context: CheckContext) -> None:
-    """Send new and repeated requests; let the purse fail; leave out the id.
+    """Send new and repeated requests; let the purse fail; send a request without an id.
 
-    Send 50 requests at the same time.
+    After that, send 50 requests at the same time.
     """
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
@@ -118,15 +118,15 @@ def charge_once(context: CheckContext) -> None:
 
 
 class CheckedPurse:
-    """A purse. The kernel has a proxy for it.
+    """A purse for the student's till. The kernel has a proxy for the purse.
 
     A call of take() returns when there is another call with the same amount, or after a short time.
-    Therefore, two repeated requests without a lock always run at the same time here.
+    Therefore, two repeated requests without a lock always run at the same time in this check.
     """
 
     def __init__(self) -> None:
         self.took: list[Value] = []
-        self.stuck = False  # whether the next call of take() fails
+        self.stuck = False  # `stuck` is True if the next call of take() fails.
         self.meeting = MEETING
         self._long_waits = 0
         self._asked: Counter[str] = Counter()
@@ -217,7 +217,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
 
 
 def _only_one(words: str) -> Hints:
-    """Return the hint `words`, with the condition that the purse was used only once."""
+    """Return the hint `words` for the case that the purse was used only once."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -241,7 +241,7 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
 def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
     """Send a request twice at the same time, and let the purse fail once.
 
-    There may be a receipt only for a charge.
+    A receipt is allowed only for a charge.
 
     If both requests share one call of take(), both clients get an error.
     """

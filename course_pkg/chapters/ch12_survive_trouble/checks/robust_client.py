@@ -24,15 +24,17 @@ from course_pkg.checking.peers.faulty_server import Crash, Fault, FaultyServer, 
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.waiting import wait_until
 
-TRY = 0.5  # time limit for one attempt, as in the exercise (s)
-PAUSE = 0.1  # s before the second attempt; each further pause is twice as long as the one before
-SHORT = 1.0  # s until the deadline in the case in which the client has to give up
-SLACK = 1.5  # additional s for a busy machine
-AWAY = 0.5  # s until a killed till is started again; the second attempt finds no server
-A_LITTLE = 0.2  # s; less than one attempt
-KEEPING = 2.0  # s for which the check waits for a payment that ends in time
-MOST = 5  # maximum number of failing attempts, if the pauses grow slowly
-LONG = 12.0  # s until the deadline in the case with MOST failing attempts
+TRY = 0.5  # TRY is the time limit in s for one attempt, as in the exercise.
+# The pause before the second attempt takes this many s; each further pause is twice as long as the previous
+# pause.
+PAUSE = 0.1
+SHORT = 1.0  # In the case where the client must give up, the deadline comes after this many s.
+SLACK = 1.5  # On a busy machine, a payment may take this many s longer.
+AWAY = 0.5  # A killed till starts again after this many s, so the second attempt finds no server.
+A_LITTLE = 0.2  # This time in s is shorter than one attempt.
+KEEPING = 2.0  # The check waits at most this many s for a payment that ends in time.
+MOST = 5  # If the pauses grow slowly, at most this many attempts fail.
+LONG = 12.0  # In the case with MOST failing attempts, the deadline comes after this many s.
 
 SLOW = "slow"
 FAULTS = {
@@ -171,7 +173,7 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
 
 
 def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
-    """Mix refusals with failures, so that an answer that counts its calls fails."""
+    """Mix refusals with failures, so that a client that only counts its calls fails."""
     refusals, failures = (context.random.integer(1, 2) for _ in range(2))
     for refuses in context.random.shuffled([True] * refusals + [False] * failures):
         if refuses:
@@ -182,7 +184,7 @@ def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, boo
 
 
 def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the handler do its work and return None; the text of this error is similar to that of a refusal."""
+    """Let the handler do its work and return None; the error message is similar to that of a refusal."""
     till.plan.append(Fault(Refuse("service handler returned None"), worked=True))
     result = pay(context, name, context.random.integer(100, 900), DEADLINE)
     context.require(
@@ -200,7 +202,7 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
 def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
     """Assert that there were several attempts at a slow till.
 
-    There must be only one attempt at a till that responds in time.
+    At a till that responds in time, the client must make only one attempt.
     """
     context.require(
         "the receipt is returned at the end",
@@ -246,7 +248,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         actual=f"{pauses[2]:.2f} s",
         hints="The pause did not grow enough. After each failed try, make the pause at least twice as long.",
     )
-    # the pauses grow slowly, so before the deadline there is time for MOST failing attempts
+    # The pauses grow slowly, so MOST failing attempts fit before the deadline.
     if pauses[2] < 8 * PAUSE:
         till.plan.extend([Fault(HangUp())] * MOST)
         pays_after(context, name, till, books, f"failing {MOST} times", LONG)
@@ -283,8 +285,8 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
 def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) -> None:
     """Let the till respond after the deadline, but within the 0.5 s of an attempt.
 
-    On a busy machine, a client may notice its deadline late. Therefore, the check repeats the payment until
-    one of them ends in time.
+    On a busy machine, a client may notice its deadline late. Therefore, the check repeats the payment until a
+    payment ends in time.
     """
     returned: list[Json] = []
 

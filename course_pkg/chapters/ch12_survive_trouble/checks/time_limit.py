@@ -1,4 +1,4 @@
-"""12.1: a call with a time limit through a proxy that has none."""
+"""12.1: a call with a time limit through a proxy that has no time limit."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from course_pkg.checking.plain_values import Message
 from course_pkg.checking.result import Result
 
 ADD = "course_pkg/AddTwoInts"
-LIMIT = 0.8  # s for which the student's function may wait
-LONG = 4.0  # s; a time limit that is longer than every call
-WORK = 0.3  # duration of a slow handler in s
-SLACK = 1.2  # additional s for a busy machine
+LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
+LONG = 4.0  # This time limit in s is longer than every call.
+WORK = 0.3  # WORK is the duration of a slow handler in s.
+SLACK = 1.2  # On a busy machine, a call may take this many s longer.
 KERNEL_CODE = """
 import threading
 import time
@@ -35,7 +35,7 @@ class CheckedCall:
 
 checked_call = CheckedCall()
 """
-BUSY = 0.8  # CPU time in s; a thread that waits without a pause uses more in LONG s
+BUSY = 0.8  # A thread that waits without a pause uses more than this CPU time (s) within LONG s.
 ERRORS = [
     (
         matches("TimesUp"),
@@ -101,7 +101,7 @@ def a_call_with_a_limit(context: CheckContext) -> None:
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
     """Mix the cases with the same limit.
 
-    An answer that depends on the limit or counts its calls then fails.
+    A function that depends on the limit or counts its calls then fails.
     """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses

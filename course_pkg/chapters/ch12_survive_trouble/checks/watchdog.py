@@ -1,4 +1,4 @@
-"""12.4: a thread that registers a service again when the master was restarted."""
+"""12.4: a thread that registers a service again after a restart of the master."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from course_pkg.errors import GraphError
 from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
-EVERY = 0.1  # s between two polls of the watchdog
-SELDOM = 0.5  # s; of several pauses, at least one is shorter than this, even on a busy machine
-CALLS = 4  # maximum number of calls to the master in one poll
-SOON = 5.0  # time limit for a few polls on a busy machine (s)
-AWAY = 3.0  # s without a master; for a watchdog whose polls the check cannot see
-LEFT_ALONE = 0.8  # s in which a wrong watchdog would register the name again
-LATE = 0.5  # s for which the check waits for a wrong registration after stop()
-READY = 15.0  # time limit for the start of a master (s)
+EVERY = 0.1  # EVERY is the time in s between two polls of the watchdog.
+SELDOM = 0.5  # Even on a busy machine, at least one of several pauses is shorter than this many s.
+CALLS = 4  # CALLS is the maximum number of calls to the master in one poll.
+SOON = 5.0  # SOON is the time limit in s for a few polls on a busy machine.
+AWAY = 3.0  # If the check cannot see the polls of a watchdog, the check stops the master for this many s.
+LEFT_ALONE = 0.8  # A wrong watchdog would register the name again within this many s.
+LATE = 0.5  # LATE is the time in s for which the check waits for a wrong registration after stop().
+READY = 15.0  # READY is the time limit in s for the start of a master.
 
 ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread, and start the thread in __init__."
 DIED = (
@@ -44,7 +44,7 @@ class SecondMaster:
         self._running: Running | None = None
 
     def start(self) -> MasterClient:
-        """Start the master without registrations; return a client when the master responds."""
+        """Start a master without registrations; return a client as soon as the master responds."""
         words = ("rosmaster", "--core", "-p", str(self.port))
         self._running = self._folder.start(*words, worded="a second master")
         client = MasterClient(self.uri, 1.0)
@@ -52,7 +52,7 @@ class SecondMaster:
         return client
 
     def stop(self) -> None:
-        """Stop the master, so that all registrations are lost."""
+        """Stop the master; all registrations are then lost."""
         if self._running is not None:
             self._running.stop()
             self._running = None
@@ -121,7 +121,7 @@ def _registers_again(
     looks = watched.looks
     polled = wait_until(lambda: watched.looks > looks + 2, AWAY)
     master = second.start()
-    # A watchdog may test in another way whether a master runs, for example with rosgraph.is_master_online.
+    # A watchdog may detect a master in another way, for example with rosgraph.is_master_online.
     context.require(
         "without a master, the watchdog continues to poll",
         holds=polled or bool(wait_until(lambda: master.lookup_service(name), SOON)),
@@ -205,7 +205,7 @@ def _registers_both_addresses(context: CheckContext, watched: CheckedMaster, uri
 
 
 def _polls_with_pauses(context: CheckContext, watched: CheckedMaster, took: float) -> None:
-    """Assert that the watchdog pauses between polls; it must not poll too often in `took` s."""
+    """Assert that the watchdog pauses between polls: within `took` s, it must not poll too often."""
     looks = watched.looks
     context.require(
         "the watchdog polls the master at intervals of `every` seconds",
@@ -273,7 +273,7 @@ def _stops(context: CheckContext, watched: CheckedMaster) -> None:
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
     """Return the mistake of a watchdog that registers the service within LATE s after stop() has returned.
 
-    "" if it does not.
+    Return "" for a watchdog without this mistake.
     """
     watched.hold()
     if not watched.inside.wait(SOON):

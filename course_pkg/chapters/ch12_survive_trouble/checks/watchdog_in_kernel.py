@@ -1,4 +1,4 @@
-"""A master that the check can pause during a poll; the student's watchdog in the kernel uses this master."""
+"""A master that the check can pause during a poll. The student's watchdog in the kernel uses this master."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 from course_pkg.ros.protocol.xmlrpc import XmlRpcClient
 
-TIMEOUT = 5.0  # time limit for a call to the master (s)
-PAUSE = 5.0  # maximum time for which a registration waits (s)
+TIMEOUT = 5.0  # TIMEOUT is the time limit in s for a call to the master.
+PAUSE = 5.0  # A registration waits at most this many s.
 
-# A service in the kernel, and the student's watchdog. The watchdog's calls to the master go through the check
-# runner.
+# The code defines a service in the kernel, and starts the student's watchdog. The watchdog's calls to the
+# master go through the check runner.
 KERNEL_CODE = """
 import rosgraph
 import rospy
@@ -50,18 +50,20 @@ checked_watch = CheckedWatch()
 class CheckedMaster:
     """Calls a master for the watchdog, and records these calls.
 
-    After hold(), the master seems to know no service, so the watchdog registers its service. This
-    registration waits until stop() has returned. If stop() itself waits for the registration, the
-    registration waits only for `slow` s.
+    After hold(), the master reports that it knows no service, so the watchdog registers its service. The
+    registration waits until stop() has returned. If stop() itself waits for the end of the registration, the
+    registration waits for at most `slow` s.
     """
 
     def __init__(self, uri: str, slow: float) -> None:
-        self.addresses: list[list[str]] = []  # the last arguments of each registration call
-        self.registered: list[float] = []  # times of the registrations (s, time.monotonic())
-        self.looks = 0  # number of calls to the master
-        self.gap = 60.0  # s; shortest time between two calls of the same kind
-        self.inside = threading.Event()  # this event is set while a registration waits
-        self.stopped_at: float | None = None  # when stop() returned
+        # `addresses` contains the last arguments of each registration call.
+        self.addresses: list[list[str]] = []
+        # `registered` contains the times of the registrations (s, time.monotonic()).
+        self.registered: list[float] = []
+        self.looks = 0  # `looks` is the number of calls to the master.
+        self.gap = 60.0  # `gap` is the shortest time in s between two calls of the same kind.
+        self.inside = threading.Event()  # This event is set while a registration waits.
+        self.stopped_at: float | None = None  # `stopped_at` is the time when stop() returned.
         self._uri, self._slow = uri, slow
         self._times: dict[str, float] = {}
         self._holds = False
@@ -88,7 +90,7 @@ class CheckedMaster:
 
     @remote
     def stopping(self) -> None:
-        """Record that stop() was called now."""
+        """Record that stop() was called."""
         threading.Timer(self._slow, self._release).start()
 
     @remote

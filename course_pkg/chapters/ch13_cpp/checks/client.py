@@ -14,12 +14,12 @@ from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Finished
 
 FILE = f"{PACKAGE}/src/patient_client.cpp"
-WAIT = 2.0  # s for which the client waits for the service
-TRIES = 3  # maximum number of calls
-SLACK = 2.5  # additional s for a busy machine
-PAUSE = 0.045  # s between two calls; this is slightly less than the 0.05 s of the exercise
+WAIT = 2.0  # WAIT is the time in s for which the client waits for the service.
+TRIES = 3  # The client makes at most this many calls.
+SLACK = 2.5  # On a busy machine, a run may take this many s longer.
+PAUSE = 0.045  # Two calls must be at least this many s apart. The exercise requires 0.05 s.
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
-LIMIT = 5.0  # s after which the check stops the program
+LIMIT = 5.0  # LIMIT is the time in s after which the check stops the program.
 
 MILLISECONDS = (
     "The program waited only a few milliseconds, because ros::service::waitForService reads a plain "
@@ -60,7 +60,7 @@ REPEATS = "Call the service at most 3 times, with pauses, and end with exit stat
 def patient_client(context: CheckContext) -> None:
     """Run the client with servers that respond, refuse twice, always refuse or start late.
 
-    Run it also without a server.
+    Also run the client without a server.
     """
     folder = compiled(context, FILE)
     shapes = _prints_the_answer(context, folder)
@@ -72,7 +72,7 @@ def patient_client(context: CheckContext) -> None:
 
 
 def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
-    """Return the printed lines with the volume; each number is replaced by #."""
+    """Return the printed lines with the volume; # replaces each number."""
     name, sides, volume = _random_box(context)
     server = context.serve(name, BOX, lambda _: {"volume": volume})
     finished = _run(folder, name, sides)
@@ -96,7 +96,10 @@ def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
 
 
 def _prints_a_volume_of_0(context: CheckContext, folder: Folder) -> None:
-    """Respond with the volume 0. Then only the return value of call() tells whether there was a response."""
+    """Respond with the volume 0.
+
+    In this case, only the return value of call() shows whether there was a response.
+    """
     name, sides, _ = _random_box(context)
     context.serve(name, BOX, lambda _: {"volume": 0.0})
     _prints(
@@ -225,7 +228,7 @@ def _gives_up_without_a_server(context: CheckContext, folder: Folder, shapes: se
 
 
 def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
-    """Return a random name, three sides, and a volume that is not the product of the sides."""
+    """Return a random name, three sides, and a volume that differs from the product of the sides."""
     sides = [round(side, 2) for side in context.random.numbers(3, 0.5, 9.0)]
     return f"/{context.random.word()}", sides, float(context.random.integer(1000, 9000))
 
@@ -250,7 +253,7 @@ def _run(folder: Folder, name: str, sides: list[float]) -> Finished:
 
 
 def _numbers(out: str) -> list[float]:
-    """Return the printed numbers, without those in roscpp's log messages."""
+    """Return the printed numbers; numbers in roscpp's log messages are left out."""
     return [float(text) for line in _lines(out) for text in NUMBER.findall(line)]
 
 
@@ -262,9 +265,9 @@ def _lines(out: str) -> list[str]:
 def _volumes(out: str, shapes: set[str]) -> list[str]:
     """Return the lines with a volume.
 
-    A line is a number alone, "volume" and a number, or has a form in `shapes`.
+    A line with a volume is a number alone, "volume" and a number, or matches a text in `shapes`.
 
-    Numbers in other lines, such as a number of attempts or seconds, are not volumes.
+    Numbers in all other lines, such as a number of attempts or seconds, are not volumes.
     """
     volume = rf"(?i)(.*\bvolume\W*(is|was)?\W*)?{NUMBER.pattern}"
     return [line for line in _lines(out) if re.fullmatch(volume, line) or NUMBER.sub("#", line) in shapes]

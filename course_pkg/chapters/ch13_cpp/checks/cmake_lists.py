@@ -14,7 +14,7 @@ from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.cmake_messages import cmake_commands
 
 FILE = f"{PACKAGE}/CMakeLists.txt"
-BUILDING = 75.0  # time limit in s; the build takes 4 s on an idle machine
+BUILDING = 75.0  # The build may take this many s; it takes 4 s on an idle machine.
 NO_ROSCPP = (
     "catkin_LIBRARIES contains only the libraries of the packages in "
     "find_package(catkin … COMPONENTS …). Add roscpp to this list."
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   std::cout << "DRAWN" << std::endl;
   return course_pkg::geometry::Request().length != 0;
 }
-"""  # DRAWN is replaced by a random text, so that only a program built from this file prints it
+"""  # A random text replaces DRAWN, so only a program built from this file prints the text.
 
 
 @part(
@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     start=START,
 )
 def cmake_list_file(context: CheckContext) -> None:
-    """Build a program of the check with the student's CMakeLists.txt; the executable has to exist."""
+    """Build the check's own program with the student's CMakeLists.txt; the executable must exist."""
     require_tools()
     drawn = context.random.word(12)
     code = PROGRAM.replace("DRAWN", drawn)
@@ -104,7 +104,7 @@ def _builds(context: CheckContext, finished: Finished) -> None:
     printed = f"{finished.out}\n{finished.err}"
     last = " / ".join([line for line in printed.strip().splitlines() if line.strip()][-3:])
     fault = explain(printed) or Fault("catkin_make failed", f"Read the end of its output: {last}.")
-    if not fault.file.endswith("CMakeLists.txt"):  # there is no mistake in the check's own program
+    if not fault.file.endswith("CMakeLists.txt"):  # The check's own program has no mistake.
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
         if _lacks_roscpp(context.source(f"file:{FILE}")):
             fault = replace(fault, remedy=NO_ROSCPP)

@@ -12,11 +12,11 @@ from course_pkg.waiting import wait_until
 
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
-THINKING, COUNTING = 0.4, 0.05  # s; the same times as in the file that the exercise gives
-# Limit in s for the time between two responses. If all calls overlap, this time is shorter; if a call has to
-# wait for a thread, it is longer.
+THINKING, COUNTING = 0.4, 0.05  # The times in s are the same as in the file that the exercise gives.
+# The time between two responses may be at most this many s. If all calls overlap, this time is shorter. If a
+# call has to wait for a thread, this time is longer.
 APART = 0.15
-# Time in s in which the check repeats six calls until they overlap. On a busy machine, a call may start late.
+# The check repeats six calls for this many s until they overlap. On a busy machine, a call may start late.
 OVERLAPPING = 3.0
 
 START = f"""%%writefile {FILE}
@@ -120,7 +120,7 @@ def number_server(context: CheckContext) -> None:
 def _still_thinks(context: CheckContext, code: str, took: float) -> None:
     """Assert that the code of think() and count() is unchanged.
 
-    The duration `took` of a call (s) must be unchanged, too.
+    The duration `took` of a call (s) must also be unchanged.
     """
     context.require(
         "think() and count() take as long as before",
@@ -139,10 +139,10 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
 
 
 def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str) -> None:
-    """Assert that six simultaneous calls get six numbers; repeat this until all six overlap.
+    """Assert that six simultaneous calls get six numbers; repeat the calls until all six overlap.
 
-    If a call waits for a thread, think() begins only when another call has ended. Then its response is late
-    by the duration of think().
+    If a call waits for a thread, its think() begins only when another call has ended. In this case, the
+    response is late by the duration of think().
     """
     numbers_to_come = itertools.count(2)
     took: list[float] = []
@@ -173,7 +173,7 @@ def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str
 
 
 def _number(message: str) -> int:
-    """Return the number in a response, or -1 if the response contains no number."""
+    """Return the number in a response, or -1 without a number."""
     return int(message) if message.isdecimal() else -1
 
 

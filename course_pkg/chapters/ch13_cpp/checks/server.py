@@ -1,4 +1,4 @@
-"""13.2: a repaired C++ server; its handler and its main function have mistakes at first."""
+"""13.2: a repaired C++ server; the given handler and main function contain mistakes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The checks of chapter 14: those of chapter 09, for C++ programs, and some about callbacks."""
+"""The checks of chapter 14: the checks of chapter 09 for C++ programs, and checks of callbacks."""
 
 from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.report import more_threads, own_queue
 from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.session_counter import count_sessions

@@ -17,9 +17,9 @@ from course_pkg.workspace import Fault, explain, missing_for_cpp
 from course_pkg.workspace.cpp_support import compile_command
 
 NAME = "my_turtles_cpp"
-# maximum CPU time in s and file size in KiB; the compilation of one file takes 4 s
+# The compilation may use this CPU time in s and write files of this size in KiB; one file takes 4 s.
 LIMITS = "ulimit -t 40 -f 100000"
-COMPILING = 90.0  # time limit in s; the compilation takes 4 s on an idle machine
+COMPILING = 90.0  # The compilation may take this many s; it takes 4 s on an idle machine.
 COMPILES = "the compiler accepts the file"
 
 

@@ -1,4 +1,4 @@
-"""14.7 and 14.8: a handler that calls a service of its own node; there are two ways to prevent a deadlock."""
+"""14.7 and 14.8: a handler that calls a service of its own node, and two ways to prevent a deadlock."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from course_pkg.checking.peers.service_calls import Service
 THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
-FEW, MANY = 3, 8  # numbers of simultaneous clients
+FEW, MANY = 3, 8  # The check uses these numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
     "The handler of /report waits for /battery, but no thread is left for the "

@@ -14,7 +14,7 @@ from course_pkg.checking.plain_values import ServiceClass
 
 PROGRAM = cpp("session_counter")
 TRIGGER = "std_srvs/Trigger"
-WITHIN = 4.0  # time limit for a call (s)
+WITHIN = 4.0  # WITHIN is the time limit in s for a call.
 COUNTED = "Count the calls of each session separately."
 
 
@@ -92,7 +92,7 @@ def _counts(
 
 
 def _call(name: str, kind: ServiceClass, headers: dict[str, str]) -> str:
-    """Call with these `headers` within a time limit; return the message in the response, or the error."""
+    """Call with these `headers` within a time limit; return the message of the response or of the error."""
     inbox: queue.Queue[str] = queue.Queue()
 
     def call() -> None:

@@ -1,4 +1,4 @@
-"""The checks of chapter 15: each starts programs of the student, and provides all other nodes."""
+"""The checks of chapter 15: each check starts programs of the student, and provides all other nodes."""
 
 from course_pkg.chapters.ch15_robot_cashier.checks.ask_customer import the_client
 from course_pkg.chapters.ch15_robot_cashier.checks.detector import the_detector, the_silent_camera

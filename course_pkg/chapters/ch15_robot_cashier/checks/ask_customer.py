@@ -17,13 +17,14 @@ from course_pkg.waiting import wait_until
 NAME = "ask_customer"
 DETECT = "detect_customer"
 AWAIT = "course_pkg/AwaitCustomer"
-STARTING = 20.0  # time limit for the start of Python and rospy on a busy machine (s)
-ENDING = 6.0  # s; a program has to end within this time after the response
-LIMIT = 3.0  # s for which the program waits for the service
-SOON = 1.0  # s between the start of the node and the start of the service
+STARTING = 20.0  # STARTING is the time limit in s for the start of Python and rospy on a busy machine.
+ENDING = 6.0  # A program must end within this many s after the response.
+LIMIT = 3.0  # LIMIT is the time in s for which the program waits for the service.
+SOON = 1.0  # The service starts this many s after the node.
 REASON = "no message from the camera"
-REFUSED = 55.0  # s; the service refuses a call with this value of `patience`
-LOGGED = matches(r"^(\x1b\[[\d;]*m)*\[|warn")  # lines of rospy's log, and Python's warnings
+REFUSED = 55.0  # The service refuses a call with this value of `patience` (s).
+# The pattern matches lines of rospy's log, and Python's warnings.
+LOGGED = matches(r"^(\x1b\[[\d;]*m)*\[|warn")
 
 LATE = (
     "The service started 1 s after the program, but the program had already ended. "
@@ -83,7 +84,7 @@ ASKED = "Wait for detect_customer, call it once, and print customer or nobody."
     goals={ASKED: 3, "End with the right status after a refusal or without a service.": 1},
 )
 def the_client(context: CheckContext) -> None:
-    """Start the program before its service; the service responds or refuses, or there is none."""
+    """Start the program before its service. The service responds, refuses, or does not exist."""
     package = examined(context, NAME)
     with ExitStack() as ending:
         detector = _Detector(context.random.number(3.0, 30.0, digits=1))
@@ -136,7 +137,7 @@ class Run:
     def end(self, within: float = ENDING) -> Run:
         """Wait until the program ends.
 
-        Stop it `within` s after its node was on the graph (then the status is None).
+        Stop the program `within` s after its node was on the graph; in this case, the status is None.
         """
         self.is_on_the_graph()
         wait_until(self.has_ended, within, 0.05)
@@ -156,13 +157,13 @@ class Run:
 
     @property
     def last(self) -> str:
-        """The last line that the program printed, and how the program ended."""
+        """The last line of the program's output, and how the program ended."""
         ended = "still running" if self.status is None else f"exit status {self.status}"
         return f"{self.lines[-1] if self.lines else 'no output'} ({ended})"
 
 
 class _Detector:
-    """Returns a customer only if `patience` is equal to `wait`; refuses the call if `patience` is REFUSED."""
+    """Returns a customer only if `patience` equals `wait`; refuses a call with the `patience` REFUSED."""
 
     def __init__(self, wait: float) -> None:
         self.wait = wait

@@ -1,6 +1,6 @@
 """15.2 and 15.3: a service that waits for a customer for a limited time.
 
-It refuses if the camera is silent.
+The service refuses calls if the camera is silent.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ NAME = "customer_detector"
 SEEN, DETECT = "customer_seen", "detect_customer"
 INTERFACE = Interface(services=[DETECT], subscribes=[SEEN])
 AWAIT = "course_pkg/AwaitCustomer"
-LONG = 6.0  # s; a value of `patience` that is longer than every successful wait
-LATER = 2.2  # s until a customer comes
-SLACK = 2.0  # additional s for a call on a busy machine
-EARLY = 0.1  # s by which a call may seem to end too early because of rounding
+LONG = 6.0  # This value of `patience` (s) is longer than every successful wait.
+LATER = 2.2  # LATER is the time in s until a customer comes.
+SLACK = 2.0  # On a busy machine, a call may take this many s longer.
+EARLY = 0.1  # Because of rounding, a call may seem to end this many s too early.
 CALLERS = 4
 
 NOT_SEEN = (
@@ -200,7 +200,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     goals={SILENT_CAMERA: 3, "Notice when the camera stops or starts to send messages during a call.": 1},
 )
 def the_silent_camera(context: CheckContext) -> None:
-    """Call before the first message, shortly and long after the last one, and while new messages arrive."""
+    """Call before the first message, shortly and long after the last message, and during new messages."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -234,7 +234,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
     found = True
     if vision.silent_for() < 0.8:
         found = detect(patience=0.0).found
-    if vision.silent_for() > 1.0:  # the machine is too busy for this assertion
+    if vision.silent_for() > 1.0:  # The machine is too busy for this assertion.
         found = True
     context.expect("a message is valid for one second", expected=True, actual=found, hints=FRESH)
 

@@ -9,9 +9,9 @@ from course_pkg.checking import CheckContext
 from course_pkg.checking.plain_values import Fields
 
 JOINTS = "sensor_msgs/JointState"
-FIRST = 1000  # s; the stamp of the first joint state; each following stamp is 1 s later
+FIRST = 1000  # The first joint state has this stamp in s; each following stamp is 1 s later.
 COUNT = 24
-EFFORT = 7  # index of the joint state that has an infinite effort
+EFFORT = 7  # The joint state with this index has an infinite effort.
 
 
 @dataclass
@@ -46,7 +46,7 @@ class JointState:
 
     @property
     def misses_velocities(self) -> bool:
-        """Whether there are velocities, and their number differs from the number of names."""
+        """Whether there are velocities, but not as many as names."""
         return len(self.velocity) not in (0, len(self.name))
 
     @property
@@ -58,24 +58,24 @@ class JointState:
 
     @property
     def header_text(self) -> str:
-        """The header as a report shows it."""
+        """The header as text for a report."""
         return f"frame_id {self.frame_id or 'none'}, stamp {self.secs}.{self.nsecs:09d}"
 
 
 def joint_states(context: CheckContext) -> list[JointState]:
-    """Return joint states. Return joint states.
+    """Return joint states.
 
-    The first one, the last one, and the one after each invalid one are valid.
+    The first joint state, the last joint state, and each joint state after an invalid joint state are valid.
     """
     states = [_joint_state(context, number) for number in range(COUNT)]
     states[3].position = states[3].position[:2]
-    states[5].position = [*states[5].position, 0.5]  # this joint state has no velocities
+    states[5].position = [*states[5].position, 0.5]  # This joint state has no velocities.
     states[8].position = []
     states[12].position = [math.nan, *states[12].position[1:]]
     states[14].velocity = states[14].velocity[:2]
     states[17].velocity = [*states[17].velocity[:-1], math.inf]
     states[19].velocity = [*states[19].velocity, 0.5]
-    states[EFFORT].effort[0] = math.inf  # this joint state is valid
+    states[EFFORT].effort[0] = math.inf  # This joint state is valid.
     return states
 
 

@@ -16,7 +16,7 @@ from course_pkg.waiting import wait_until
 FILE = MY_CASHIER.path(LAUNCH)
 START = f"%%writefile {FILE}\n..."
 HARDWARE = ("counter_camera", "robot", "receipt_printer")
-READING = 20.0  # time limit for roslaunch to read the file on a busy machine (s)
+READING = 20.0  # READING is the time limit in s for roslaunch to read the file on a busy machine.
 OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
 # This code prints the nodes and the parameters that roslaunch reads from a launch file with the given
 # arguments.

@@ -19,8 +19,8 @@ NAME = "robot_cashier"
 ARM, MIRRORED = "joint_states", "mirrored_joints"
 DETECT, RESET = "detect_customer", "till/reset"
 INTERFACE = Interface(publishes=[MIRRORED], subscribes=[ARM])
-PROMPT = 0.5  # maximum s between a joint state and its mirror image on a busy machine
-EVERY = 0.05  # s between two joint states
+PROMPT = 0.5  # PROMPT is the maximum time in s between a joint state and its mirror image on a busy machine.
+EVERY = 0.05  # EVERY is the time in s between two joint states.
 NOT_HEARD = "The topic joint_states has the type sensor_msgs/JointState: pass this type to rospy.Subscriber."
 NONE_CAME = "No mirror image came. Publish the mirror image of each valid joint state in the callback."
 OTHER_TIME = "The stamp of the image is not the stamp of its joint state: copy the header of the message."
@@ -110,7 +110,7 @@ def _leaves_out(context: CheckContext, images: list[JointState], invalid: dict[i
 
 
 def _why_invalid(state: JointState) -> tuple[str, str]:
-    """Return a description of the mirror image of an invalid joint state, and a hint."""
+    """Return a description and a hint for a mirror image of an invalid joint state."""
     if state.misses_positions:
         return (
             f"an image of {len(state.position)} positions for {len(state.name)} joints",

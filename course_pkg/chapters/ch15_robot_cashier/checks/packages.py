@@ -1,6 +1,6 @@
 """The package of chapter 15.
 
-For each file that the student has not written yet, the check uses its own version.
+For each missing file, the check uses its own version.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ project(my_cashier)
 find_package(catkin REQUIRED)
 catkin_package()
 """
-# This program starts a node of the course in place of a node that the student has not written yet.
+# This program starts a node of the course instead of a missing node of the student.
 STAND_IN = """\
 #!/usr/bin/env python3
 from course_pkg.chapters.ch15_robot_cashier.programs.{name} import main
@@ -36,7 +36,8 @@ if __name__ == "__main__":
     main()
 """
 LAUNCH = "launch/cashier.launch"
-NODES = ("vision", "customer_detector", "robot_cashier", "till")  # the names of the package's scripts
+# NODES are the names of the package's scripts.
+NODES = ("vision", "customer_detector", "robot_cashier", "till")
 
 MY_CASHIER = Package(
     "my_cashier",
@@ -49,7 +50,7 @@ MY_CASHIER = Package(
 
 
 def program(name: str) -> Program:
-    """Return the script `name` of the package; `name` is without .py."""
+    """Return the script `name` of the package; `name` has no ending .py."""
     return Program(f"scripts/{name}.py", name)
 
 
@@ -59,5 +60,5 @@ def file_of(name: str) -> str:
 
 
 def start_of(name: str, comment: str = "...") -> str:
-    """Return the cell with which the student begins a script."""
+    """Return the notebook cell with which the student begins a script."""
     return f"%%writefile {file_of(name)}\n{comment}"

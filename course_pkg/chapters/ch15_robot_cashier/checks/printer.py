@@ -1,4 +1,4 @@
-"""Used in place of the node receipt_printer: it prints lines, jams, refuses lines, and pauses."""
+"""Replaces the node receipt_printer: it prints lines, jams, refuses lines, and pauses."""
 
 from __future__ import annotations
 
@@ -7,22 +7,23 @@ import threading
 from course_pkg.checking.peers.scripted_server import Act, Refuse
 from course_pkg.srv import PrintLineRequest
 
-PRINTING = 0.02  # duration of printing a line (s)
+PRINTING = 0.02  # PRINTING is the duration in s of printing a line.
 JAM = "paper jam: two lines at once"
 
 
 class Printer:
-    """Serves print_line; as long as the error message `fault` is not empty, it refuses each line.
+    """Serves print_line; while the error message `fault` is not empty, it refuses each line.
 
-    `lines` are the printed lines. While the event `held` is not set, each line waits for at most 10 s.
+    `lines` contains the printed lines. While the event `held` is not set, each line waits at most 10 s.
     """
 
     def __init__(self) -> None:
         self.lines: list[str] = []
         self.fault = ""
         self.jams = 0
-        self.calls = 0  # number of lines that it has printed, or has refused because of `fault`
-        self.began = threading.Event()  # this event is set when the first line begins
+        # `calls` is the number of printed lines and of lines that were refused because of `fault`.
+        self.calls = 0
+        self.began = threading.Event()  # This event is set when the first line begins.
         self.held = threading.Event()
         self.held.set()
         self._busy = threading.Lock()

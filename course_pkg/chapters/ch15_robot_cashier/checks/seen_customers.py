@@ -1,4 +1,4 @@
-"""Used in place of the node vision: it publishes on customer_seen whether a customer is there."""
+"""Replaces the node vision: it publishes on customer_seen whether a customer is there."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from std_msgs.msg import Bool
 from course_pkg.checking import CheckContext
 from course_pkg.waiting import wait_until
 
-EVERY = 0.1  # s between two messages
+EVERY = 0.1  # EVERY is the time in s between two messages.
 
 
 class SeenCustomers:
-    """Publishes `customer` every 0.1 s, unless it is None; `last` is the time of the last message."""
+    """Publishes `customer` every 0.1 s, unless `customer` is None; `last` is the time of the last message."""
 
     def __init__(self, topic: str) -> None:
         self.customer: bool | None = None
-        self.last = -float("inf")  # s of time.monotonic()
+        self.last = -float("inf")  # The time is in s of time.monotonic().
         self._publisher = rospy.Publisher(topic, Bool, queue_size=10, tcp_nodelay=True)
         self._lock = threading.Lock()
         threading.Thread(target=self._publish, daemon=True).start()

@@ -24,12 +24,12 @@ from course_pkg.checking.shared.own_program import require_own_nodes
 from course_pkg.ros import Snapshot
 from course_pkg.workspace import explain
 
-STARTING = 40.0  # time limit in s until a node is on the graph; it takes 1 s on an idle machine
-# Time in s from the first name of a node to all its names; it is longer if the node started late. It is
-# longer if the node appeared late.
+# A node must be on the graph within this many s; it takes 1 s on an idle machine.
+STARTING = 40.0
+# All names of a node must exist this many s after its first name, or later if the node started late.
 COMPLETE = 3.0
-POLL = 0.1  # s between two snapshots of the graph
-WITH_SLASH = "with_slash"  # the check remaps global names to names in this namespace
+POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
+WITH_SLASH = "with_slash"  # The check remaps global names to names in this namespace.
 MISSING = (
     "The node called a service that did not exist yet, and the "
     "rospy.ServiceException ended the node. Programs can start in any order: catch "
@@ -48,7 +48,7 @@ class Interface:
 
     @property
     def names(self) -> list[str]:
-        """All names."""
+        """The names of all services and topics of the node."""
         return [*self.services, *self.publishes, *self.subscribes]
 
     def missing(self, seen: Snapshot, space: str, node: str) -> list[str]:
@@ -101,8 +101,7 @@ def started(
 ) -> Running:
     """Start a program in the namespace `space`.
 
-    The exercise's global names are remapped to this namespace, too. Global names of the exercise are remapped
-    to it, too.
+    The exercise's global names are also remapped to this namespace.
     """
     remapped = [f"/{each}:={space}/{WITH_SLASH}/{each}" for each in names]
     given = [f"_{key}:={value}" for key, value in (parameters or {}).items()]
@@ -115,7 +114,7 @@ def started(
 def complete(
     context: CheckContext, running: Running, script: Program, space: str, interface: Interface
 ) -> None:
-    """Wait until the node has all names of its interface; if it does not, report what happened."""
+    """Wait until the node has all names of its interface; otherwise, report what happened."""
     assertion = f"rosrun starts the node {script.node} with all its names"
     node = f"{space}/{script.node}"
     seen = context.look()
@@ -140,7 +139,7 @@ def complete(
 
 
 def still(started: float, least: float) -> float:
-    """Return the time until which a check waits for missing names, if the first name exists now.
+    """Return how long a check waits for missing names, as a point in time, if the first name exists now.
 
     The check waits `least` s, or longer on a busy machine. `started` and the result are in s of
     time.monotonic().

@@ -27,9 +27,9 @@ TILL_SET, TILL_TOTAL, TRIGGER, PRINT_LINE = (
     "std_srvs/Trigger",
     "course_pkg/PrintLine",
 )
-MANY = 8  # number of simultaneous calls
-ANSWER = 5.0  # time limit for a call (s)
-HOLDING = 0.4  # duration of printing a line while a reset waits (s)
+MANY = 8  # MANY is the number of simultaneous calls.
+ANSWER = 5.0  # A call may take this many s.
+HOLDING = 0.4  # While a reset waits, the printing of a line takes this many s.
 
 SET_HINTS: Hints = [
     (
@@ -117,7 +117,7 @@ PRINTED = "Print one line for each item, and count an item only after its line."
     goals={SUMMED: 3, "Refuse negative cents, with the item and the cents in the message.": 1},
 )
 def the_sum(context: CheckContext) -> None:
-    """Set items, some of them twice; compare the total; send items that the till has to refuse."""
+    """Set items, some of them twice; compare the total; send items that the till must refuse."""
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         _totals(context, total, {}, COUNT, SUM)
@@ -205,9 +205,9 @@ ORDER = (
     goals={PRINTED: 2, "Print one line at a time, and refuse an item without a printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
-    """Set items with a printer that works or refuses; then many items at the same time.
+    """Set items with a printer that works or refuses; then set many items at the same time.
 
-    Then without a printer.
+    After that, set an item without a printer.
     """
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
@@ -290,7 +290,10 @@ def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:
 
 
 def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int]) -> None:
-    """Set many items at the same time; after each printed line, the total has to be larger by its price."""
+    """Set many items at the same time.
+
+    After each printed line, the total must have increased by the item's price.
+    """
     before = len(till.printer.lines)
     items = _items(context, MANY)
     replies = till.set.at_once([{"item": item, "cents": cents} for item, cents in items])
@@ -356,7 +359,7 @@ LEFT = (
     goals={EMPTIED: 3, "Wait for a line that is being printed, and reset without a printer.": 1},
 )
 def the_reset(context: CheckContext) -> None:
-    """Reset a till with and without items, with an item that costs nothing, and while a line is printed."""
+    """Reset a till with items, without items, with a free item, and during the printing of a line."""
     with running_till(context, TOTAL, RESET) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         reset = till.service(context, RESET, TRIGGER, [(ANYTHING, SUCCEEDS)])
@@ -383,7 +386,7 @@ def _resets(context: CheckContext, reset: Service, message: str, hint: str) -> N
 
 
 def _waits_for_a_line(context: CheckContext, till: Till, reset: Service, total: Service) -> None:
-    """Call till/reset while a line is printed."""
+    """Call till/reset during the printing of a line."""
     first, second = _items(context, 2)
     till.set(item=first[0], cents=first[1])
     till.printer.began.clear()

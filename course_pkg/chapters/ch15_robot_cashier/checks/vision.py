@@ -18,9 +18,10 @@ FRAMES, SEEN = "frames", "customer_seen"
 INTERFACE = Interface(publishes=[SEEN], subscribes=[FRAMES])
 BOOL = "std_msgs/Bool"
 DARK = 96
-ANSWER = 8.0  # time limit in s for the message after a frame on a busy machine; it usually takes 5 ms
-AGAIN = 0.03  # s for which the check waits for a second message, which would be wrong
-SILENT = 0.25  # s for which the check waits for a message after a malformed frame, which would be wrong
+# On a busy machine, the message after a frame may take this many s; it usually takes 5 ms.
+ANSWER = 8.0
+AGAIN = 0.03  # A wrong second message would arrive within this many s.
+SILENT = 0.25  # A wrong message after a malformed frame would arrive within this many s.
 
 AVERAGE = (
     "A fifth of the points is dark, and all other points are very light. Count the dark points; do not "
@@ -81,7 +82,7 @@ def the_vision(context: CheckContext) -> None:
 
 @dataclass(frozen=True)
 class Frame:
-    """A valid frame, whether it shows a customer, and the hint if the message is wrong."""
+    """A valid frame, whether it shows a customer, and the hint for a wrong message."""
 
     assertion: str
     image: Image
@@ -217,7 +218,7 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
 def _leaves_out(
     context: CheckContext, camera: Camera, seen: Subscription, malformed: Image, what: str, hint: str
 ) -> None:
-    """Send a malformed frame and then a valid one; there has to be exactly one message."""
+    """Send a malformed frame and then a valid frame; exactly one message must arrive."""
     before = seen.count
     camera.send(malformed)
     seen.until(lambda arrivals: len(arrivals) > before, SILENT)

@@ -28,22 +28,24 @@ AWAIT = "course_pkg/AwaitCustomer"
 TRIGGER = "std_srvs/Trigger"
 STRING = "std_msgs/String"
 GREETING = "Good day!"
-STANDING = 1.2  # s for which the first call waits
-PAUSE, TOO_LONG = 0.4, 2.0  # s; limits for a pause of 0.5 s that is measured on a busy machine
-BETWEEN = 0.18  # s; shortest time between two calls while a customer is there
-NEXT_CALL = 6.0  # time limit for the next call on a busy machine (s)
+STANDING = 1.2  # The first call waits for this many s.
+# The measured pause must be between these limits (s); the exercise requires 0.5 s, and the machine may be
+# busy.
+PAUSE, TOO_LONG = 0.4, 2.0
+BETWEEN = 0.18  # While a customer is there, two calls must be at least this many s apart.
+NEXT_CALL = 6.0  # NEXT_CALL is the time limit in s for the next call on a busy machine.
 
 
 class Step(NamedTuple):
-    """One call that the node has to make: its `patience`, the response, and the name of this response."""
+    """One call that the node must make: its `patience`, the response, and the name of this response."""
 
-    waits: bool  # True means that `patience` has to be ~wait, and False means 0
+    waits: bool  # If `waits` is True, `patience` must be ~wait; otherwise, `patience` must be 0.
     act: Act
     name: str
 
 
 def found(customer: bool) -> Mapping[str, Value]:
-    """Return the fields of a response."""
+    """Return the fields of a response to detect_customer."""
     return {"found": customer}
 
 
@@ -61,8 +63,8 @@ STEPS = (
     Step(False, found(False), "False"),
     Step(True, Late(0.3, found(False)), "False"),
 )
-# The numbers of the calls of detect_customer that end a visit; the first call has the number 1. Each of them
-# is followed by a call of till/reset.
+# These calls of detect_customer end a visit; the first call has the number 1. A call of till/reset follows
+# each of them.
 VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits and step.name == "False"]
 NO_CALL = "No call came. Let the main thread call detect_customer in a loop until rospy.is_shutdown()."
 GIVEN_UP = "There was no call after a failed call. Catch rospy.ServiceException, wait 0.5 s, and call again."
@@ -201,7 +203,7 @@ class Call:
 
 
 class Detector:
-    """Responds to the calls as STEPS says, and records them."""
+    """Responds to the calls according to STEPS, and records them."""
 
     def __init__(self, wait: float) -> None:
         self.wait = wait
@@ -233,7 +235,7 @@ class Till:
 
 
 def _called(detector: Detector, times: int) -> bool:
-    """Wait for the detector's call with the number `times`; return whether it came in time."""
+    """Wait for the call number `times` of the detector; return whether it came in time."""
     return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
 
 

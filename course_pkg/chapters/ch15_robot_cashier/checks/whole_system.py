@@ -1,4 +1,4 @@
-"""15.11: the student's whole system; the check launches it, uses it as a customer does, and causes faults."""
+"""15.11: the student's whole system; the check launches it, uses it like a customer, and causes faults."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ from course_pkg.ros import Snapshot
 from course_pkg.ros.protocol.xmlrpc import NO_ANSWER, XmlRpcClient, items
 from course_pkg.waiting import wait_until
 
-# time limit for the start of the system on a busy machine (s); it takes 3 s on an idle machine
+# On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
 STARTING = 40.0
-# Time in s from the first node to all other nodes; it is longer if the first node started late. It is longer
-# if the first node appeared late.
+# All other nodes must exist this many s after the first node, or later if the first node started late.
 COMPLETE = 6.0
-POLL = 0.1  # s between two snapshots of the graph
-REACTION = 5.0  # time limit for a greeting, for a reset, and for the detector to notice a change (s)
-BACK = 8.0  # time limit until killed nodes run again (s), or twice the time of the start if this is longer
-EVERY = 0.1  # s between two frames
-WAIT = 1.5  # s; the value of the argument `wait`
+POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
+REACTION = 5.0  # A greeting, a reset, or the detector's reaction to a change may take this many s.
+# Killed nodes must run again within this many s, or within twice the start time if that is longer.
+BACK = 8.0
+EVERY = 0.1  # EVERY is the time in s between two frames.
+WAIT = 1.5  # The argument `wait` has this value in s.
 SERVICES = {
     "detect_customer": "customer_detector",
     "till/set": "till",
@@ -44,9 +44,9 @@ SERVICES = {
 }
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
-SYSTEM = "roslaunch starts the whole system"  # an assertion
-VISITS = 2  # maximum number of customers after the restart until one of them is greeted
-MANY = 6  # number of simultaneous calls of two customers
+SYSTEM = "roslaunch starts the whole system"  # The text is the title of an assertion.
+VISITS = 2  # After the restart, at most this many customers come until the system greets one of them.
+MANY = 6  # Two customers make this many simultaneous calls.
 
 NOT_LAUNCHED = (
     "roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the terminal, and "
@@ -122,7 +122,7 @@ def the_whole_system(context: CheckContext) -> None:
 class Counter:
     """The camera of the counter.
 
-    It publishes a frame every 0.1 s, with or without a customer, or no frames.
+    The camera publishes a frame every 0.1 s, with or without a customer, or no frames.
     """
 
     def __init__(self, context: CheckContext, topic: str) -> None:
@@ -143,7 +143,7 @@ class Counter:
 
 
 def _comes_up(context: CheckContext, running: Running, space: str) -> float:
-    """Wait until all services and topics exist; if one is missing, report its name.
+    """Wait until all services and topics exist; otherwise, report the name of a missing one.
 
     Return the time in s that the system needed to start.
     """
@@ -171,7 +171,7 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
 
 
 def _missing(seen: Snapshot, space: str) -> list[tuple[str, str]]:
-    """Return the missing services and topics, each with the node to which it belongs."""
+    """Return the missing services and topics, each with the name of its node."""
     published = {(topic.name, node) for topic in seen.topics for node in topic.publishers}
     served = {(service.name, service.node) for service in seen.services if service.reachable}
     return [
@@ -184,7 +184,7 @@ def _missing(seen: Snapshot, space: str) -> list[tuple[str, str]]:
 
 @dataclass
 class Shop:
-    """The whole system, used as a customer does."""
+    """The whole system, as a customer uses it."""
 
     context: CheckContext
     space: str
@@ -194,7 +194,7 @@ class Shop:
     counter: Counter
 
     def service(self, name: str, kind: str, hint: str, timeout: float = 5.0) -> Service:
-        """Return a proxy for a service of the system; `hint` is used if a call fails."""
+        """Return a proxy for a service of the system; the report shows `hint` if a call fails."""
         return self.context.service(f"{self.space}/{name}", kind, timeout=timeout, hints=[(ANYTHING, hint)])
 
     def looks_at_frames(self) -> None:
@@ -209,7 +209,7 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer soon returns `customer`; `hint` is used if a call fails."""
+        """Return whether detect_customer soon returns `customer`; the report shows `hint` if a call fails."""
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:
@@ -218,7 +218,7 @@ class Shop:
         return bool(wait_until(told, REACTION, POLL))
 
     def serves_two_customers(self, mirrored: Subscription, arm: Publisher) -> None:
-        """Let a customer come, two clients buy at the same time, the printer fail, and the customer leave."""
+        """Let a customer come and leave. In between, two clients buy at once, and the printer fails."""
         context = self.context
         total = self.service("till/total", "course_pkg/TillTotal", COUNTED)
         put = self.service("till/set", "course_pkg/TillSet", REFUSED_ITEM)
@@ -319,7 +319,7 @@ class Shop:
 
 
 def _restarts_killed_nodes(context: CheckContext, package: BuiltPackage, space: str, within: float) -> None:
-    """Kill the four nodes; each of them has to run again `within` s, as a new process."""
+    """Kill the four nodes; each node must run again within `within` s, as a new process."""
     before = {node: _pid(context.look(), f"{space}/{node}") for node in NODES}
     package.folder.command("kill", "-9", *map(str, before.values()), worded="kill -9 for each node")
 

@@ -1,6 +1,6 @@
 """The node `counter_camera`: a small grey camera above the counter of the robot cashier.
 
-It publishes `~rate` (default 10) images per second on `frames` (sensor_msgs/Image, mono8), and serves
+The node publishes `~rate` (default 10) images per second on `frames` (sensor_msgs/Image, mono8), and serves
 `let_in` (course_pkg/LetIn). If `~every` is above 0, additional customers come: on average, one customer every
 `~every` s.
 """
@@ -22,7 +22,7 @@ from course_pkg.shop.pictures import HEIGHT, WIDTH, frame_points
 from course_pkg.srv import LetIn, LetInRequest, LetInResponse
 
 RATE = 10.0  # Hz
-STAY = 4.0  # s for which these additional customers stay
+STAY = 4.0  # An additional customer stays for STAY s.
 
 
 class CounterCamera:
@@ -35,7 +35,7 @@ class CounterCamera:
         self._publisher = rospy.Publisher("frames", Image, queue_size=1, tcp_nodelay=True)
 
     def handle_let_in(self, request: LetInRequest) -> LetInResponse:
-        """Let customers in, and return the time at which each of them comes.
+        """Let customers in, and return the times at which they come.
 
         Raises ServiceException for invalid values.
         """
@@ -54,11 +54,11 @@ class CounterCamera:
             self._publisher.publish(frame_of(self._there()))
             try:
                 clock.sleep()
-            except rospy.ROSInterruptException:  # the node was shut down during the pause
+            except rospy.ROSInterruptException:  # The node was shut down during the pause.
                 return
 
     def _there(self) -> int:
-        """Return the number of customers at the counter; if no customer is planned, plan one."""
+        """Return the number of customers at the counter, and plan a customer if no customer is planned."""
         with self._lock:
             now = time.time()
             if self._every and self._counter.next_change(now) == math.inf:

@@ -1,7 +1,7 @@
 """The node `customer_detector`: waits for a customer at the counter, and returns whether there is one.
 
-It subscribes to `customer_seen` (std_msgs/Bool), and serves `detect_customer` (course_pkg/AwaitCustomer). A
-call waits for a customer, for at most the time in the request.
+The node subscribes to `customer_seen` (std_msgs/Bool), and serves `detect_customer`
+(course_pkg/AwaitCustomer). A call waits for a customer, for at most the time in the request.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from course_pkg.ros.node.program import start_node, undisturbed
 from course_pkg.shop.watch import Eye, await_customer
 from course_pkg.srv import AwaitCustomer, AwaitCustomerRequest
 
-LONGEST = 60.0  # maximum time in s for which a client can wait
+LONGEST = 60.0  # A client can wait at most this many s.
 
 
 class CustomerDetector:
@@ -29,7 +29,7 @@ class CustomerDetector:
 
         Raise ServiceException if `patience` is out of range, or if the camera sends no messages.
         """
-        if not 0.0 <= request.patience <= LONGEST:  # this condition is false for NaN
+        if not 0.0 <= request.patience <= LONGEST:  # The condition is False for NaN.
             message = f"patience is {request.patience:g} s, but it has to be from 0 to {LONGEST:g} s"
             raise rospy.ServiceException(message)
         try:

@@ -1,7 +1,7 @@
-"""The node `receipt_printer`: prints one line at a time, as long as it has paper.
+"""The node `receipt_printer`: prints one line at a time until it has no paper.
 
-It serves `print_line` (course_pkg/PrintLine), and publishes each printed line on `receipt` (std_msgs/String).
-The private parameter `~paper` (default 1000) is the number of lines for which there is paper.
+The node serves `print_line` (course_pkg/PrintLine), and publishes each printed line on `receipt`
+(std_msgs/String). The private parameter `~paper` (default 1000) is the number of lines that can be printed.
 """
 
 from __future__ import annotations

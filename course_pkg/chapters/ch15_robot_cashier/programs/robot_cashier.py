@@ -1,8 +1,8 @@
 """The node `robot_cashier`: mirrors the arm, and greets customers at the same time.
 
-It publishes the mirror image of each message of `joint_states` on `mirrored_joints`. It calls
-`detect_customer` (course_pkg/AwaitCustomer) again and again; in these calls, `patience` is `~wait` (default
-2) s. For each visit, it publishes one greeting on `greetings` (std_msgs/String). After a visit it calls
+The node publishes the mirror image of each message of `joint_states` on `mirrored_joints`. The node calls
+`detect_customer` (course_pkg/AwaitCustomer) repeatedly, with the `patience` `~wait` (default 2 s). For each
+visit, the node publishes one greeting on `greetings` (std_msgs/String). After a visit, the node calls
 `till/reset` (std_srvs/Trigger).
 """
 
@@ -22,15 +22,15 @@ from course_pkg.ros.node.program import number_parameter, start_node, undisturbe
 from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import AwaitCustomer
 
-QUIET = 5.0  # s between two warnings
-GRACE = 2.0  # maximum time in s by which a call may exceed its `patience`
-AGAIN = 0.5  # s between a failed call and the next call
-POLL = 0.2  # s between calls while a customer is there
-FAILED = (rospy.ServiceException, CourseError)  # the errors that a call can raise
+QUIET = 5.0  # The node writes at most one warning every QUIET s.
+GRACE = 2.0  # A call may take this many s longer than its `patience`.
+AGAIN = 0.5  # AGAIN is the time in s between a failed call and the next call.
+POLL = 0.2  # POLL is the time in s between calls while a customer is there.
+FAILED = (rospy.ServiceException, CourseError)  # A call can raise these errors.
 
 
 class RobotCashier:
-    """Mirrors the arm; it also waits for customers and greets them."""
+    """Mirrors the arm, waits for customers, and greets them."""
 
     def __init__(self) -> None:
         self._mirror = rospy.Publisher("mirrored_joints", JointState, queue_size=10, tcp_nodelay=True)
@@ -39,7 +39,7 @@ class RobotCashier:
         self._reset = BoundedProxy("till/reset", Trigger)
         self._over = threading.Event()
         for proxy in (self._detect, self._reset):
-            rospy.on_shutdown(proxy.cancel)  # without this, the shutdown would wait for the end of a call
+            rospy.on_shutdown(proxy.cancel)  # Without this, the shutdown would wait for the end of a call.
         rospy.on_shutdown(self._over.set)
         rospy.Subscriber("joint_states", JointState, self.mirror, tcp_nodelay=True)
 
@@ -63,18 +63,18 @@ class RobotCashier:
         try:
             return bool(self._detect.call(patience=wait, timeout=wait + GRACE).found)
         except FAILED as error:
-            if not self._over.is_set():  # the shutdown of the node has not cancelled the call
+            if not self._over.is_set():  # Without a shutdown of the node, the failure has another cause.
                 rospy.logwarn_throttle(QUIET, "Cannot detect customers, trying again: %s", error)
             self._over.wait(AGAIN)
             return otherwise
 
     def _await_departure(self) -> None:
-        """Return when there is no customer. If a call has failed, the customer may still be there."""
+        """Return when the customer has left. A failed call does not mean that the customer has left."""
         while not self._over.wait(POLL) and self._is_there(0, otherwise=True):
             pass
 
     def _empty_till(self) -> None:
-        """Reset the till once; if there is no till, the cashier continues."""
+        """Reset the till once; without a till, the cashier continues."""
         try:
             self._reset.call(timeout=GRACE)
         except FAILED as error:
@@ -89,5 +89,5 @@ def main() -> None:
     wait = number_parameter("~wait", 2.0, 0.1, 60.0)
     with undisturbed():
         cashier = RobotCashier()
-    with suppress(rospy.ROSInterruptException):  # the node was shut down during a call
+    with suppress(rospy.ROSInterruptException):  # The node was shut down during a call.
         cashier.greet(wait)

@@ -1,6 +1,6 @@
 """The node `till`: adds the prices of a customer's items.
 
-It has three services: `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
+The node has three services: `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
 (course_pkg/TillTotal) returns the sum, and `till/reset` (std_srvs/Trigger) removes all items. A price counts
 only after `print_line` (course_pkg/PrintLine) has printed it.
 """
@@ -17,21 +17,22 @@ from course_pkg.ros.node.program import serve_until_shutdown
 from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.srv import PrintLine, TillSet, TillSetRequest, TillTotal, TillTotalRequest
 
-PRINTING = 5.0  # time limit for a response of the printer (s)
+PRINTING = 5.0  # PRINTING is the time limit in s for a response of the printer.
 
 
 class Till:
-    """A till; several clients can call it at the same time. It prints one line at a time."""
+    """A till; several clients can call it at the same time. The till prints one line at a time."""
 
     def __init__(self) -> None:
-        self._turn = threading.Lock()  # this lock is held while a line is printed and counted
-        self._cents: dict[str, int] = {}  # the price of each item in cents
+        # A thread holds this lock while a line is printed and its price is counted.
+        self._turn = threading.Lock()
+        self._cents: dict[str, int] = {}  # The dict contains the price of each item in cents.
 
     def handle_set(self, request: TillSetRequest) -> int:
         """Print and store the price of an item, and return the total in cents.
 
-        Raise ServiceException and change nothing if the item has no name, if the price is negative, or if
-        there is no printer or it refuses.
+        Raise ServiceException and change nothing if the item has no name, if the price is negative, or if the
+        printer is missing or refuses the line.
         """
         if not request.item:
             raise rospy.ServiceException("an item needs a name")
@@ -55,7 +56,7 @@ class Till:
     def handle_reset(self, _: TriggerRequest) -> tuple[bool, str]:
         """Remove all items; the message contains the sum of their prices in cents.
 
-        If the till is already empty, this succeeds, too.
+        The call also succeeds if the till is already empty.
         """
         with self._turn:
             if not self._cents:

@@ -1,6 +1,6 @@
 """The node `vision`: publishes on `customer_seen` (std_msgs/Bool) whether a frame shows a customer.
 
-It subscribes to `frames` (sensor_msgs/Image), and publishes one message for each valid frame.
+The node subscribes to `frames` (sensor_msgs/Image), and publishes one message for each valid frame.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from std_msgs.msg import Bool
 from course_pkg.ros.node.program import start_node, undisturbed
 from course_pkg.shop.pictures import sees_customer
 
-QUIET = 5.0  # s between two warnings
+QUIET = 5.0  # The node writes at most one warning every QUIET s.
 
 
 class Vision:
@@ -20,7 +20,7 @@ class Vision:
 
     def __init__(self) -> None:
         self._seen = rospy.Publisher("customer_seen", Bool, queue_size=1, tcp_nodelay=True)
-        # Only the newest frame is used, so a queue of older frames is not needed.
+        # Only the newest frame is used, so a longer queue is not needed.
         rospy.Subscriber("frames", Image, self.handle_frame, queue_size=1, tcp_nodelay=True)
 
     def handle_frame(self, frame: Image) -> None:

@@ -1,4 +1,4 @@
-"""16.2: an action client that cancels its goal if this takes too long."""
+"""16.2: an action client that cancels its goal after a time limit."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from course_pkg.checking.result import Result
 from course_pkg.msg import FetchAction, FetchGoal, FetchResult
 from course_pkg.ros.node.action_server import ActionServer
 
-WAIT = 2.0  # s for which the client waits for an action server
-LONG = 6.0  # s that a robot needs for a goal; the client cancels this goal
-PROMPT = 4.0  # s that a client may take on a busy machine if the robot needs 0.3 s
-ENOUGH = 5.0  # the client's limit in s for a robot that finishes in time
-BRIEF = 0.2  # the client's limit in s for a robot that ignores the cancellation
-LATE = 0.6  # s from the call to the start of a late robot
-SECONDS = 0.8  # s after which the client has to cancel the goal; it is not a whole number
-SLACK = 3.0  # additional s for a busy machine
-LONGEST = 4.7  # s that a client may take on a busy machine if it has to give up after WAIT
+WAIT = 2.0  # The client waits this many s for an action server.
+LONG = 6.0  # A robot needs this many s for a goal, and the client cancels this goal.
+PROMPT = 4.0  # If the robot needs 0.3 s, a client may take this many s on a busy machine.
+ENOUGH = 5.0  # For a robot that finishes in time, the client has this limit in s.
+BRIEF = 0.2  # For a robot that ignores the cancellation, the client has this limit in s.
+LATE = 0.6  # A late robot starts this many s after the call.
+SECONDS = 0.8  # The client must cancel the goal after this many s; the time is not a whole number.
+SLACK = 3.0  # On a busy machine, a call may take this many s longer.
+LONGEST = 4.7  # If a client must give up after WAIT, the client may take this many s on a busy machine.
 BOUND = (
     "A wait without a time limit did not end. Pass a rospy.Duration above 0 to "
     "wait_for_server and also to wait_for_result."
@@ -51,8 +51,8 @@ class Robot:
     def __init__(self, fetched: int, seconds: float, *, stubborn: bool = False) -> None:
         self.goals: list[FetchGoal] = []
         self.cancelled = threading.Event()
-        self.took = 0.0  # time from the goal to its cancellation (s)
-        # this event ends a robot that ignores the cancellation
+        self.took = 0.0  # `took` is the time in s from the goal to its cancellation.
+        # This event ends a robot that ignores the cancellation.
         self.over = threading.Event()
         self._fetched, self._seconds, self._stubborn = fetched, seconds, stubborn
 
@@ -70,7 +70,7 @@ class Robot:
         if server.is_preempt_requested():
             self.took = time.monotonic() - began
             self.cancelled.set()
-            wait.wait(0.3)  # the robot still fetches the present thing
+            wait.wait(0.3)  # The robot still fetches the current thing.
             server.set_preempted(FetchResult(fetched=self._fetched))
         else:
             server.set_succeeded(FetchResult(fetched=self._fetched))
@@ -92,9 +92,9 @@ CANCELLED = "Cancel the goal when the limit is over, and return the number."
     goals=[FETCHED, CANCELLED, "Wait for the action server, with the same limit."],
 )
 def bounded_goal(context: CheckContext) -> None:
-    """Serve a fast, a slow, a late robot and one that ignores cancellations, one after another.
+    """Serve a fast robot, a slow robot, a late robot, and a robot that ignores cancellations.
 
-    Then serve none.
+    Then call without a robot.
     """
     _in_time(context)
     context.fulfilled(FETCHED)
@@ -220,7 +220,7 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
 
 
 def _goes_on(context: CheckContext) -> None:
-    """Serve a robot that ignores the cancellation; the function has to end, with any value or error."""
+    """Serve a robot that ignores the cancellation; the function must end, with any value or error."""
     name = f"/{context.random.word()}"
     robot = Robot(0, LONG, stubborn=True)
     with _serving(name, robot):

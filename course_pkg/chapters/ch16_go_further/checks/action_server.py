@@ -27,12 +27,14 @@ kept = []
 def begin(kind, name):
     kept.append(kind(name))
 """
-# Time in s for one thing in each of two goals; the times differ, so that no fixed time is right for both.
+# The ranges contain the time in s for one thing in two goals. The times differ, so no fixed time is right for
+# both goals.
 QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
-TIMEOUT = 6.0  # time limit for a goal that needs less than 1 s (s)
-BUSY = 2.0  # s in which the check repeats a goal that was too slow, because a busy machine may delay messages
-STARTING = 2.0  # time limit for the start of a server (s)
-CANCELLING = 3.0  # s; a goal has to end within this time after its cancellation
+TIMEOUT = 6.0  # TIMEOUT is the time limit in s for a goal that needs less than 1 s.
+# For this many s, the check repeats a goal that was too slow, because a busy machine may delay messages.
+BUSY = 2.0
+STARTING = 2.0  # STARTING is the time limit in s for the start of a server.
+CANCELLING = 3.0  # A goal must end within this many s after its cancellation.
 FIXED = "The time for one thing is different in each goal: sleep for goal.seconds, not for a fixed time."
 NO_STATE = (
     "The function ended without a state for the goal. Call set_succeeded, "
@@ -51,7 +53,7 @@ EXECUTED = "Publish feedback after each thing, and the result at the end."
     goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal with 0 things.": 1},
 )
 def executed_goal(context: CheckContext) -> None:
-    """Create an object of the student's class; send goals with different times, and cancel one of them."""
+    """Create an object of the student's class; send goals with different times, and cancel one goal."""
     name = f"/{context.random.word()}"
     context.prepare(BEGIN)
     feedback = context.subscribe(f"{name}/feedback", "course_pkg/FetchActionFeedback")
@@ -114,7 +116,7 @@ def _wrong_feedback(things: int) -> Hints:
 
 
 def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
-    """Send a quick goal; if it was too slow, send another one, because the machine may be busy."""
+    """Send a quick goal; if it was too slow, send another goal, because the machine may be busy."""
     things = context.random.integer(3, 4)
     each = context.random.number(*QUICK, digits=3)
     limit = Deadline(BUSY)

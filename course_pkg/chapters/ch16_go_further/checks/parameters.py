@@ -12,7 +12,7 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
-SETTLING = 1.0  # s until a new value reaches a node that reads parameters from a cache
+SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this many s.
 NAME = "The name of the parameter has to contain the name of the robot: f'/{robot}/speed'."
 CHANGED = (
     "The parameter was changed, but the function returned the old value: read the parameter in each call."
@@ -72,7 +72,7 @@ def speed_parameter(context: CheckContext) -> None:
             actual="a parameter that the function has set",
             hints=SET,
         )
-        again = context.random.shuffled(cases)[: context.random.integer(3, 5)]  # the order is random
+        again = context.random.shuffled(cases)[: context.random.integer(3, 5)]  # The order is random.
         for value, assertion, expected, hint in (*cases, *again):
             rospy.set_param(f"/{robot}/speed", value)
             _returns(context, robot, default, assertion, expected, hint)

@@ -1,6 +1,6 @@
 """16.4: a whole node with a topic, a service, an action and a parameter.
 
-The student decides which kind of interface each name has.
+The student decides which name is a topic, a service or an action.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ from course_pkg.checking.peers.subscription import Subscription
 from course_pkg.msg import FetchAction, FetchGoal
 from course_pkg.waiting import wait_until
 
-USUAL = 5  # number of parcels; the capacity if there is no argument
-FEW = 4  # number of parcels; the capacity of the first robot, which is less than the default
-PARCELS = 3  # number of parcels in a delivery, which is less than the smallest capacity
-EACH = 0.2  # time for one parcel (s)
-PERIOD = 0.2  # s between two values of the battery
-ENDING = 4.0  # time limit for the end of a goal (s)
-SETTLING = 1.0  # s until the battery's charge shows a delivery
-NOT_AT_ONCE = 0.9  # if a goal took this fraction of its full time, it was not aborted at once
+USUAL = 5  # Without an argument, the robot has the capacity for this many parcels.
+FEW = 4  # The first robot has the capacity for this many parcels, which is less than the default.
+PARCELS = 3  # A delivery has this many parcels, which is less than the smallest capacity.
+EACH = 0.2  # A robot needs this many s for one parcel.
+PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
+ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
+SETTLING = 1.0  # After a delivery, the charge of the battery is right within this many s.
+NOT_AT_ONCE = 0.9  # A goal that took this fraction of its full time was not aborted at once.
 
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -248,7 +248,7 @@ def _cancels(
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
     """Assert that the charge did not change because of the impossible goal before the last goal."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
-    battery.during(3 * PERIOD)  # the charge may have this value only for a short time
+    battery.during(3 * PERIOD)  # The charge may have this value only for a short time.
     context.expect(
         "an impossible delivery delivers nothing",
         expected=f"a charge of {charge:g}",
@@ -261,7 +261,7 @@ def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, c
 
 
 def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClient, capacity: int) -> None:
-    """Send a goal with one parcel too many, and one with as many parcels as the robot can carry."""
+    """Send a goal with one parcel too many, and a goal with the highest possible number of parcels."""
     began = time.monotonic()
     client.send_goal(FetchGoal(things=capacity + 1, seconds=EACH))
     _ends_as(
@@ -290,7 +290,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
             )
         ],
     )
-    time.sleep(2 * EACH)  # in this time, a function that continues after set_aborted would deliver a parcel
+    time.sleep(2 * EACH)  # In this time, a function that continues after set_aborted would deliver a parcel.
     client.send_goal(FetchGoal(things=capacity, seconds=0.0))
     _ends_as(
         context,
@@ -306,7 +306,7 @@ def _ends_as(
 ) -> None:
     """Assert that the goal ends in `state`.
 
-    If the student's function raised an exception, report this first.
+    If the student's function raised an exception, report the exception first.
     """
     handle = client.gh
     assert handle is not None

@@ -11,10 +11,11 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.waiting import at_this_load
 
 FILE = "parcel_robot.py"
-STARTING = 8.0  # time limit in s until the program has registered a name; it takes 1 s on an idle machine
-# s after the first registration; the program has to register all other names within this time
+# The program must register a name within this many s; it takes 1 s on an idle machine.
+STARTING = 8.0
+# After its first registration, the program must register all other names within this many s.
 REGISTERING = 1.5
-POLL = 0.05  # s between two snapshots of the graph
+POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 FITTING = {"battery": "topic", "door": "service", "deliver": "action"}
 CAPACITY = (
     '"capacity" is a setting that the user chooses at the start: read a private '
@@ -40,7 +41,7 @@ class Robot:
     """A running copy of the student's program in a separate namespace."""
 
     running: Running
-    space: str  # such as "/abcdef"
+    space: str  # An example is "/abcdef".
     node: str
 
     def __enter__(self) -> Robot:
@@ -50,7 +51,7 @@ class Robot:
         self.running.__exit__(None, None, None)
 
     def name(self, name: str) -> str:
-        """Return the full name for one of the robot's relative names."""
+        """Return the full name for a relative name of the robot."""
         return f"{self.space}/{name}"
 
 
@@ -62,7 +63,7 @@ def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
 
 
 def offers_what_fits(context: CheckContext, robot: Robot) -> None:
-    """Wait until the robot has its three names; assert that each is of the right kind."""
+    """Wait until the robot has its three names; assert that each name is of the right kind."""
     deadline = time.monotonic() + at_this_load(STARTING)
     found: dict[str, str] = {}
     while time.monotonic() < deadline:
@@ -111,7 +112,7 @@ def _kind(seen: Snapshot, robot: Robot, full: str) -> str:
 
 
 def _elsewhere(seen: Snapshot, robot: Robot, name: str) -> bool:
-    """Return whether the robot uses an absolute or a private name in place of the relative name."""
+    """Return whether the robot uses an absolute or a private name instead of the relative name."""
     return bool(_kind(seen, robot, f"/{name}") or _kind(seen, robot, f"{robot.node}/{name}"))
 
 

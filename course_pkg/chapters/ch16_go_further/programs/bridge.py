@@ -1,6 +1,6 @@
-"""The node `bridge`: through it, programs without ROS can call services, with JSON over a websocket.
+"""The node `bridge`: programs without ROS can call services through it, with JSON over a websocket.
 
-It listens only on this computer. It implements the part of the rosbridge protocol that calls services
+The bridge listens only on this computer. The bridge implements the service calls of the rosbridge protocol
 (sections 3.4.6 and 3.4.7 of
 https://github.com/RobotWebTools/rosbridge_suite/blob/ros1/ROSBRIDGE_PROTOCOL.md).
 """
@@ -25,9 +25,9 @@ from course_pkg.errors import GraphError
 from course_pkg.ros.node.program import number_parameter, start_node
 from course_pkg.ros.node.proxy import BoundedProxy
 
-PORT = 9090  # the port of rosbridge; with `_port:=0`, a free port is used
-TIMEOUT = 10.0  # time limit for one call (s)
-LARGEST = 1 << 20  # maximum bytes of a message
+PORT = 9090  # rosbridge uses this port by default; with `_port:=0`, a free port is used.
+TIMEOUT = 10.0  # TIMEOUT is the time limit in s for one call.
+LARGEST = 1 << 20  # LARGEST is the maximum number of bytes of a message.
 
 JSON: TypeAlias = "bool | int | float | str | list[JSON] | dict[str, JSON] | None"
 

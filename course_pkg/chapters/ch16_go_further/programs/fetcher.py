@@ -1,7 +1,7 @@
-"""The node `fetcher`: a robot with the action `fetch`; it fetches one thing after another.
+"""The node `fetcher`: a robot with the action `fetch`; it fetches the things of a goal one by one.
 
-A goal contains the number of `things`, and the `seconds` for each thing. Feedback is published after each
-thing. The result contains the number of things that were fetched, even if the goal was cancelled.
+A goal contains the number of `things`, and the `seconds` for each thing. The robot publishes feedback after
+each thing. The result contains the number of fetched things, even after a cancellation.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ import rospy
 from course_pkg.msg import FetchAction, FetchFeedback, FetchGoal, FetchResult
 from course_pkg.ros.node.program import start_node, undisturbed
 
-LONGEST = 60.0  # maximum time for a single thing (s)
+LONGEST = 60.0  # LONGEST is the maximum time in s for a single thing.
 
 
 def fetch(goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
-    """Execute `goal`; if it is cancelled, stop after the present thing; if it is impossible, abort it."""
+    """Execute `goal`; stop after the current thing if the goal is cancelled; abort an impossible goal."""
     if goal.things < 0 or not 0.0 <= goal.seconds <= LONGEST:
         server.set_aborted(FetchResult(), f"no robot fetches {goal.things} things in {goal.seconds:g} s each")
         return

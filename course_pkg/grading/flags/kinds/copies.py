@@ -14,9 +14,9 @@ TITLE = "Similar answers of different students"
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each answer that is nearly the same as another student's answer.
+    """Yield a flag for each answer that is nearly identical to another student's answer.
 
-    If several students handed in the same file as a team, they count as one in the comparison.
+    If several students handed in the same file as a team, the team counts as one student.
     """
     teams = _teams(group)
     prints = [{answer.name: fingerprint(answer) for answer in team[0].answers} for team in teams]
@@ -42,7 +42,10 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _teams(group: Group) -> list[list[Work]]:
-    """Return groups of works: students who handed in the same file are one group; all others are alone."""
+    """Return groups of works: the works with the same file form one group.
+
+    Each other work is a separate group.
+    """
     teams: dict[str, list[Work]] = {}
     for work in group.works:
         teams.setdefault(work.origin, []).append(work)
@@ -50,14 +53,14 @@ def _teams(group: Group) -> list[list[Work]]:
 
 
 def blank_fingerprints(group: Group) -> dict[str, Fingerprint]:
-    """Return the fingerprints of the cells that were handed out."""
+    """Return the fingerprints of the unchanged exercise cells that students get."""
     return {
         name: fingerprint(Answer(group.solution[name].where, text)) for name, text in group.blanks.items()
     }
 
 
 def _rarest_line(exercise: Exercise, answer: Answer, one: Fingerprint, other: Fingerprint) -> int:
-    """Return the line of the statement that both answers contain and that the fewest other students have."""
+    """Return the line of a statement in both answers that the fewest other students have."""
     theirs = {form for form, _ in other.lines}
     shared = [
         (not exercise.counts(form), exercise.having(form), -len(line_of(answer, line)), line)

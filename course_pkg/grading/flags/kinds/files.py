@@ -62,7 +62,7 @@ SYSTEM = frozenset(
 PROGRAMS = ("subprocess.", "os.exec", "os.spawn", "os.posix_spawn", "os.fork", "pty.", "multiprocessing.")
 METHODS = frozenset(
     ["read_text", "read_bytes", "iterdir", "rglob"]
-)  # no other objects have methods with these names
+)  # Only these objects have methods with these names.
 PATH_METHODS = frozenset(
     [
         "exists",
@@ -79,7 +79,8 @@ PATH_METHODS = frozenset(
     ]
 )
 PATHS = frozenset(["pathlib.Path", "pathlib.PosixPath"])
-SHELL = frozenset(["system", "getoutput", "run_line_magic", "run_cell_magic"])  # of get_ipython()
+# These names are methods of get_ipython().
+SHELL = frozenset(["system", "getoutput", "run_line_magic", "run_cell_magic"])
 PLACES = re.compile(
     r"(^|[/.])solutions?([/.]|$)|/proc\b|/etc/|/home/|/root/|\.ipynb\b|site-packages|\.grading\b|grades/"
     r"|\banswers\.py|\bchecks?\.py|\bprivate_\d\d|course_pkg/(chapters|grading|checking|sandbox|solutions)"

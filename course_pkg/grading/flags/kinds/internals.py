@@ -1,4 +1,4 @@
-"""Answers that use internals of the course, or that inspect other code in their process."""
+"""Answers that use internal code of the course, or that inspect other code in their process."""
 
 from __future__ import annotations
 
@@ -79,10 +79,10 @@ ATTRIBUTES = frozenset(
         "user_ns",
     ]
 )
-PUBLIC = re.compile(r"course_pkg(\.(srv|msg)\b.*)?")  # these packages contain only types, and no internals
+PUBLIC = re.compile(r"course_pkg(\.(srv|msg)\b.*)?")  # These packages contain only types.
 COMMANDS = frozenset(
     ["system", "getoutput", "run_line_magic", "run_cell_magic"]
-)  # attributes of get_ipython() as IPython spells them
+)  # These names are attributes of get_ipython() in IPython's spelling.
 MODULE = re.compile(r"course_pkg(\.[a-z_]+)+")
 
 
@@ -140,9 +140,9 @@ def _is_internal(name: str) -> bool:
 
 
 def _named(text: str, line: int) -> Iterator[Observation]:
-    """Yield an observation for a string that is the name of a module or an attribute.
+    """Yield an observation for a string that is the name of a module or attribute.
 
-    It must be a module of the course, or an attribute for getattr().
+    The name must belong to a module of the course, or to an attribute for getattr().
     """
     if MODULE.fullmatch(text) and not PUBLIC.fullmatch(text):
         yield Observation(text, line, f"The code contains the name {text}.")

@@ -71,7 +71,7 @@ def _called(node: ast.Call, program: Program) -> Iterator[Observation]:
 
 
 def _replaced(program: Program) -> Iterator[Observation]:
-    """Yield the modules whose names the answer assigns to another object, such as `rospy = Fake()`."""
+    """Yield the modules with names that the answer assigns to another object, such as `rospy = Fake()`."""
     modules = {name for name, full in program.names.items() if name == full}
     for node in program.module.body:
         targets = node.targets if isinstance(node, ast.Assign) else []

@@ -1,4 +1,4 @@
-"""The course's own solution, handed in as an answer."""
+"""The course's own solution, submitted as an answer."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ CHANGED = (
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each answer that is the same as the course's solution.
+    """Yield a flag for each answer that is identical to the course's solution.
 
     For a short exercise, many students write the same code as the solution. Therefore, identical short
-    answers are reported only if all of them together have at least ten statements that are not in the
-    handed-out cells. A similar answer is reported only if it has this number of statements by itself.
+    answers of a student are reported only if they have at least ten statements of the student's own in total.
+    A similar answer is reported only if it has at least ten such statements by itself.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}
@@ -47,13 +47,16 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _written(answer: Fingerprint, given: Fingerprint) -> int:
-    """Return the number of statements that are not in the handed-out cell."""
+    """Return the number of statements that are not in the exercise cell that students get."""
     forms = {form for form, _ in given.lines}
     return sum(form not in forms for form, _ in answer.lines)
 
 
 def _plain(answer: Answer) -> str:
-    """Return the program without layout and comments. If it is not Python, remove only the layout."""
+    """Return the program without layout and comments.
+
+    For other languages than Python, only the layout is removed.
+    """
     with suppress(*UNREADABLE):
         if is_python(answer):
             return ast.dump(tree(answer))

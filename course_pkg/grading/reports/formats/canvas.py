@@ -5,9 +5,9 @@ Login ID and Section, one column for each assignment, and the row "    Points Po
 lib/gradebook_importer.rb finds a student by the ID (the Canvas user id), otherwise by the SIS User ID,
 the SIS Login ID or the name. It finds an assignment by its name, with or without its number in
 parentheses. If it does not know the name, it offers to create the assignment. The row "    Points Possible"
-sets the points of the assignment. If a cell is empty, the student's grade is removed; if the student has
-no row, the grade stays. Therefore, canvas.csv has no row for a student without a grade, and canvas/NN.csv
-contains only the students who handed in this chapter.
+sets the points of the assignment. An empty cell removes the student's grade. Without a row for the
+student, the grade does not change. Therefore, canvas.csv has no row for a student without a grade, and
+canvas/NN.csv has rows only for students who submitted the chapter.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import Book, name_of, points
 
 HEAD = ["Student", "ID", "SIS User ID", "SIS Login ID", "Section"]
-SIS = "sis user id"  # a column of a roster that was exported from Canvas
+SIS = "sis user id"  # A roster that was exported from Canvas has this column.
 
 
 def write(book: Book, out: Path) -> None:
-    """Write canvas.csv with all chapters, and canvas/NN.csv for each of them."""
+    """Write canvas.csv with all chapters, and canvas/NN.csv for each chapter."""
     _put(out / "canvas.csv", book, book.chapters)
     folder = out / "canvas"
     files = {folder / f"{clean.file_name(chapter)}.csv": chapter for chapter in book.chapters}
     for path, chapter in files.items():
         _put(path, book, [chapter])
-    # These files are from an earlier run, which graded other chapters.
+    # These files are from an earlier run that graded other chapters.
     for path in set(folder.glob("*.csv")) - files.keys():
         path.unlink()
 
@@ -56,7 +56,6 @@ def _identity(book: Book, student: str) -> list[str]:
     if person is None:
         return [clean.cell(name_of(student)), "", "", clean.cell(name_of(student)), ""]
     number = person.id if re.fullmatch(r"\d{1,19}", person.id) else ""
-    # If an id is not a number, it is not a Canvas user id; then it belongs to the student information system
-    # (SIS).
+    # An id that is not a number is not a Canvas user id, but an id of the student information system (SIS).
     further = [person.more.get(SIS, "" if number else person.id), person.username, person.section]
     return [clean.cell(person.name or name_of(student)), number, *map(clean.cell, further)]

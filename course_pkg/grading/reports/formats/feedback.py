@@ -13,8 +13,8 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, not_handed_in, of_points
 from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, text
 
-CODE = 20_000  # maximum number of characters of a student's code
-CELLS = 20  # maximum number of listed cells of nbval's run
+CODE = 20_000  # The page shows at most this many characters of a student's code.
+CELLS = 20  # The page lists at most this many cells of nbval's run.
 
 
 def write(book: Book, out: Path) -> None:
@@ -50,7 +50,7 @@ def _chapter(grade: Grade) -> Iterator[str]:
 
 
 def _part(report: Report, code: str) -> str:
-    """Return a part: the student's code, the assertions that hold and that fail, and the note."""
+    """Return the HTML of a part: the student's code, the passed and failed assertions, and the note."""
     kind, sign = KINDS[report.verdict]
     score = of_points(report.points, report.possible) if report.possible else ""
     head = f"<h3>{text(report.check)} <span>{sign} {report.verdict.value}</span></h3>"
@@ -73,7 +73,7 @@ def _code(code: str) -> str:
 
 
 def _review(report: Report) -> str:
-    """Return what the instructor decided and wrote about this part."""
+    """Return the instructor's points and comment for this part."""
     sentences = (f"<p>{clean.html(sentence)}</p>" for sentence in report.about_review())
     return f'<div class="review">{"".join(sentences)}</div>' if report.review else ""
 
@@ -108,7 +108,7 @@ def _printed(report: Report) -> str:
 
 
 def _cells(grade: Grade) -> Iterator[str]:
-    """Yield the result of nbval's run, with the cells whose result differs from the reference."""
+    """Yield the result of nbval's run, with the cells that differ from the reference."""
     if not grade.cells:
         return
     others = [cell for cell in grade.cells if cell.outcome != "passed"]

@@ -1,7 +1,7 @@
 """gradescope/<student>/results.json, in the format of an autograder of Gradescope.
 
-Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/. Gradescope stores `extra_data`, but
-does not show them. Here, they contain the identity of the student, with the names of
+Format: https://gradescope-autograders.readthedocs.io/en/latest/specs/. Gradescope stores `extra_data` without
+showing them. Here, `extra_data` contains the identity of the student, with the field names from
 https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
 """
 
@@ -44,12 +44,12 @@ def _identity(book: Book, student: str) -> dict[str, Plain]:
 
 
 def results_of(grades: Sequence[Grade]) -> dict[str, Plain]:
-    """Return the results of one student; `grades` contain only what the student may see."""
+    """Return the results of one student; `grades` contains only data that the student may see."""
     words = [
         text for grade in grades for text in (grade.problem, about_lateness(grade), *grade.notes) if text
     ]
     return {
-        # This score replaces the sum of the tests, because it contains the deduction for lateness.
+        # This score replaces the sum of the tests, because it includes the deduction for lateness.
         "score": round(sum(grade.earned for grade in grades), 2),
         "output": "\n".join(clean.line(text) for text in words),
         "output_format": "text",

@@ -2,7 +2,8 @@
 
 Gradescope (Review Grades, Download Grades) writes Name, SID, Email, Sections, Total Score, Max Points,
 Status, Submission ID, and a column for each question, such as "1: Title (2.0 pts)". Programs that read grades
-from Gradescope can read this file. Gradescope itself takes grades only from results.json (gradescope.py).
+from Gradescope can read this file. Gradescope itself imports grades only from results.json (see
+gradescope.py).
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ HEAD = ["Name", "SID", "Email", "Sections", "Total Score", "Max Points", "Status
 
 
 def write(book: Book, out: Path) -> None:
-    """Write a row for each student; students of the roster without a submission have the status Missing."""
+    """Write a row for each student; students without a submission have the status Missing."""
     suffix = "" if book.sandboxed else ", run without a sandbox"
     parts = [
         clean.cell(f"{column.check}: {clean.line(column.goal)} ({points(column.possible)} pts){suffix}", 400)
@@ -44,7 +45,7 @@ def _row(book: Book, student: str) -> list[str]:
 
 
 def submission_id(book: Book, student: str) -> str:
-    """Return the number of a submission from Gradescope, or an empty string for any other submission."""
+    """Return Gradescope's number of a submission, or "" for any other submission."""
     for grade in book.of(student):
         for part in grade.origin.split("/"):
             if GRADESCOPE.fullmatch(part):

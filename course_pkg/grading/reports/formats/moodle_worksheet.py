@@ -1,9 +1,9 @@
 """moodle_worksheet.csv, a copy of Moodle's own grading worksheet with grades and feedback comments.
 
-Only the columns Grade and Feedback comments change, and only in the rows of students who handed in and whose
-grade is not locked. If the maximum grade of the assignment is not the number of points that were possible,
-the points are scaled, because Moodle would read 9 of 9 points as 9 of 100. The feedback then contains the
-points, too. A worksheet belongs to one assignment, so the grade is the sum of all chapters of the run.
+Only the columns Grade and Feedback comments change, and only in rows of students with a submission and an
+unlocked grade. If Moodle's maximum grade differs from the possible points, the points are scaled. Otherwise,
+Moodle would read 9 of 9 points as 9 of 100. In this case, the feedback also contains the unscaled points. A
+worksheet belongs to one assignment, so the grade is the sum of all chapters of the run.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def write(book: Book, out: Path) -> None:
 
 
 def _grade(book: Book, student: str, maximum: float | None) -> str:
-    """Return the points for Moodle; without a maximum grade, they are not scaled."""
+    """Return the points for Moodle; they are scaled only if there is a maximum grade."""
     earned = book.earned(student)
     possible = book.possible_for(student)
     return points(earned if maximum is None or not possible else min(maximum, earned * maximum / possible))

@@ -1,4 +1,4 @@
-"""results/<student>/NN.json: the records of the grades."""
+"""results/<student>/NN.json: the stored records of the grades."""
 
 from __future__ import annotations
 

@@ -23,9 +23,10 @@ from course_pkg.grading.roster.people import FIELDS
 
 
 def write(book: Book, out: Path) -> None:
-    """Write grades.csv; the mark at its beginning tells a spreadsheet that the file is UTF-8.
+    """Write grades.csv; a byte order mark tells a spreadsheet that the file is UTF-8.
 
-    With a roster, it contains the students' identities, and a row for each student without a submission.
+    With a roster, the file contains the students' identities, and a row for each student without a
+    submission.
     """
     listed = book.class_list.given
     head = ["student", *(FIELDS if listed else ())]
@@ -46,7 +47,10 @@ def write(book: Book, out: Path) -> None:
 
 
 def _row(book: Book, student: str) -> list[str]:
-    """Return a student's row; missing submissions are empty; only the totals include lateness."""
+    """Return a student's row.
+
+    Cells for missing submissions are empty, and only the totals include lateness.
+    """
     identity = identity_cells(book.person(student)) if book.class_list.given else []
     cells = [clean.cell(name_of(student)), *identity]
     for chapter in book.chapters:
