@@ -90,7 +90,7 @@ def course_settings() -> Config:
 
 
 def _load_jupyter_server_extension(server: Server) -> None:
-    """Prepare the server for kernels, terminals and clicks; send results to the class view if sharing is on."""
+    """Prepare the server for kernels, terminals and clicks, and send the results if sharing is on."""
     _prepare_ros(server)
     _make_workspace(server)
     start_sender(lambda message: server.log.warning("class view: %s", message))
