@@ -80,8 +80,8 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
             request = Request(f"http://{parts.netloc}/api/terminals", data=b"", headers=headers)
             urlopen(request, timeout=20).close()  # noqa: S310
-            [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
-            terminal = Terminal(shell)
+            shells = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
+            terminal = Terminal(min(shells))  # While the shell starts, it has child processes with this name.
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
             assert rosout  # If a test starts another node /rosout, the master's own /rosout exits.
             try:

@@ -96,7 +96,7 @@ def undeclared() -> set[str]:
     }
     distributions = packages_distributions()
     used = {name.lower().replace("_", "-") for module in modules for name in distributions.get(module, ())}
-    named = {name for heading in (DEPENDENCIES, "\ntest = [") for name, *_ in declared(heading)}
+    named = {name for heading in (DEPENDENCIES, "\nhub = [", "\ntest = [") for name, *_ in declared(heading)}
     return (used & locked) - named
 
 
