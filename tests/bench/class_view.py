@@ -12,6 +12,7 @@ import sys
 import tempfile
 import threading
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 from commands import run_command
@@ -47,11 +48,16 @@ def live() -> None:
         data, port = Path(folder, "data"), free_port()
         command = [sys.executable, "-m", "course_pkg.cli", "class", "--data", data]
         command += ["--students", str(STUDENTS), "--port", str(port)]
-        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as service, chromium() as browser:
+        with (
+            subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as service,
+            ExitStack() as stack,
+            chromium() as browser,
+        ):
             assert service.stdout
+            stack.callback(service.kill)
             page = browser.new_page()
             page.goto(service.stdout.readline().split()[-1])
-            page.wait_for_function("document.body.dataset.version !== undefined")
+            page.wait_for_selector("body[data-version]")
             page.evaluate(WATCH)
             senders = [
                 Sender(f"http://127.0.0.1:{port}", token, Outbox(Path(folder, student, FOLDER)), print)
@@ -60,6 +66,8 @@ def live() -> None:
             threads = [threading.Thread(target=sender.run) for sender in senders]
             for thread in threads:
                 thread.start()
+            for sender in senders:
+                stack.callback(sender.stopped.set)
             written: list[float] = []
             outboxes = [Outbox(Path(folder, student, FOLDER)) for student in tokens_in(data)]
             began = time.monotonic()
@@ -71,11 +79,9 @@ def live() -> None:
                 time.sleep(max(0.0, began + len(written) / RATE - now))
             eventually(lambda: page.evaluate("Number(document.body.dataset.version)") == len(written))
             shown = page.evaluate("window.shown")
-            for sender in senders:
-                sender.stopped.set()
+            stack.close()
             for thread in threads:
                 thread.join(20)
-            service.kill()
     # Results may overtake each other, so the n-th result counts as shown when n results are shown.
     times = sorted(
         next(when for version, when in shown if version > number) - put for number, put in enumerate(written)
