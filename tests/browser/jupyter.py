@@ -26,13 +26,16 @@ from tests.support import eventually
 # These functions run in the page. The first function closes all notebooks without a dialog and opens one
 # notebook.
 OPEN = """async (path) => {
-  const { commands, shell } = window.jupyterapp;
+  const { commands, serviceManager, shell } = window.jupyterapp;
+  await serviceManager.ready;
   for (const open of [...shell.widgets("main")]) open.dispose();
   const how = { path, factory: "Notebook", kernel: { name: "python3" } };
   const shown = await commands.execute("docmanager:open", how);
   await shown.context.ready;
   await shown.sessionContext.ready;
 }"""
+# The server waits up to 60 s for the first answer of a new kernel, and the page then connects again.
+CONNECTED = 90_000  # ms
 IDLE = "() => window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
 # This file contains the course's settings of JupyterLab.
@@ -79,7 +82,7 @@ def running_notebook(page: Page, lab: Lab, name: str, *cells: str, theme: str = 
         page.evaluate(THEME, f"JupyterLab {theme}")
         page.evaluate(OPEN, f"{name}.ipynb")
         # Without this wait, Run All opens a dialog that asks for a kernel.
-        page.wait_for_function(IDLE, timeout=READY)
+        page.wait_for_function(IDLE, timeout=CONNECTED)
         run_all(page)
         yield
     finally:
