@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import fcntl
 import ipaddress
 import os
 import signal
 import stat
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -25,6 +24,7 @@ from course_pkg.hub.tools import DEPLOY, installed_proxy, self_signed
 from course_pkg.lab.jupyterlab import free_port
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places, environment
+from course_pkg.state import locked
 
 PORTS = (*range(8000, 8020), 0)  # the ports to try; 0 means any free port
 GRACE = 20.0  # s for the hub to end the students' servers
@@ -129,10 +129,10 @@ def _private(data: Path) -> Path:
 @contextmanager
 def _only_hub(state: Path) -> Iterator[None]:
     """Raise HubError if another hub of this installation is running."""
-    with (state / "running").open("a") as file:
+    with ExitStack() as stack:
         try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
+            stack.enter_context(locked(state / "running", 0))
+        except TimeoutError as error:
             raise HubError(
                 "Another hub of this installation is running. End it with Ctrl-C in its terminal first."
             ) from error
