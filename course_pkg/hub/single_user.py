@@ -13,7 +13,8 @@ from pathlib import Path
 
 from course_pkg.hub.delivery import BRANCH, GIT_SETTINGS
 from course_pkg.hub.settings import FOLDER
-from course_pkg.lab.graph.graph import Which, join_or_start
+from course_pkg.lab.graph.graph import Which, graph_of_this_command
+from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.graph.settings import settings_for
 from course_pkg.lab.jupyterlab import server_settings
 from course_pkg.workspace import make_own_workspace
@@ -30,20 +31,18 @@ def main() -> None:
     make_own_workspace()
     os.chdir(folder)
     cache = Path.home() / ".cache" / "ros-services-course"
-    with tempfile.TemporaryDirectory(prefix="course-hub-") as scratch:
-        graph = join_or_start(Which.NEW, cache / "graphs")
-        try:
-            if graph.reason:
-                sys.stderr.write(f"The graph is not private: {graph.reason}\n")
-            os.environ.update(ROS_MASTER_URI=graph.uri, ROS_HOSTNAME="localhost")
-            os.environ["JUPYTER_RUNTIME_DIR"] = str(Path(scratch, "runtime"))
-            settings = server_settings(folder, cache / "checkpoints", Path(scratch, "workspaces"))
-            settings |= settings_for(graph)
-            sys.argv[1:] = [f"--{name}={value}" for name, value in settings.items()]
+    with (
+        tempfile.TemporaryDirectory(prefix="course-hub-") as scratch,
+        graph_of_this_command(Which.NEW) as graph,
+    ):
+        os.environ["JUPYTER_RUNTIME_DIR"] = str(Path(scratch, "runtime"))
+        settings = server_settings(folder, cache / "checkpoints", Path(scratch, "workspaces"))
+        settings |= settings_for(graph)
+        sys.argv[1:] = [f"--{name}={value}" for name, value in settings.items()]
+        if graph:
             graph.wait_for_master()
-            _serve()
-        finally:
-            graph.leave()
+            sys.stderr.write(notes(graph, Which.NEW))
+        _serve()
 
 
 def pull(repository: str, folder: Path) -> None:

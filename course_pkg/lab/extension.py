@@ -21,6 +21,7 @@ from traitlets import Bool, Unicode, default
 from traitlets.config import Config
 
 from course_pkg.errors import CourseError
+from course_pkg.lab.shell import SHELL
 from course_pkg.setup import Places, environment
 from course_pkg.sharing.sender import start_sender
 from course_pkg.workspace import make_own_workspace
@@ -81,7 +82,7 @@ def course_settings() -> Config:
     """Return the settings that each Jupyter server in the course's environment needs."""
     return Config(
         ServerApp={
-            "terminado_settings": {"shell_command": ["bash", "--rcfile", str(HERE / "bashrc")]},
+            "terminado_settings": {"shell_command": list(SHELL)},
             "contents_manager_class": "course_pkg.lab.extension.CourseContents",
         },
         ContentsManager={"checkpoints_class": "course_pkg.lab.extension.CachedCheckpoints"},

@@ -11,9 +11,9 @@ from pathlib import Path
 from course_pkg.lab.graph import network
 from course_pkg.lab.graph.graph import Which, graph_of_this_command
 from course_pkg.lab.graph.notes import notes
+from course_pkg.lab.shell import SHELL
 from course_pkg.ros.process.supervised import SupervisedProcess
 
-BASHRC = Path(__file__).with_name("bashrc")
 # These plug-ins give each notebook its own master and folder, ignore pictures, and fail a notebook if a check
 # in it did not pass.
 NBVAL_PLUGINS = (
@@ -32,7 +32,7 @@ def run_command(command: Sequence[str], which: Which = Which.RUNNING) -> int:
     be started.
     """
     if list(command) == ["bash"]:
-        command = ["bash", "--rcfile", str(BASHRC)]
+        command = SHELL
     command = _with_plugins(command)
     with graph_of_this_command(which) as graph, _signals_held_back():
         if graph:
