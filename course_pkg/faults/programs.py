@@ -31,7 +31,7 @@ rospy.spin()
 
 
 def keeper(body: str = WELL, **changes: str) -> str:
-    """Return a program that offers /door; `body` is the code of its handler.
+    """Return a program that serves /door; `body` is the code of its handler.
 
     Each key of `changes` in the program is replaced by its value.
     """

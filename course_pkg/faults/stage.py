@@ -135,7 +135,7 @@ class Stage:
         return self.keeper
 
     def serve_too(self, program: Program) -> None:
-        """Start another program that offers /door, and wait until it responds; raises NodeFailed."""
+        """Start another program that serves /door, and wait until it responds; raises NodeFailed."""
         program.begin()
         self.await_that(lambda: self._answers(program), program)
 

@@ -10,7 +10,7 @@ from course_pkg.setup.places import Places
 
 BRANCH = "main"
 PARTS = ("notebooks", "figures")
-GIT_SETTINGS = "gitconfig"  # lies beside the repository
+GIT_SETTINGS = "gitconfig"  # This file is in the folder that contains the repository.
 
 
 def write_repository(places: Places, repository: Path) -> bool:

@@ -12,9 +12,8 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
 FOLDERS = ("notebooks", "figures")
-DELIVERED = (
-    "delivered.json"  # for each delivered file, the hash of the newest version that the user was given
-)
+# The file contains, for each delivered file, the hash of the newest version that the user has received.
+DELIVERED = "delivered.json"
 
 
 def make_own_files(places: Places) -> None:
