@@ -30,7 +30,7 @@ TARGET_LINK_LIBRARIES(${PROJECT_NAME}_node ${catkin_LIBRARIES})
 
 # %% 13.1 wrong: the file without its folder | hint: Write its path relative to the folder of the package
 replace("src/box_server.cpp", "box_server.cpp")
-# %% 13.1 wrong: a script in the place of the program | hint: has to be built from C++ code that calls functions of roscpp
+# %% 13.1 wrong: a script in the place of the program | hint: The program does not use
 replace("""add_executable(box_server src/box_server.cpp)
 target_link_libraries(box_server ${catkin_LIBRARIES})""", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/box_server "#!/usr/bin/env python3\\nprint()\\n")
 file(COPY ${CMAKE_CURRENT_BINARY_DIR}/box_server DESTINATION ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes
