@@ -67,7 +67,7 @@ MISTAKES = {
     "a field with a different name": (
         "struct Box { float height; };\nint main() {\n  return Box().colour;\n}\n",
         3,
-        "rossrv show prints the fields",
+        "rossrv show prints these fields",
     ),
     "something else": ('int main() {\n  return 1 / "two";\n}\n', 2, "The compiler reports: invalid operands"),
     "no library": ("void far_away();\nint main() { far_away(); }\n", 0, "not linked with a library"),

@@ -191,10 +191,10 @@ replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: another name | hint: Write the same name in
 replace("name>lamp_services", "name>lamps")
 replace("\n  <exec_depend>rospy</exec_depend>", "")
-# %% 04.3 wrong: the version as before | hint: Write it as in this example: 0.1.0
+# %% 04.3 wrong: the version as before | hint: Write the version as in
 replace("1.0.0", "1.0")
 replace("\n  <exec_depend>rospy</exec_depend>", "")
-# %% 04.3 wrong: run_depend as before | hint: Use buildtool_depend, build_depend
+# %% 04.3 wrong: run_depend as before | hint: Use the tags buildtool_depend, build_depend
 replace("exec_depend", "run_depend", times=6)
 # %% 04.3 wrong: catkin is not named | hint: Add <buildtool_depend>catkin</buildtool_depend>
 replace("\n  <buildtool_depend>catkin</buildtool_depend>", "")
@@ -268,7 +268,7 @@ replace("Lamp.srv", "lamp.srv")
 replace("generate_messages(DEPENDENCIES std_msgs)\n", "# generate_messages()")
 # %% 04.4 wrong: does not depend on std_msgs | hint: Write generate_messages(DEPENDENCIES std_msgs)
 replace("(DEPENDENCIES std_msgs)", "()")
-# %% 04.4 wrong: a bracket missing | hint: Write the missing )
+# %% 04.4 wrong: a bracket missing | hint: Write the missing closing parenthesis.
 replace("DEPENDENCIES std_msgs)", "DEPENDENCIES std_msgs")
 # %% 04.4 wrong: the other package's name | hint: Write the same name in
 replace("(lamp_services)", "(my_services)")
@@ -354,7 +354,7 @@ script.chmod(0o644)
 # %% 04.5 wrong: the types of the other package | hint: Your program imports the type
 replace("from lamp_services … .seconds))\n", "from my_services.srv import Lamp")
 replace("handle_lamp", "lambda request: (True, [0, 0, 0], 0)")
-# %% 04.5 wrong: the type in lower case | hint: Upper and lower case are different
+# %% 04.5 wrong: the type in lower case | hint: Compare {name} with the name
 replace("from lamp_services … .seconds))\n", "from lamp_services.srv import lamp")
 replace("Lamp, handle_lamp", "lamp, lambda request: (True, [0, 0, 0], 0)")
 # %% 04.5 wrong: does not wait | hint: The program ended, so its service

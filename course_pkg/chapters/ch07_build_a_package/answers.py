@@ -164,7 +164,7 @@ rospy.spin()""")
 replace("\n    rospy.spin()", "")
 # %% 07.4 wrong: the type of the course's package | hint: Import the type from your own
 replace("my_geometry.srv", "my_geometry_services.srv")
-# %% 07.4 wrong: misspelt type | hint: Upper and lower case are different
+# %% 07.4 wrong: misspelt type | hint: Compare {name} with the name
 replace("import geometry, geometryResponse", "import Geometry, geometryResponse")
 replace('"/getGeometry", geometry', '"/getGeometry", Geometry')
 # %% 07.4 wrong: another service name | hint: The program serves … The program serves

@@ -310,7 +310,7 @@ replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex
 replace("shlex.quote(json.dumps(fields))", "json.dumps(fields)")
 # %% 08.4 wrong: values by position | hint: rosservice reads -5 as an
 replace("{shlex.quote(json.dumps(fields))}", "{' '.join(map(str, fields.values()))}")
-# %% 08.4 wrong: values by position, after -- | hint: The values are in the wrong fields
+# %% 08.4 wrong: values by position, after -- | hint: because rosservice uses the order
 based_on("values by position")
 replace("{service} ", "{service} -- ")
 # %% 08.4 wrong: the dict as Python shows it | hint: YAML cannot read a dict
@@ -466,13 +466,13 @@ replace("    if uri is None:\n        return \"not registered\"\n", "")
 # %% 08.6 wrong: catches nothing | hint: Catch ROSServiceIOException.
 replace("    try:\n        headers", "    if True:\n        headers")
 replace("    except rosservice.ROSServiceIOException:\n        return \"server is gone\"\n", "")
-# %% 08.6 wrong: compares the types only | hint: The names of the types are equal, but
+# %% 08.6 wrong: compares the types only | hint: Compare the MD5 sums, too
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return "ok"')
 # %% 08.6 wrong: compares the sums first | hint: The names of the types are different
 replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5sum:\n        return "ok"\n    return "another definition"')
 # %% 08.6 wrong: treats every error as a missing server | hint: The master has an address for
 replace('"server is gone"', '"not registered"')
-# %% 08.6 wrong: treats a missing service as a dead server | hint: get_service_uri returns None
+# %% 08.6 wrong: treats a missing service as a dead server | hint: so get_service_uri returns None
 replace('"not registered"', '"server is gone"')
 # %% 08.6 wrong: compares with the class | hint: Compare the type with the
 replace('headers["type"] != kind._type', 'headers["type"] != kind')
@@ -483,7 +483,7 @@ replace('return "ok" if', 'print("ok" if')
 replace('else "another definition"', 'else "another definition")')
 # %% 08.6 wrong: a bool | hint: Return one of the five strings
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return headers["md5sum"] == kind._md5sum')
-# %% 08.6 wrong: calls it | hint: Your function called the service
+# %% 08.6 wrong: calls it | hint: Use only get_service_uri and
 replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class())\n    return \"ok\" if")
 # %% 08.6 wrong: the sum of the request | hint: The MD5 sums are equal
 replace("kind._md5sum", "kind._request_class._md5sum")

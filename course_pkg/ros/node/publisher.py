@@ -79,8 +79,9 @@ class Publisher:
         """
         if not wait_until(lambda: len(self.deliveries) >= count, timeout, 0.005):
             raise TooFewSubscribers(
-                f"{self.name}: {len(self.deliveries)} of {count} subscribers connected within {timeout:g} s. "
-                f"Check its subscribers and their type ({self.type}) with `rostopic info {self.name}`."
+                f"{self.name}: {len(self.deliveries)} of {count} subscribers connected within "
+                f"{timeout:g} s. Check the subscribers and their type ({self.type}) with "
+                f"`rostopic info {self.name}`."
             )
 
     def stop(self, *, unregister: bool = True) -> None:

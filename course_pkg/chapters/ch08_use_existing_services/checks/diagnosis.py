@@ -54,7 +54,7 @@ OTHER_RESULTS: Hints = [
     ),
 ]
 WHY = {
-    "not registered": "The master has no address for this service. Test whether get_service_uri returns None.",
+    "not registered": "The master has no address for this service, so get_service_uri returns None.",
     "server is gone": "The master has an address for this service, but no server answers there. Test whether "
     "get_service_headers raises an exception.",
     "another type": (
