@@ -133,7 +133,7 @@ FROM_TOOLS: tuple[Row, ...] = (
         "",
         "No package {name}{other} is on ROS_PACKAGE_PATH.",
         (
-            "In this shell, source devel/setup.bash of the package's workspace. Also compare "
+            "Source devel/setup.bash of the package's workspace in this shell. Also compare "
             "the spelling of the name."
         ),
     ),

@@ -220,7 +220,8 @@ PUBLISHER: PublisherReport = {
         ),
         (
             {"reached": 0, "latch": True, "deliveries": []},
-            "Message 3 has reached no subscriber yet. The message is latched, so the next subscriber gets it.",
+            "Message 3 has reached no subscriber yet. The message is latched, so the next subscriber gets "
+            "it.",
         ),
         (
             {"reached": 0, "latch": True, "deliveries": PUBLISHER["deliveries"][:1]},

@@ -89,7 +89,7 @@ SLIPS = {
     "a package misspelt": (
         spoilt(C, ("message_generation", "message_generaton")),
         f"{LIST_FILE}, line 4",
-        "asks for message_generaton",
+        "find_package needs the package message_generaton",
     ),
     "a bracket missing": (
         spoilt(C, (GENERATE, "generate_messages(\n")),
@@ -114,7 +114,7 @@ SLIPS = {
     "another name in project": (
         spoilt(C, ("project(my_services)", "project(my_service)")),
         f"{LIST_FILE}, line 9",
-        "package.xml has the name my_services, but CMakeLists.txt has my_service.",
+        "package.xml has the name my_services, but CMakeLists.txt has the name my_service.",
     ),
     "needed to run, but not listed": (
         spoilt(X, ("  <exec_depend>message_runtime</exec_depend>\n", "")),

@@ -66,7 +66,7 @@ PASTED = {
     TRACEBACK.replace("\n", "\r\n"): "still lists a server",
     f"\x1b[31m{REFUSED}\x1b[0m": "still lists a server",
     LOG: "raised an exception",
-    BUILD: "my_services/CMakeLists.txt, line 6: CMake does not know add_service_files here",
+    BUILD: "my_services/CMakeLists.txt, line 6: CMake does not know the command add_service_files",
     "Couldn't find executable named talk.py below /home/me/ws": "has no program talk.py",
     "OSError: [Errno 98] Address already in use": "Another program already uses the port",
     "shutdown request: [/talker] Reason: new node registered with same name": "Two nodes have the same name",
