@@ -148,7 +148,7 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r"(?P<name>add_\w+)\(\) called with unused arguments: (?P<rest>.+)",
         "",
-        "{name} does not know the argument {rest}.",
+        "The command {name} does not know the argument {rest}.",
         "Write FILES before the names of files.",
     ),
     (

@@ -216,7 +216,7 @@ PUBLISHER: PublisherReport = {
         ({"reached": 1}, "Message 3 went to 1 subscriber."),
         (
             {"reached": 0},
-            "Message 3 reached no subscriber: no subscriber was connected when it was published.",
+            "Message 3 reached no subscriber, because no subscriber was connected at that time.",
         ),
         (
             {"reached": 0, "latch": True, "deliveries": []},
@@ -225,7 +225,7 @@ PUBLISHER: PublisherReport = {
         ),
         (
             {"reached": 0, "latch": True, "deliveries": PUBLISHER["deliveries"][:1]},
-            "Message 3 was kept, and went to this panel as soon as it was connected.",
+            "Message 3 was stored, and was sent to this panel after the connection.",
         ),
         ({"advertised": False}, "The publisher was stopped. The next message creates a new publisher."),
         ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz (measured: 9.987 Hz)."),

@@ -161,7 +161,8 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
         says=(
             "The response has only the address of the server. The master has no part in the next steps."
             if there
-            else "The code -1 says that the look-up failed. There is no address, so nothing more is sent."
+            else "The code -1 means that the look-up failed. The client has no address, so it sends "
+            "nothing more."
         ),
         size=len(answered),
         text=_xml(answered),
@@ -267,7 +268,7 @@ class _ConnectionSteps:
     def _reply(self, reply: Frame, kind: ServiceType | None) -> Step:
         worked = reply.data[:1] == b"\1"
         says = (
-            f"The first byte says that the call worked. {_of_body(kind.response if kind else None)}"
+            f"The first byte means that the call worked. {_of_body(kind.response if kind else None)}"
             if worked
             else "The first byte is 0, which means that the call failed. The reason follows as text."
         )
@@ -325,7 +326,7 @@ class _ConnectionSteps:
 
 def _of_body(kind: MessageType | None) -> str:
     if kind is None:
-        return "These are fields of a type that is not known here."
+        return "These fields belong to a type that is not installed on this computer."
     if not kind.fields:
         return "This part of the type has no fields, so the length is 0 and nothing follows."
     return (

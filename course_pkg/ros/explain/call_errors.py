@@ -7,7 +7,7 @@ from course_pkg.ros.explain.handler_errors import Row
 FROM_CALLS: tuple[Row, ...] = (
     (
         r"timeout exceeded while waiting for service",
-        "No node provided this service before the timeout of wait_for_service().",
+        "No node provided this service before the timeout of wait_for_service() was over.",
         "Start the server, or compare the name of the service with the output of `rosservice list`.",
         "06",
     ),
@@ -21,8 +21,8 @@ FROM_CALLS: tuple[Row, ...] = (
         r"service \[.{0,300}\] unavailable|(?i:unknown service)|Service \[.{0,300}\] is not available",
         "No node provides a service with this name: the server never started, has ended, or "
         "uses a different name.",
-        "Start the server, or compare the name with `rosservice list`. After a restart of the master, start "
-        "the servers again.",
+        "Start the server, or compare the name with the output of `rosservice list`. After a "
+        "restart of the master, start the servers again.",
         "06",
     ),
     (
@@ -95,7 +95,7 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"Incompatible arguments to call service",
-        "The arguments on the command line do not fit the request of the service.",
+        "The arguments in the command line do not fit the fields of the request.",
         "Show the fields of the request with `rosservice args`, and press Tab to complete the request.",
         "08",
     ),

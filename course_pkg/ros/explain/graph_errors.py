@@ -29,8 +29,8 @@ FROM_GRAPH: tuple[Row, ...] = (
         r"MasterSilent|accepts connections, but did not answer within|the master at \S+ does not answer",
         "The master accepts connections, but does not answer. Its process is stopped or blocked.",
         (
-            "Resume the stopped process with `kill -CONT` and its process id. Otherwise, end "
-            "the process, and restart the master and all nodes."
+            "If the process of the master is stopped, resume this process with `kill -CONT`. "
+            "Otherwise, restart the master and all nodes."
         ),
         "12",
     ),

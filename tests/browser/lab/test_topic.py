@@ -35,7 +35,7 @@ def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Pa
         topic.get_by_label("data").fill("1.5")
         topic.get_by_role("button", name="Publish", exact=True).click()
         expect(
-            topic.get_by_text("Message 1 reached no subscriber: no subscriber was connected")
+            topic.get_by_text("Message 1 reached no subscriber, because no subscriber was connected")
         ).to_be_visible()
         expect(topic.locator(".ros-deliveries")).to_contain_text("this panel")
         expect(topic.get_by_text("Nothing received yet.").first).to_be_visible()
@@ -55,7 +55,7 @@ def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
         topic = listening(lab_page)
         topic.get_by_label("Latch").check()
         topic.get_by_role("button", name="Publish", exact=True).click()
-        expect(topic.get_by_text("Message 1 was kept, and went to this panel")).to_be_visible()
+        expect(topic.get_by_text("Message 1 was stored, and was sent to this panel")).to_be_visible()
         expect(topic.get_by_label("The last messages")).to_contain_text("data 0.0")
         topic.get_by_role("button", name="Withdraw the publisher").click()
         expect(topic.get_by_text("The publisher was stopped.")).to_be_visible()

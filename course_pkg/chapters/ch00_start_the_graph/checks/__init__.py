@@ -191,8 +191,8 @@ def ask_a_question(context: CheckContext) -> None:
                 ),
                 (
                     ANYTHING,
-                    "The order of the sides is wrong. Compare your order with the output of `rossrv show "
-                    "course_pkg/geometry`.",
+                    "The order of the sides in the request is wrong. Compare this order with "
+                    "the output of `rossrv show course_pkg/geometry`.",
                 ),
             ],
         )

@@ -9,7 +9,7 @@ LOOKS_LIKE_IT = (
     "Your function called the wrong service, because the names are similar. Compare the whole "
     "text after the last slash with the given text."
 )
-FOUND = "Find the service, call it, and return the volume."
+FOUND = "Find the service, call this service, and return the volume."
 RUNNING = "Return the sorted names of the running publishers of a topic."
 
 
@@ -92,8 +92,8 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
                 ),
                 (
                     ANYTHING,
-                    "The order of the sides is wrong. Compare your order with the output of `rossrv show "
-                    "course_pkg/geometry`.",
+                    "The order of the sides in the request is wrong. Compare this order with "
+                    "the output of `rossrv show course_pkg/geometry`.",
                 ),
             ],
         )
@@ -236,7 +236,7 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
             (
                 lambda actual: set(actual) < set(living),
-                "Some running nodes are missing. Ping every publisher of the topic.",
+                "Some running nodes are missing in your list. Ping every publisher of the topic.",
             ),
             (
                 ANYTHING,

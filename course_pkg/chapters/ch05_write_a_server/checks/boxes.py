@@ -50,7 +50,7 @@ def area_and_volume(context: CheckContext) -> None:
                 actual=response.volume,
                 near=1e-3,
                 hints=[
-                    (0.0, "The volume is 0: a field without a value is 0. Set the field `volume`."),
+                    (0.0, "The volume is 0, because a field without a value is 0. Set the field `volume`."),
                     (
                         width * length + height,
                         "Your volume is area + height. Multiply by the height; do not add the height.",
@@ -62,7 +62,7 @@ def area_and_volume(context: CheckContext) -> None:
 
 def _about_area(width: float, length: float, height: float) -> Hints:
     return [
-        (0.0, "The area is 0: a field without a value is 0. Set the field `area`."),
+        (0.0, "The area is 0, because a field without a value is 0. Set the field `area`."),
         (width + length, "Your area is width + length. Multiply the two sides; do not add them."),
         (
             width * height,
@@ -158,8 +158,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
         hints=[
             (
                 matches("error processing request"),
-                "The handler raised an exception of the wrong type, so the client concludes that the "
-                "server has a bug. Raise rospy.ServiceException.",
+                "The handler raised an exception of the wrong type. Raise "
+                "rospy.ServiceException to refuse a request.",
             ),
             (
                 matches("returned None"),
