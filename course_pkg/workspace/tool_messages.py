@@ -88,8 +88,8 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r"package name '(?P<name>[^']+)' is illegal and cannot be used in message generation",
         "package.xml",
-        "{name} cannot be the name of a package with messages, because Python uses it as the "
-        "name of a module.",
+        "{name} cannot be the name of a package with messages, because the name is not valid "
+        "for a Python module.",
         "In package.xml and in project(), use a name of lower-case letters, digits and _ that "
         "begins with a letter.",
     ),
@@ -147,8 +147,9 @@ FROM_TOOLS: tuple[Row, ...] = (
     (
         r"No module named '(?P<name>numpy|matplotlib)'",
         "",
-        "The Python that runs the program does not have the library {name}.",
-        "Write #!/usr/bin/env python3 as the first line. This line selects the Python that has the library.",
+        "The library {name} is not installed for the Python that runs the program.",
+        "Write #!/usr/bin/env python3 as the first line. This line selects the Python in which "
+        "the library is installed.",
     ),
     (
         r"No module named '(?P<name>\w+)'",
@@ -198,7 +199,7 @@ FROM_TOOLS: tuple[Row, ...] = (
     (
         r"(?P<tool>ros\w+) args\tprint service arguments|Usage: (?P<other>ros\w+) ",
         "",
-        "{tool}{other} does not know this command. Its output lists all commands.",
+        "{tool}{other} does not know this command. The output of {tool}{other} lists all commands.",
         "Use one of the commands in the output. For example, rossrv show prints the fields of a type.",
     ),
 )

@@ -488,7 +488,7 @@ class Watch:
     def state(self):
         return self._state
 
-# %% 02.5 wrong: a number for each state | hint: Return one of the three strings
+# %% 02.5 wrong: a number for each state | hint: state() did not return one
 replace('return "waiting"', "return 0")
 # %% 02.5 wrong: waits for the first message | hint: state() waits for a message.
 replace('if self.last is None:\n            return "waiting"', "while self.last is None:\n            time.sleep(0.01)")

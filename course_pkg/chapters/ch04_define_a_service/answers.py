@@ -134,7 +134,7 @@ def will_talk(server, client):
 # %% 04.2 wrong: the order does not matter | hint: The order of the fields
 based_on("the lines without comments and blanks")
 replace("[words for words in lines if words]", "sorted(words for words in lines if words)")
-# %% 04.2 wrong: forgets the line between the halves | hint: One field has moved to
+# %% 04.2 wrong: forgets the line between the halves | hint: One field is on different
 based_on("the lines without comments and blanks")
 replace("if words", 'if words and words != ["---"]')
 # %% 04.2 wrong: the types only | hint: One letter of a field's

@@ -140,8 +140,8 @@ class ChoicesModel:
         for number, case in enumerate(self.cases, start=1):
             if case.answer not in self.options:
                 raise NotAChoice(
-                    f"choose({self.key!r}): case {number} expects {case.answer!r}, which is not one of the "
-                    f"options {', '.join(map(repr, self.options))}."
+                    f"choose({self.key!r}): the answer {case.answer!r} of case {number} is not "
+                    f"one of the options {', '.join(map(repr, self.options))}."
                 )
             if texts.count(case.text) > 1:
                 raise NotAChoice(

@@ -100,7 +100,9 @@ def published(report: PublisherReport, own: str) -> str:
     peers = [_peer(each["peer"], own) for each in report["deliveries"]]
     if report["reached"]:
         same = len(peers) == report["reached"]
-        return f"Message {count} went to {_all(peers) if same else _count(report['reached'], 'subscriber')}."
+        return (
+            f"Message {count} was sent to {_all(peers) if same else _count(report['reached'], 'subscriber')}."
+        )
     if not report["latch"]:
         return f"Message {count} reached no subscriber, because no subscriber was connected at that time."
     if peers:

@@ -148,7 +148,10 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
         "client",
         "master",
         offset + connection.since(0, from_client=True),
-        says="XML-RPC: a method and its arguments as XML, sent by HTTP. Only the look-up goes to the master.",
+        says=(
+            "The look-up uses XML-RPC: HTTP carries a method and its arguments as XML. Only the "
+            "look-up goes to the master."
+        ),
         size=len(asked),
         text=_xml(asked),
     )
@@ -159,7 +162,8 @@ def _look_up(wire: Wire, start: float) -> Iterator[Step]:
         "client",
         offset + connection.since(0, from_client=False),
         says=(
-            "The response has only the address of the server. The master has no part in the next steps."
+            "The response contains only the address of the server. The master does not take "
+            "part in the next steps."
             if there
             else "The code -1 means that the look-up failed. The client has no address, so it sends "
             "nothing more."
@@ -215,9 +219,9 @@ class _ConnectionSteps:
         refused = self._connection.refused
         title = f"No process accepts the connection at {where}" if refused else f"Connects to {where}"
         says = (
-            f"{refused}. A server had this address earlier, and the master still has it."
+            f"{refused}. A server used this address earlier, and the master still stores this address."
             if refused
-            else "A TCP connection, directly to the server. No program has sent a byte yet."
+            else "This is a TCP connection, directly to the server. No program has sent a byte yet."
         )
         yield _step(
             title, "client", "server", self._offset, says=says, bad=bool(refused), connection=self._number
@@ -232,10 +236,11 @@ class _ConnectionSteps:
             refused = "error" in self._answered
             title = "The server refuses the connection" if refused else "Connection header of the server"
             says = (
-                "The header has one field, error, with the reason as text. Then the server closes the "
-                "connection, and the client sends no request."
+                "The header has one field with the name `error`, which contains the reason. "
+                "Then the server closes the connection, and the client sends no request."
                 if refused
-                else "The node and the type of the service. The MD5 is the same, so a request can follow."
+                else "The header contains the node and the type of the service. The MD5 sums are "
+                "equal, so a request can follow."
             )
             yield self._framed(title, False, came, header_pieces(came.data), says=says, bad=refused)
 
@@ -245,8 +250,8 @@ class _ConnectionSteps:
                 "probe=1 means that no request follows. wait_for_service uses such a header to find a server."
             )
         return (
-            f"{len(self._asked)} fields in any order, each with its length before it. The MD5 identifies the "
-            "definition that the client was built with."
+            f"The header has {len(self._asked)} fields in any order. Each field follows its "
+            "length. The MD5 identifies the definition that the client was built with."
         )
 
     def _calls(self) -> Iterator[Step]:
@@ -295,16 +300,16 @@ class _ConnectionSteps:
 
     def _ending_says(self, lost: bool) -> str:
         if lost and not self._came:
-            return "No byte came back. A process accepted the connection, but sent nothing."
+            return "The client received no byte. A process accepted the connection, but sent nothing."
         if lost:
-            return "A response was expected. The client cannot know how much the server has done."
+            return "The client expected a response. It cannot know how much work the server has done."
         if "error" in self._answered:
             return "No request was sent, so no handler ran."
         if self._asked.get("probe") == "1":
             return "The probe was successful: a server is there, and answers."
         if self._asked.get("persistent") in ("1", "true"):
             return "The client had set persistent=1, so it could use the connection for several calls."
-        return "The connection was for one call. The next call begins with a new look-up."
+        return "The client used the connection for one call. The next call begins with a new look-up."
 
     def _unanswered(self) -> bool:
         if self._sent and not self._came:

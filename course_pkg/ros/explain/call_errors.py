@@ -60,8 +60,8 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"CallTimeout.{0,300}accepts connections, but sends nothing",
-        "The server did not answer in time. Its process is stopped, or a connection that sends "
-        "nothing blocks the server.",
+        "The server did not answer in time. The server's process is stopped, or a connection "
+        "without data blocks the server.",
         (
             "If the server's process is stopped, resume it with `kill -CONT`. Otherwise, start "
             "the server again."
@@ -70,13 +70,15 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"CallTimeout|TimesUp",
-        "The server did not answer in time. Its handler is slow, waits for something, or never returns.",
+        "The server did not answer in time. The server's handler is slow, waits for something, "
+        "or never returns.",
         "Find out what the handler waits for. Use a longer timeout only if you know that the work is slow.",
         "12",
     ),
     (
         r"CallCancelled",
-        "You cancelled the call, but the server does not know this. Its handler continues to its end.",
+        "You cancelled the call, but the server does not know this. The handler in the server "
+        "continues to its end.",
         "Find out what the handler waits for before you call again.",
         "12",
     ),

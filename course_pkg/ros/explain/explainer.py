@@ -26,8 +26,8 @@ NOTHING = Explanation(
 )
 UNKNOWN = Explanation(
     "The course has no explanation for this error message.",
-    "Read the last line first, because this line contains the error. In a traceback, begin "
-    "with the lowest line that contains the name of your own file.",
+    "Read the last line first, because this line contains the error. In a traceback, look for "
+    "the last line that contains the name of your own file.",
     known=False,
 )
 

@@ -62,7 +62,7 @@ def _missing(package: str, name: str, others: list[str]) -> str:
         alike = difflib.get_close_matches(name, others, n=1)
         message += f" Did you mean {alike[0]!r}?" if alike else f" The package has: {', '.join(others)}."
     needed = (
-        "If the program is a script, make the file executable with chmod +x, and begin it with a "
-        "line such as #!/usr/bin/env python3."
+        "A script has to be executable (chmod +x), and it has to begin with a line such as "
+        "#!/usr/bin/env python3."
     )
     return f"{message} {needed}"

@@ -20,8 +20,8 @@ NODE, SERVICE, TYPE = (
     "Find the name of the service.",
     "Find the type of the service.",
 )
-RECEIVED = "Return a number from the topic, and another number that was published after the pause."
-MISSED = "Return how many numbers were published between these two numbers."
+RECEIVED = "Return two numbers from the topic: one number before the pause, and one number after the pause."
+MISSED = "Return how many numbers were published between the two received numbers."
 
 
 @part(

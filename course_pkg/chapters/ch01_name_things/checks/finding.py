@@ -17,8 +17,8 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
     "01.3",
     points=3,
     goal=(
-        "Find the service whose name has the given text after the last slash, call this "
-        "service, and return the volume. If there is no such service, return None."
+        "Find the service that has the given text after the last slash of its name. Call this "
+        "service and return the volume, or return None if there is no such service."
     ),
     needs=["ask_wherever"],
     deadline=25.0,
@@ -163,7 +163,7 @@ _LOST = [
 _NOBODY = [
     (
         matches("^(ServiceException|ROS|LookupError|ValueError|RuntimeError|Exception)"),
-        "In this exercise, a missing service is not an error. Do not raise an exception: return None.",
+        "In this exercise, a missing service is not an error. Return None, and do not raise an exception.",
     )
 ]
 
@@ -262,7 +262,7 @@ def _living(context: CheckContext, topic: str) -> object:
             (
                 matches("TimesUp"),
                 (
-                    "rosnode_ping does not return, because it sends one ping after another without "
+                    "rosnode_ping does not return, because rosnode_ping sends pings without "
                     "end. Pass max_count=1 to rosnode_ping."
                 ),
             ),

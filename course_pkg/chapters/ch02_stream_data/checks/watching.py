@@ -162,7 +162,11 @@ _NO_WORD: Hints = [
         matches("waiting|running|ended"),
         "The spelling of the string is wrong. Write the string in small letters, exactly as in the exercise.",
     ),
-    (ANYTHING, "state() returned something else. Return one of the three strings in the exercise."),
+    (
+        ANYTHING,
+        'state() did not return one of the three strings in the exercise. Return "waiting", '
+        '"running" or "ended".',
+    ),
 ]
 _RETURNS = [
     (

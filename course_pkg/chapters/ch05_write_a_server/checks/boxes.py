@@ -102,8 +102,8 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
         hints=[
             (
                 matches(OWN_TEXT),
-                "This box has no negative side, but the handler refused it. Refuse only values "
-                "below zero, and not zero itself.",
+                "The handler refused a box without a negative side. Refuse only values below "
+                "zero, and not zero itself.",
             )
         ],
     )
