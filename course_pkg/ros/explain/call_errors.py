@@ -77,7 +77,7 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"CallCancelled",
-        "You cancelled the call, but the server does not know this. The handler in the server "
+        "You cancelled the call, but the server does not know this. The server's handler "
         "continues to its end.",
         "Find out what the handler waits for before you call again.",
         "12",

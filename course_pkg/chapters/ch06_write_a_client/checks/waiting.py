@@ -78,8 +78,8 @@ def is_anybody_there(context: CheckContext) -> None:
             expected="no request",
             actual=f"{len(server.requests)} request(s)",
             hint=(
-                "The function called the service, so the server had to do its work. Wait for "
-                "the service without a call."
+                "The function called the service, and this call started the server's work. "
+                "Wait for the service without a call."
             ),
         )
     _never_there(
