@@ -250,8 +250,9 @@ class _ConnectionSteps:
                 "probe=1 means that no request follows. wait_for_service uses such a header to find a server."
             )
         return (
-            f"The header has {len(self._asked)} fields in any order. Each field follows its "
-            "length. The MD5 identifies the definition that the client was built with."
+            f"The header has {len(self._asked)} fields in any order. The length of each field "
+            "comes before the field. The MD5 sum identifies the definition that the client was "
+            "built with."
         )
 
     def _calls(self) -> Iterator[Step]:
