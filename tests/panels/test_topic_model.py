@@ -212,8 +212,8 @@ PUBLISHER: PublisherReport = {
     ("change", "words"),
     [
         ({"published": 0}, "Nothing is published yet. The first message creates the publisher."),
-        ({}, "Message 3 went to this panel and /listener."),
-        ({"reached": 1}, "Message 3 went to 1 subscriber."),
+        ({}, "Message 3 was sent to this panel and /listener."),
+        ({"reached": 1}, "Message 3 was sent to 1 subscriber."),
         (
             {"reached": 0},
             "Message 3 reached no subscriber, because no subscriber was connected at that time.",
@@ -280,4 +280,4 @@ def test_one_name_with_two_definitions_is_a_mismatch() -> None:
 def test_a_type_that_is_unknown_here_is_a_mismatch_by_name() -> None:
     """If the MD5 sum is unknown, the panel compares the names of the types."""
     said = mismatches(FLOAT, seen(subscriber="their_pkg/Other"), "/panel", message_type)
-    assert "subscribes to their_pkg/Other, this panel" in said[0]
+    assert "subscribes to their_pkg/Other, but this panel" in said[0]

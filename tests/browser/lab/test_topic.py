@@ -41,7 +41,7 @@ def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Pa
         expect(topic.get_by_text("Nothing received yet.").first).to_be_visible()
         topic.get_by_label("data").fill("-2.5")
         lab_page.keyboard.press("Enter")
-        expect(topic.get_by_text("Message 2 went to this panel.")).to_be_visible()
+        expect(topic.get_by_text("Message 2 was sent to this panel.")).to_be_visible()
         expect(topic.get_by_label("The last messages")).to_contain_text("data -2.5")
         topic.get_by_text("The same by hand").click()
         line = topic.get_by_label("Command that publishes once")
