@@ -112,7 +112,7 @@ replace("\nadd_dep", "\n# add_dep")
 replace("${PROJECT_NAME}_programs", "programs", times=2)
 # %% 07.3 wrong: no add_dependencies | hint: The target does not depend
 replace("\nadd_dep", "\n# add_dep")
-# %% 07.3 wrong: one pair of braces | hint: write both ${ }
+# %% 07.3 wrong: one pair of braces | hint: Write both pairs of ${ }
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS}", "${PROJECT_NAME_EXPORTED_TARGETS}")
 # %% 07.3 wrong: other packages only | hint: Your add_dependencies contains only targets of other
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ", "")
