@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from course_pkg.ports import free_port
-from course_pkg.sandbox import confinement, namespaces, users
 from course_pkg.sandbox.channel import descendants, end_all_below, fork, send
 from course_pkg.sandbox.command_runner import OWN, run_commands
 from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.job import PartJob, job_from
+from course_pkg.sandbox.linux import confinement, namespaces, users
 from course_pkg.sandbox.student_process import message_writer, run_part
 from course_pkg.waiting import wait_until
 
