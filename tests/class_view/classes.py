@@ -5,8 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 import time
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -19,7 +17,7 @@ from course_pkg.class_view.pages import application
 from course_pkg.class_view.service import ClassService, Settings
 from course_pkg.class_view.storage import Storage
 from course_pkg.class_view.tokens import FILE, Tokens
-from tests.web_pages.servers import served
+from tests.web_pages.servers import ask, served
 
 TEACHER = "secret"  # the teacher's token, which only this test's server knows
 NASTY = "</span><img src=x onerror=alert(1)>"
@@ -53,26 +51,6 @@ def serving(folder: Path, students: int = 3, identity: Identity | None = None) -
 
     with served(view) as url:
         yield url
-
-
-class Kept(urllib.request.HTTPRedirectHandler):
-    """Follows no redirect."""
-
-    def redirect_request(self, *_: object) -> None:
-        """Return no new request."""
-
-
-def ask(url: str, data: object = None, **headers: str) -> tuple[int, str, dict[str, str]]:
-    """Send a request; return the status, the text and the headers of the response."""
-    body = None if data is None else data if isinstance(data, bytes) else json.dumps(data).encode()
-    named = {name.replace("_", "-"): value for name, value in headers.items()}
-    request = urllib.request.Request(url, body, named)  # noqa: S310 -- our own server
-    try:
-        with urllib.request.build_opener(Kept).open(request, timeout=30) as response:
-            return response.status, response.read().decode(), dict(response.headers)
-    except urllib.error.HTTPError as error:
-        with error:
-            return error.code, error.read().decode(), dict(error.headers)
 
 
 def send(url: str, token: str, *results: dict[str, object]) -> tuple[int, str]:

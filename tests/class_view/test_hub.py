@@ -13,8 +13,8 @@ from tornado.web import Application, RequestHandler
 
 from course_pkg.class_view.identity import HubIdentity, HubService
 from course_pkg.ports import free_port
-from tests.class_view.classes import ask, result, send, serving
-from tests.web_pages.servers import served
+from tests.class_view.classes import result, send, serving
+from tests.web_pages.servers import ask, served
 
 USERS = {
     "student": {"kind": "user", "name": "ada", "scopes": ["access:servers!server=ada/"]},

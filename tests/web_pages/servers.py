@@ -1,9 +1,12 @@
-"""A tornado application in a thread of the test."""
+"""A tornado application in a thread of the test, and a request to a page."""
 
 from __future__ import annotations
 
 import asyncio
+import json
 import threading
+import urllib.error
+import urllib.request
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 
@@ -41,3 +44,23 @@ def served(application: Callable[[int], AbstractContextManager[Application]]) ->
     finally:
         ends[0]()
         thread.join(10)
+
+
+class Kept(urllib.request.HTTPRedirectHandler):
+    """Follows no redirect."""
+
+    def redirect_request(self, *_: object) -> None:
+        """Return no new request."""
+
+
+def ask(url: str, data: object = None, **headers: str) -> tuple[int, str, dict[str, str]]:
+    """Send a request; return the status, the text and the headers of the response."""
+    body = None if data is None else data if isinstance(data, bytes) else json.dumps(data).encode()
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    request = urllib.request.Request(url, body, named)  # noqa: S310 -- our own server
+    try:
+        with urllib.request.build_opener(Kept).open(request, timeout=30) as response:
+            return response.status, response.read().decode(), dict(response.headers)
+    except urllib.error.HTTPError as error:
+        with error:
+            return error.code, error.read().decode(), dict(error.headers)
