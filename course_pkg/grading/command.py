@@ -38,7 +38,7 @@ from course_pkg.grading.run.regrade import Regrade
 from course_pkg.grading.run.selection import Selection, selection
 from course_pkg.grading.run.summary import about_empty, about_flags, about_rest, last_line, status_of
 from course_pkg.grading.store import Store, handed_in
-from course_pkg.sandbox.bubblewrap import require_sandbox
+from course_pkg.sandbox.linux.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 

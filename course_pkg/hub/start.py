@@ -21,7 +21,8 @@ from course_pkg.hub.delivery import write_repository
 from course_pkg.hub.passwords import Passwords, add_to_table
 from course_pkg.hub.settings import VARIABLE, Settings
 from course_pkg.hub.tools import DEPLOY, installed_proxy, self_signed
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.lab.jupyterlab import server_port
+from course_pkg.ports import free_port
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places, environment
 from course_pkg.state import locked
@@ -64,7 +65,7 @@ def serve_hub(options: Options) -> int:
             for name in make_accounts(everybody):
                 sys.stdout.write(f"Created the account {name}.\n")
         cert, key = _certificate(options, state)
-        port = free_port(options.ip, PORTS if options.port is None else [options.port])
+        port = server_port(options.ip, PORTS if options.port is None else [options.port])
         url = f"http{'s' if cert else ''}://{_in_url(options.ip)}:{port}"
         repository = base / "released" / "ros-course"
         write_repository(places, repository)

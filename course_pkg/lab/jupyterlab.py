@@ -10,7 +10,7 @@ import sys
 import tempfile
 import time
 import webbrowser
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager, suppress
 from http.client import HTTPConnection, HTTPException
 from pathlib import Path
@@ -22,6 +22,7 @@ from course_pkg.errors import CourseError, PortBusy, SetupError
 from course_pkg.lab.graph.graph import Which, graph_of_this_command
 from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.graph.settings import settings_for
+from course_pkg.ports import free_port
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
 from course_pkg.setup.own_files import make_own_files
@@ -49,7 +50,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     make_own_files(places)
     notebook = _notebook(places.own, asked)
     _make_workspace()
-    chosen = free_port(ip, PORTS if port is None else [port])
+    chosen = server_port(ip, PORTS if port is None else [port])
     which = Which.SHARED if shared else Which.RUNNING if os.environ.get("ROS_MASTER_URI") else Which.NEW
     with (
         _stopping_on_signals(),
@@ -81,22 +82,15 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
             return server.returncode or 0
 
 
-def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
-    """Return the first port of `candidates` on which a program can listen at `ip`; 0 means any port.
-
-    Raises PortBusy if no port is free.
-    """
-    reason, tried = "no port was given", 0
-    for tried in candidates:
-        with socket.socket(socket.AF_INET6 if ":" in ip else socket.AF_INET) as probe:
-            try:
-                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-                probe.bind((ip, tried))
-                probe.listen()
-                return int(probe.getsockname()[1])
-            except (OSError, OverflowError) as error:
-                reason = getattr(error, "strerror", None) or str(error)
-    raise PortBusy(f"JupyterLab cannot listen on {ip}:{tried}: {reason}. Omit --port to get a free port.")
+def server_port(ip: str, candidates: Sequence[int]) -> int:
+    """Return the first free port of `candidates` at `ip`; raises PortBusy if there is none."""
+    try:
+        return free_port(ip, candidates)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise PortBusy(
+            f"JupyterLab cannot listen on {ip}:{candidates[-1]}: {reason}. Omit --port to get a free port."
+        ) from error
 
 
 class _Address(NamedTuple):

@@ -12,11 +12,12 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from course_pkg.sandbox import confinement, namespaces, users
+from course_pkg.ports import free_port
 from course_pkg.sandbox.channel import descendants, end_all_below, fork, send
 from course_pkg.sandbox.command_runner import OWN, run_commands
 from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.job import PartJob, job_from
+from course_pkg.sandbox.linux import confinement, namespaces, users
 from course_pkg.sandbox.student_process import message_writer, run_part
 from course_pkg.waiting import wait_until
 
@@ -54,7 +55,7 @@ def supervise(
     with os.fdopen(job_file, "rb") as file:
         job = job_from(file.read())
     folder = _make_folder(isolation)
-    port = MASTER_PORT if isolation.namespaces else _free_port()
+    port = MASTER_PORT if isolation.namespaces else free_port()
     with socket.create_server(("127.0.0.1", 0)) as listener, open("/proc/self/ns/net") as network:
         _set_environment(folder, port, listener.getsockname()[1])
         for each in job.files:
@@ -208,12 +209,6 @@ def _end_all(folder: str, isolation: Isolation) -> None:
         users.remove(folder)
     elif not isolation.namespaces:
         shutil.rmtree(folder, ignore_errors=True)
-
-
-def _free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        port: int = listener.getsockname()[1]
-        return port
 
 
 def _listens(port: int) -> bool:

@@ -17,10 +17,11 @@ from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 
-from course_pkg.sandbox import confinement, fork_server, namespaces, supervisor, users
+from course_pkg.sandbox import fork_server, supervisor
 from course_pkg.sandbox.channel import end, fork, pair, receive, send, share_memory_with_children
 from course_pkg.sandbox.isolation import Isolation, Kind
 from course_pkg.sandbox.job import PartJob, PartResult, Record, job_from
+from course_pkg.sandbox.linux import confinement, namespaces, users
 
 START_TIMEOUT = 60.0  # The fork server has to import its modules within this time in s.
 PLACE_TIMEOUT = 15.0  # A supervisor has to start its processes within this time in s.

@@ -19,8 +19,8 @@ from course_pkg.site.book import book, prefix
 from course_pkg.site.chapters import Chapter, chapter_of
 from course_pkg.site.exporter import Body, Exporter
 from course_pkg.site.glossary import Glossary
+from course_pkg.site.markup.prose import words
 from course_pkg.site.pages import Page, Renderer, landing
-from course_pkg.site.prose import words
 from course_pkg.site.runs import Runs
 from course_pkg.site.scripts import panels_script, panels_sheet
 from course_pkg.site.search_index import Section, script, sections

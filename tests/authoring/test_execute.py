@@ -20,12 +20,15 @@ from course_pkg.setup import Places
 from tests.authoring.books import book, check, code, exercise
 from tests.support import eventually, process_state
 
-SET_UP = 'from course_pkg import check, join\nfrom course_pkg.srv import geometry\nnode = join("chapter_05")'
+SET_UP = (
+    "import rospy\nfrom course_pkg import check, join\nfrom course_pkg.srv import geometry\n"
+    'node = join("chapter_05")'
+)
 SERVER = (
     "def handle_geometry(request):\n"
     "    area = request.width * request.length\n"
     "    return area, area * request.height\n\n\n"
-    'node.serve("/getGeometry", geometry, handle_geometry)'
+    'rospy.Service("/getGeometry", geometry, handle_geometry)'
 )
 PLOT = (
     "import matplotlib.pyplot as plt\n\n"

@@ -36,7 +36,7 @@ from playwright.sync_api import BrowserContext, Page, sync_playwright
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.ports import free_port
 from tests.lab.commands import ADDRESS, ROOT, alive, below, can_connect, having, lab, user_environment
 from tests.support import eventually
 

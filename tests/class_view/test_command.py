@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from course_pkg.class_view.storage import FILE, Storage
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.ports import free_port
 from course_pkg.sharing.outbox import Outbox
 from course_pkg.sharing.sender import Sender
 from tests.class_view.classes import tokens_in

@@ -12,8 +12,8 @@ import pytest
 
 import course_pkg
 from course_pkg.checking.parts import find
-from course_pkg.sandbox import bubblewrap
 from course_pkg.sandbox.job import PartJob
+from course_pkg.sandbox.linux import bubblewrap
 from course_pkg.sandbox.worker_client import SandboxWorker
 from tests.checking.example_answers import every_answer
 

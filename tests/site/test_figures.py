@@ -12,7 +12,7 @@ from course_pkg.errors import SiteError
 from course_pkg.setup import Places
 from course_pkg.site.build import Settings, write_site
 from course_pkg.site.exporter import Body, Exporter
-from course_pkg.site.figures import figure
+from course_pkg.site.markup.figures import figure
 from tests.authoring.books import book, text
 from tests.site.notebook_stores import runs, store
 

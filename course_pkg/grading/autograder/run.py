@@ -32,8 +32,8 @@ from course_pkg.grading.marking import Run, mark
 from course_pkg.grading.plan import plan
 from course_pkg.grading.points import PointsTable, read_points
 from course_pkg.grading.reports.formats.gradescope import results_of
-from course_pkg.sandbox import bubblewrap, users
 from course_pkg.sandbox.job import PartJob, PartResult
+from course_pkg.sandbox.linux import bubblewrap, users
 from course_pkg.sandbox.worker_client import SandboxWorker
 from course_pkg.setup import Places
 from course_pkg.types.fields import Plain

@@ -21,8 +21,8 @@ from course_pkg.authoring.cells import Cell, Notebook, check_of, code_cells
 from course_pkg.authoring.validate import SANITIZE
 from course_pkg.checking.parts import secret_paths
 from course_pkg.grading.nbval.plugin import RECORD
-from course_pkg.sandbox import confinement, namespaces
 from course_pkg.sandbox.channel import descendants, end, fork
+from course_pkg.sandbox.linux import confinement, namespaces
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
 from course_pkg.waiting import Deadline, at_this_load
 
@@ -190,7 +190,7 @@ def _run_checks(listener: socket.socket) -> None:
 
 def _run_check(sock: socket.socket) -> None:
     from course_pkg.checking.channel import Channel
-    from course_pkg.checking.runner import run_check
+    from course_pkg.checking.processes.runner import run_check
 
     # This limit is needed because the submission decides how many bytes the check receives.
     namespaces.limit(AS=confinement.CHECK_RUNNER)

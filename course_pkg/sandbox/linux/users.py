@@ -22,7 +22,7 @@ import psutil
 
 from course_pkg.checking.parts import secret_paths
 from course_pkg.errors import SandboxUnavailable
-from course_pkg.sandbox import confinement, namespaces
+from course_pkg.sandbox.linux import confinement, namespaces
 from course_pkg.setup import Places
 from course_pkg.waiting import Deadline, wait_until
 

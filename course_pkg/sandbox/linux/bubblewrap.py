@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from course_pkg.errors import SandboxUnavailable
-from course_pkg.sandbox.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
+from course_pkg.sandbox.linux.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
 from course_pkg.setup import PACKAGE_PARTS, Places, environment
 
 # If root starts the sandbox, the command runs with this uid and gid of a user without files.

@@ -16,7 +16,7 @@ from urllib.parse import unquote
 from xml.etree import ElementTree
 
 from course_pkg.errors import SiteError
-from course_pkg.site.prose import attribute
+from course_pkg.site.markup.prose import attribute
 
 NAMESPACE = "{http://www.w3.org/2000/svg}"
 SHAPES = ("circle", "ellipse", "line", "path", "polygon", "polyline", "rect", "text", "tspan", "use")
