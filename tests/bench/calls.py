@@ -1,6 +1,6 @@
-"""Measures calls: those of the service panel, and those of the robust client.
+"""Measures calls: those with a timeout, those of the service panel, the robust client, and the recorder.
 
-usage: ./course run python tests/bench/calls.py panel|robust [OPTION …]
+usage: ./course run python tests/bench/calls.py bounded|panel|robust|recorder [OPTION …]
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import os
 import random
 import signal
 import statistics
+import subprocess
 import sys
 import tempfile
 import threading
@@ -18,15 +19,66 @@ import time
 import uuid
 from collections import Counter
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import rospy
-from commands import milliseconds, run_command
+from commands import milliseconds, run_command, times_of
 from course_pkg.srv import Charge, ChargeResponse, geometry
 
 from course_pkg.panels import ServicePanel
-from course_pkg.ros import NodeProcess, PrivateMaster, join, prepare_node
+from course_pkg.ros import BoundedProxy, NodeProcess, PrivateMaster, join, look, prepare_node
+from course_pkg.ros.trace.recorder import Recorder
+
+# bounded: compares the duration of a call through BoundedProxy with that of a call through
+# rospy.ServiceProxy. The two calls use the same server and alternate in blocks of 20 calls. The benchmark
+# prints the medians and their ratio.
+
+
+def bounded_main() -> None:
+    """Measure calls on new connections, calls on persistent connections, and snapshots of the ROS graph."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--calls", type=int, default=1000)
+    calls = parser.parse_args().calls
+    node = join("bench")
+    server = node.run("course_pkg", "server")
+    server.wait_for_service("/getGeometry")
+    node.subscribe("/rosout", "rosgraph_msgs/Log")
+    for persistent in (False, True):
+        bare = rospy.ServiceProxy("/getGeometry", geometry, persistent=persistent)
+        bounded = node.caller("/getGeometry", geometry, persistent=persistent)
+        bounded_compare("persistent" if persistent else "one each", bare, bounded, calls)
+    for count in (1, 20):
+        looks(count)
+    node.leave()
+
+
+def bounded_compare(label: str, bare: rospy.ServiceProxy, bounded: BoundedProxy, calls: int) -> None:
+    """Print the median duration of a call through each proxy in ms, and the ratio of the two medians."""
+    for proxy in (bare, bounded):
+        times_of(partial(proxy, 1.2, 5.2, 8.9), 50)
+    blocks: tuple[list[float], list[float]] = ([], [])
+    for _ in range(calls // 20):
+        for proxy, times in zip((bare, bounded), blocks, strict=True):
+            times += times_of(partial(proxy, 1.2, 5.2, 8.9), 20)
+    first, second = (statistics.median(times) for times in blocks)
+    print(f"{label:12} bare {first:.3f} ms, bounded {second:.3f} ms, ratio {second / first:.3f}")
+
+
+def looks(count: int) -> None:
+    """Print the duration of a snapshot of a ROS graph with `count` nodes."""
+    processes = [NodeProcess.rosrun("course_pkg", "pulse", name=f"pulse_{number}") for number in range(count)]
+    for number, process in enumerate(processes):
+        process.wait_for_service(f"/pulse_{number}/get_loggers", timeout=60)
+    times = times_of(look, 30)
+    middle, worst = statistics.median(times), max(times)
+    print(f"look at {len(look().nodes)} nodes: median {middle:.1f} ms, worst {worst:.1f} ms")
+    for process in processes:
+        process.interrupt()
+    for process in processes:
+        process.stop()
+
 
 # panel: compares a call through the service panel with a call through a rospy proxy. A call of the panel
 # includes the conversion of the strings in the form and of the response. The client and the server use one
@@ -281,11 +333,126 @@ def serve(folder: Path) -> None:
     rospy.spin()
 
 
+# recorder: measures the cost of the recorder.
+# The benchmark measures calls on new and on persistent connections, published messages, and single events,
+# with and without recording. The result of a run is the lower quartile of its durations. The benchmark prints
+# the fastest run, because other programs on the machine can only make a run slower.
+
+# The first number limits the duration ratio for a call on a new connection. The second number limits the
+# duration of an event in µs.
+RECORDER_BAR, EVENT_BAR = 1.03, 5.0
+NODE = """
+import json, os, statistics, sys, time
+import rospy
+from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
+from course_pkg.ros import guard_against_idle_connections, prepare_node
+way, core, calls = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
+rospy.init_node(f"{way}_{'client' if calls else 'server'}", disable_signals=True)
+prepare_node() if way == "recorded" else guard_against_idle_connections()
+os.sched_setaffinity(0, {core})
+def quick(action, repeats):
+    times = []
+    for _ in range(repeats + 50):
+        started = time.perf_counter()
+        action()
+        times.append(time.perf_counter() - started)
+    return statistics.quantiles(times[50:], n=4)[0]
+"""
+SERVER = (
+    NODE
+    + """
+rospy.Service(way, Trigger, lambda request: (True, ""))
+time.sleep(1000)
+"""
+)
+CLIENT = (
+    NODE
+    + """
+fresh, kept = rospy.ServiceProxy(way, Trigger), rospy.ServiceProxy(way, Trigger, persistent=True)
+alone = rospy.Publisher("alone", Float64, queue_size=100)
+heard = rospy.Publisher("heard", Float64, queue_size=100)
+rospy.Subscriber("heard", Float64, lambda message: None)
+while not heard.get_num_connections():
+    time.sleep(0.01)
+print(json.dumps({
+    "call, new connection": quick(fresh, calls),
+    "call, persistent connection": quick(kept, calls),
+    "message without a subscriber": quick(lambda: alone.publish(1.0), calls),
+    "message to one subscriber": quick(lambda: heard.publish(1.0), calls),
+}))
+"""
+)
+Figures = dict[str, float]
+
+
+def recorder_main() -> int:
+    """Print all results. Return 1 if a result is above its limit."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--calls", type=int, default=1000)
+    parser.add_argument("--runs", type=int, default=7)
+    options = parser.parse_args()
+    cores = sorted(os.sched_getaffinity(0))
+    with PrivateMaster() as master:
+        os.environ["ROS_MASTER_URI"] = master.uri
+        servers = {way: started(way, cores[-1]) for way in ("bare", "recorded")}
+        runs: list[tuple[Figures, Figures]] = []
+        for _ in range(options.runs):
+            bare, recorded = (figures(way, cores[0], options.calls) for way in servers)
+            runs.append((bare, recorded))
+        for server in servers.values():
+            server.kill()
+            server.wait()
+    ratio, cost = shown(runs), event()
+    print(f"an event by itself: {cost:.2f} µs, bar {EVENT_BAR:g}")
+    return int(ratio > RECORDER_BAR or cost > EVENT_BAR)
+
+
+def started(way: str, core: int) -> subprocess.Popen[bytes]:
+    """Start a server that records its calls if `way` is "recorded"."""
+    server = subprocess.Popen([sys.executable, "-c", SERVER, way, str(core), "0"])
+    rospy.wait_for_service(way, timeout=20)
+    return server
+
+
+def figures(way: str, core: int, calls: int) -> Figures:
+    """Run one client, and return its durations in s."""
+    command = [sys.executable, "-c", CLIENT, way, str(core), str(calls)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=True)
+    found: Figures = json.loads(done.stdout.splitlines()[-1])
+    return found
+
+
+def shown(runs: list[tuple[Figures, Figures]]) -> float:
+    """Print the shortest durations, and return the duration ratio for a call on a new connection."""
+    ratios = []
+    for name in runs[0][0]:
+        bare, recorded = (1e6 * min(run[end][name] for run in runs) for end in (0, 1))
+        ratios.append(recorded / bare)
+        print(f"{name}: bare {bare:.1f} µs, recorded {recorded:.1f} µs, ratio {ratios[-1]:.3f}")
+    print(f"bar for the ratio of the first: {RECORDER_BAR}")
+    return ratios[0]
+
+
+def event() -> float:
+    """Return the duration in µs that the recorder needs for an event."""
+    recorder = Recorder()
+    rounds = []
+    for _ in range(50):
+        began = time.perf_counter()
+        for _ in range(1000):
+            recorder.end(recorder.begin("handler", "/service", "/client", []))
+        rounds.append((time.perf_counter() - began) / 1000)
+    return 1e6 * statistics.median(rounds)
+
+
 if __name__ == "__main__":
     run_command(
         {
+            "bounded": bounded_main,
             "panel": panel_main,
             "robust": robust_main,
+            "recorder": recorder_main,
             # The benchmark `robust` starts this subcommand as a separate process.
             "till": lambda: serve(Path(sys.argv[1])),
         }

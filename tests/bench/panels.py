@@ -1,6 +1,6 @@
 """Measures panels: the cost of each panel for the kernel and for the page.
 
-usage: ./course run python tests/bench/panels.py graph|timeline|turtles [OPTION …]
+usage: ./course run python tests/bench/panels.py graph|timeline|topic|types|turtles [OPTION …]
 """
 
 from __future__ import annotations
@@ -15,13 +15,17 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from queue import Empty
 
-from commands import run_command
+from commands import run_command, times_of
+from jupyter_client.blocking.client import BlockingKernelClient
+from jupyter_client.manager import KernelManager
 from playwright.sync_api import Locator, Page, WebSocket, sync_playwright
 
-from course_pkg.panels import GraphPanel
+from course_pkg.panels import GraphPanel, TypeBrowser
 from course_pkg.panels.assets import module, sheet
 from course_pkg.panels.graph.model import GraphModel
 from course_pkg.panels.timeline.model import state
@@ -283,6 +287,180 @@ def call(number: int, at: float) -> list[Event]:
     return [*mine, Event(HANDLER, whom, "/detect", at + 2.2e-3, at + 0.0999, who, key, f"Thread-{number}")]
 
 
+# topic: measures the CPU time of a topic panel, the number of its updates, and the accuracy of its rate. A
+# real kernel runs the panel. Instead of a page, a client reads the kernel's messages.
+
+TOPIC_WATCH = 10.0  # s
+TOPIC_BAR = 5.0  # The panel may use at most this percentage of a core at 100 Hz.
+UPDATES = 10.0  # The panel may send at most this many updates per second.
+DRIFT = 2.0  # The displayed rate may differ from the real rate by at most this percentage.
+
+SHOW = """
+import os
+from course_pkg import TopicPanel, join
+node = join("bench")
+panel = TopicPanel("/speed", "std_msgs/Float64")
+panel._dispatch(panel, {"kind": "hello", "view": "one"}, [])
+print(os.getpid(), panel._process.pid)
+"""
+REPEAT = """
+panel.received("act", {"action": "repeat", "draft": {"data": "1.5"},
+               "settings": {"rate": "RATE", "queue": "10", "latch": False, "path": "data"}})
+"""
+KEPT = "print(panel.publisher['statistics'].get('rate', 0))"
+TALKER = """
+import sys, time, rospy
+from std_msgs.msg import Float64
+rospy.init_node("talker")
+publisher = rospy.Publisher("/speed", Float64, queue_size=100)
+rate, start = float(sys.argv[1]), time.monotonic()
+for number in range(10**9):
+    if rospy.is_shutdown():
+        break
+    publisher.publish(float(number % 1000))
+    time.sleep(max(0, start + number / rate - time.monotonic()))
+"""
+
+
+def run(client: BlockingKernelClient, code: str) -> str:
+    """Run code in the kernel, and return its printed output."""
+    printed: list[str] = []
+    reply = client.execute_interactive(
+        code,
+        timeout=60,
+        output_hook=lambda message: printed.append(message["content"].get("text", "")),
+    )
+    assert reply["content"]["status"] == "ok", reply["content"]
+    return "".join(printed).strip()
+
+
+@contextmanager
+def talker(rate: float) -> Iterator[None]:
+    """Publish at `rate` Hz from a separate process during the `with` block."""
+    process = subprocess.Popen([sys.executable, "-c", TALKER, str(rate)])
+    try:
+        time.sleep(3)
+        yield
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def spent(pid: int) -> float:
+    """Return the CPU time of a process in s."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def watch(client: BlockingKernelClient, pids: list[int]) -> tuple[list[float], float, float]:
+    """Return each process's percentage of a core, the updates per second, and the kB per second."""
+    before, began, updates, size = [spent(pid) for pid in pids], time.monotonic(), 0, 0
+    while (left := began + TOPIC_WATCH - time.monotonic()) > 0:
+        try:
+            message = client.get_iopub_msg(timeout=left)
+        except Empty:
+            break
+        updates += message["msg_type"] == "comm_msg"
+        size += len(str(message["content"]))
+    took = time.monotonic() - began
+    shares = [100 * (spent(pid) - old) / took for pid, old in zip(pids, before, strict=True)]
+    return shares, updates / took, size / took / 1000
+
+
+def drain(client: BlockingKernelClient) -> None:
+    """Read and ignore all waiting updates."""
+    while True:
+        try:
+            client.get_iopub_msg(timeout=0.05)
+        except Empty:
+            return
+
+
+def topic_main() -> int:
+    """Print the results. Return 1 if a result does not meet its limit."""
+    missed = 0
+    with PrivateMaster() as master:
+        os.environ["ROS_MASTER_URI"], os.environ["ROS_HOSTNAME"] = master.uri, "localhost"
+        manager = KernelManager(kernel_name="python3")
+        manager.start_kernel()
+        client = manager.blocking_client()
+        client.start_channels()
+        client.wait_for_ready(timeout=60)
+        try:
+            pids = [int(word) for word in run(client, SHOW).split()[-2:]]
+            time.sleep(3)
+            for name, rate in {"a silent topic": 0.0, "100 Hz": 100.0, "1 kHz": 1000.0}.items():
+                with talker(rate or 0.01):
+                    drain(client)
+                    (kernel, node), updates, size = watch(client, pids)
+                print(
+                    f"{name}: kernel {kernel:.1f} %, the panel's node {node:.1f} % of a core; "
+                    f"{updates:.1f} updates/s, {size:.0f} kB/s to the page"
+                )
+                missed += (rate == 100 and kernel > TOPIC_BAR) or updates > UPDATES
+            for rate in ("0.5", "10", "100"):
+                run(client, REPEAT.replace("RATE", rate))
+                time.sleep(max(5.0, 6 / float(rate)))
+                kept = float(run(client, KEPT).split()[-1])
+                drift = 100 * (kept / float(rate) - 1)
+                print(f"publishing at {rate} Hz: {kept:.3f} Hz, {drift:+.2f} %")
+                missed += abs(drift) > DRIFT
+        finally:
+            client.stop_channels()
+            manager.shutdown_kernel()
+    print(f"bars: {TOPIC_BAR:.0f} % of a core at 100 Hz, {UPDATES:.0f} updates/s, {DRIFT:.0f} % of the rate")
+    return int(missed > 0)
+
+
+# types: measures the time until the type browser is open, with the types of this machine and with additional
+# types. The benchmark compares the time with `rossrv list`, which lists the same service types in a terminal.
+
+TYPES_BAR = 100.0  # The type browser may need at most this many ms to open, after the import.
+PACKAGES, TYPES = 60, 10
+RUNS = 9
+MANIFEST = "<package format='2'><name>{}</name><version>1.0.0</version></package>"
+
+
+def fill(folder: Path) -> None:
+    """Write PACKAGES packages into `folder`, each with TYPES service types and TYPES message types."""
+    for number in range(PACKAGES):
+        root = folder / f"bulk_{number}"
+        for half, text in (("srv", "geometry_msgs/Pose goal\n---\nbool done\n"), ("msg", "float64 x\n")):
+            (root / half).mkdir(parents=True)
+            for short in range(TYPES):
+                (root / half / f"Type{short}.{half}").write_text(text)
+        (root / "package.xml").write_text(MANIFEST.format(root.name))
+
+
+def median_of(action: Callable[[], object]) -> float:
+    """Return the median time of an action in ms."""
+    return statistics.median(times_of(action, RUNS))
+
+
+def report(what: str) -> float:
+    """Print the durations for the current ROS_PACKAGE_PATH, and return the first duration in ms."""
+    first = time.perf_counter()
+    TypeBrowser("std_srvs/SetBool")
+    first = 1000 * (time.perf_counter() - first)
+    empty, opened = median_of(TypeBrowser), median_of(lambda: TypeBrowser("std_srvs/SetBool"))
+    peer = median_of(lambda: subprocess.run(["rossrv", "list"], check=True, stdout=subprocess.DEVNULL))
+    print(f"{what}: first {first:.0f} ms, then TypeBrowser() {empty:.0f} ms, with a type {opened:.0f} ms")
+    print(f"  rossrv list: {peer:.0f} ms; ratio {empty / peer:.2f}")
+    return first
+
+
+def types_main() -> int:
+    """Print the results. Return 1 if the first duration is above its limit."""
+    with PrivateMaster() as master, tempfile.TemporaryDirectory() as folder:
+        os.environ.update(ROS_MASTER_URI=master.uri, ROS_HOSTNAME="localhost")
+        first = report("this machine")
+        fill(Path(folder))
+        os.environ["ROS_PACKAGE_PATH"] = f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"
+        report(f"with {PACKAGES * TYPES} more services and messages")
+    print(f"bar for the first opening: {TYPES_BAR:.0f} ms")
+    return int(first > TYPES_BAR)
+
+
 # turtles: measures the cost of a turtle panel with five moving turtles. The benchmark `turtles` needs an idle
 # machine. `./course test` installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the
 # websocket, and at most 3 % of a core for the kernel.
@@ -370,6 +548,8 @@ if __name__ == "__main__":
         {
             "graph": graph_main,
             "timeline": timeline_main,
+            "topic": topic_main,
+            "types": types_main,
             "turtles": turtles_main,
         }
     )

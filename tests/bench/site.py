@@ -1,17 +1,19 @@
-"""Measures the site and the notebooks: pages, accessibility, and listening sockets.
+"""Measures the site and the notebooks: pages, accessibility, and the validation of the solutions.
 
-usage: ./course run python tests/bench/site.py pages|axe|listeners [OPTION …]
+usage: ./course run python tests/bench/site.py pages|axe|nbval|listeners [OPTION …]
 """
 
 from __future__ import annotations
 
 import json
 import os
+import resource
 import shutil
 import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Sequence
 from gzip import compress
 from itertools import cycle, islice, product
@@ -20,8 +22,9 @@ from pathlib import Path
 from commands import alternate, run_command
 from playwright.sync_api import sync_playwright
 
-from course_pkg.authoring.execute import surroundings
+from course_pkg.authoring.execute import surroundings, workers_here
 from course_pkg.authoring.notebook_store import NotebookStore, text_of
+from course_pkg.authoring.validate import validate
 from course_pkg.ros.process.supervisor import descendants
 from course_pkg.setup import Places
 from course_pkg.site.runs import Runs
@@ -155,9 +158,50 @@ def axe_main() -> None:
     print(f"{count} violations on {len(pages(site))} pages, {len(WIDTHS) * len(COLOURS)} ways each")
 
 
-# listeners: prints how many listening sockets each chapter opens, and which of them are not on 127.0.0.1.
+# nbval: prints how long nbval needs for all solutions, serially and in parallel.
+# Arguments: `[WORKERS …]`. The default is the number of workers that `course` uses on this machine.
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
+BAR = 0.45  # A parallel run may take at most this fraction of the serial run.
+LIMIT = 3600.0  # One run may take at most this many seconds.
+
+
+def nbval_main() -> int:
+    """Run the notebooks serially and then in parallel, and print the ratios of the durations."""
+    counts = [int(count) for count in sys.argv[1:]] or [workers_here(len(SOLUTIONS))]
+    print(
+        f"{len(SOLUTIONS)} solutions, {os.cpu_count()} cores; load {os.getloadavg()[0]:.1f} before the start"
+    )
+    serial, busy = measure(1)
+    print(f"serial: {serial:.1f} s, processor time {busy:.1f} s")
+    for count in counts:
+        seconds, busy = measure(count)
+        ratio = seconds / serial
+        print(
+            f"{count} workers: {seconds:.1f} s, processor time {busy:.1f} s; ratio {ratio:.2f}, "
+            f"bar {BAR}: {'met' if ratio <= BAR else 'MISSED'}"
+        )
+    return 0
+
+
+def measure(workers: int) -> tuple[float, float]:
+    """Return the duration of one run, and the CPU time of its processes, in s."""
+    before, started = _spent(), time.perf_counter()
+    outcome = validate(SOLUTIONS, workers=workers, timeout=LIMIT)
+    seconds = time.perf_counter() - started
+    if outcome.returncode:
+        print(outcome.stdout[-3000:])
+        sys.exit(f"With {workers} workers, an output differs from the stored output. Correct this first.")
+    return seconds, _spent() - before
+
+
+def _spent() -> float:
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+# listeners: prints how many listening sockets each chapter opens, and which of them are not on 127.0.0.1.
+
 LISTEN = "0A"
 LOOPBACK = ("0100007F", "00000000000000000000000001000000", "0000000000000000FFFF00000100007F")
 
@@ -219,4 +263,4 @@ def inodes(pid: int) -> set[str]:
 
 
 if __name__ == "__main__":
-    run_command({"pages": pages_main, "axe": axe_main, "listeners": listeners_main})
+    run_command({"pages": pages_main, "axe": axe_main, "nbval": nbval_main, "listeners": listeners_main})
