@@ -64,7 +64,7 @@ class Channel(JsonChannel):
         self.send({"ask": self._asked, "do": do, **arguments}, limit)
         reply = self.receive(limit)
         if type(reply.get("answer")) is not int or reply["answer"] != self._asked:
-            raise ChannelBroken(f"an answer to another request: {str(reply)[:80]}")
+            raise ChannelBroken(f"the kernel sent an answer to a different request: {str(reply)[:80]}")
         if "wrong" in reply:
             raise ChannelBroken(f"the kernel could not answer the request {do!r}: {reply['wrong']}")
         return reply
@@ -89,7 +89,7 @@ def connect(address: str) -> Channel:
             return Channel(sock)
         return Channel(_unix_socket(address))
     except OSError as error:
-        raise ChannelClosed(f"no check runner waits at {address}: {error}") from error
+        raise ChannelClosed(f"no check runner is connected at {address}: {error}") from error
 
 
 def _unix_socket(path: str) -> socket.socket:

@@ -133,7 +133,10 @@ class CheckContext:
         assertion = f"{label} is served as {cls._type}"
         actual = self._type_of(name, assertion)
         if actual != cls._type:
-            hint = f"Create the service with the type in the exercise: {cls._type}."
+            hint = (
+                "The service has the wrong type. Create the service with the type in the exercise: "
+                f"{cls._type}."
+            )
             self._results.fails(assertion, expected=cls._type, actual=actual, hint=hint)
         self._results.passes(assertion)
         require_current(self._channel.ask("served", timeout=SLACK, name=name))
@@ -147,16 +150,23 @@ class CheckContext:
         if probe is None:
             alike = difflib.get_close_matches(name, self._node.services(), n=1)
             hint = (
-                "Run the cell that creates this service, and run it again after each restart of the "
-                "kernel. The cell has to create a rospy.Service and must not raise an exception."
+                "The service does not exist. Run the cell that creates the rospy.Service, and "
+                "run this cell again after each restart of the kernel."
             )
-            hint = f"There is {alike[0]}: compare the names letter by letter." if alike else hint
+            hint = (
+                (
+                    f"The graph contains {alike[0]}. Compare this name letter by letter with the name "
+                    "in the exercise."
+                )
+                if alike
+                else hint
+            )
             actual = "no server"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         if not probe.answered:
             hint = (
-                "The master lists a server that has ended or stopped. Run the cell that creates the "
-                "service again."
+                "The service is registered, but its server has ended or stopped. Run the cell "
+                "that creates the service again."
             )
             actual = f"a server that is {probe.reach.value}"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
@@ -344,7 +354,7 @@ class CheckContext:
                 self._node.forget_topics(self.random.made)
         if isinstance(error, Exception) and not isinstance(error, KNOWN):
             text = f"{type(error).__name__}: {error}"
-            raise CheckError(f"The check itself has a bug ({text}). This is not your mistake.") from error
+            raise CheckError(f"The check itself has a bug ({text}). Your answer is not the cause.") from error
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ def explained(error: str) -> str:
     """Return the meaning of a ROS error message, and what the student can do; "" for an unknown message."""
     if error.startswith("TimesUp"):
         return (
-            "The call has not returned: the handler waits for something that does not happen, or runs an "
-            "endless loop. rospy has no time limit for a call."
+            "The call has not returned, because the handler does not return. Look for an "
+            "endless loop, or for a wait without a time limit."
         )
     explanation = known(error)
     return f"{explanation.cause} {explanation.remedy}" if explanation else ""

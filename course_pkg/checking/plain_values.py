@@ -28,7 +28,8 @@ def of_kind(kind: type[Item], value: Json, name: str) -> Item:
     """
     if not isinstance(value, kind):
         raise CheckError(
-            f"{name} is not a {kind.__name__} any more. Restart the kernel, and run the cells again."
+            f"{name} has changed and is not a {kind.__name__} any more. Restart the kernel, "
+            "and run the cells again."
         )
     return value
 

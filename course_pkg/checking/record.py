@@ -60,8 +60,9 @@ class StudentRecord:
                 write_json(path, {**result, **kept})
         except (OSError, ValueError) as error:
             return (
-                f"Your progress does not contain this result, because {path} cannot be written "
-                f"({getattr(error, 'strerror', None) or error}). Solve that problem, and run this cell again."
+                f"This result was not stored, because {path} cannot be written "
+                f"({getattr(error, 'strerror', None) or error}). Solve this problem, and run "
+                "this cell again."
             )
         return message
 
@@ -77,8 +78,9 @@ class StudentRecord:
                 damaged.setdefault(str(error), []).append(check)
         reasons = "; ".join(f"{_listed(parts)}: {reason}" for reason, parts in damaged.items())
         message = (
-            f"Some results in {self.folder} cannot be read ({reasons}). Run the checks of these parts again: "
-            "the course then stores new results, and keeps the old files next to them."
+            f"Some results in {self.folder} cannot be read ({reasons}). Run the checks of "
+            "these parts again. The course then stores new results, and keeps the old files in "
+            "the same folder."
         )
         return found, message if damaged else ""
 
@@ -98,8 +100,8 @@ class StudentRecord:
             aside = next(name for name in names if not name.exists())
             path.rename(aside)
             return None, (
-                f"The earlier result of this part could not be read ({error}). Its file is now {aside}, and "
-                "the result above is stored."
+                f"The earlier result of this part could not be read ({error}). The old file "
+                f"has the new name {aside}, and the result above is stored."
             )
 
     def _read(self, check: str) -> PartRecord | None:

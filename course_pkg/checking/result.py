@@ -63,7 +63,7 @@ class Result:
         """
         actual = self.error or f"the value {shown(self._value)}"
         if not self._is(kind) or not matches(saying).search(self.error):
-            expected = f"{kind} whose message matches {saying!r}" if saying else kind
+            expected = f"{kind} with a message that matches {saying!r}" if saying else kind
             hint = hint_for(hints, self.error or self._value) or hint_for(self._hints, self.error)
             self._results.fails(assertion, expected=expected, actual=actual, hint=hint or self._explained())
         self._results.passes(assertion)
@@ -76,7 +76,7 @@ class Result:
 
     def _explained(self) -> str:
         if self.error.startswith("TimesUp"):
-            return f"{self._label} waits for something that does not happen. Give the wait a time limit."
+            return f"{self._label} waits for something that does not happen. Add a time limit to the wait."
         where = (self._error or {}).get("line")
         return explained(self.error) or (f"The error came from line {where} of the cell." if where else "")
 

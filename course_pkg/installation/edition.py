@@ -26,7 +26,9 @@ def students_edition(checkout: Path) -> Iterator[Path]:
         edition = Path(folder) / "course"
         command = [str(checkout / "course"), "release", str(edition)]
         if subprocess.run(command, stdout=subprocess.DEVNULL, check=False).returncode:
-            raise SetupError("`course release` could not write the students' edition, see above.")
+            raise SetupError(
+                "`course release` could not write the students' edition. Read the messages above."
+            )
         yield edition
 
 

@@ -37,7 +37,10 @@ def install(path: Path | None, bin_folder: Path | None) -> int:
     try:
         prefix.claim()
         with locked(
-            prefix.path / "lock", lambda: _say("Another installation is running. Waiting for its end.")
+            prefix.path / "lock",
+            lambda: _say(
+                "Another installation is running. This installation waits until the other installation ends."
+            ),
         ):
             with students_edition(source.checkout) as edition:
                 version = prefix.versions / _version_id(edition)
@@ -116,6 +119,6 @@ def _report(prefix: Prefix, version: Path, busy: list[Path]) -> None:
     if closed:
         sys.stdout.write(f"Other users cannot open {closed[-1]}, so only you can use this installation.\n")
     if str(prefix.bin) not in os.environ.get("PATH", "").split(os.pathsep):
-        sys.stdout.write(f"{prefix.bin} is not on your PATH: add it.\n")
+        sys.stdout.write(f"Add the folder {prefix.bin} to your PATH.\n")
     for old in busy:
         sys.stdout.write(f"Version {old.name} is still in use; the next `course install` removes it.\n")

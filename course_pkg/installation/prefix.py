@@ -40,8 +40,8 @@ class Prefix:
         """Create the folder and mark it; raises SetupError, and changes nothing, if it cannot be used."""
         if any(letter.isspace() for letter in str(self.path)):
             raise SetupError(
-                f"catkin cannot build in {self.path}, because the name contains a space. "
-                "Give --prefix a folder without spaces."
+                f"catkin cannot build in {self.path}, because the name of this folder contains "
+                "a space. Give --prefix a folder without spaces."
             )
         if (
             not self.is_ours
@@ -55,8 +55,8 @@ class Prefix:
         for link, target in self._links.items():
             if os.path.lexists(link) and not _leads_to(link, target):
                 raise SetupError(
-                    f"{link} exists, and is not of this installation, so nothing was changed. "
-                    "Give another folder with --bin, or remove the file."
+                    f"{link} exists, but does not belong to this installation, so nothing was "
+                    "changed. Give another folder with --bin, or remove the file."
                 )
         self.versions.mkdir(parents=True, exist_ok=True)
         write_atomically(self.path / OURS, json.dumps({"bin": str(self.bin)}))

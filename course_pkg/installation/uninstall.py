@@ -20,7 +20,8 @@ def uninstall(path: Path | None, *, force: bool) -> int:
     prefix = Prefix(path or (places.checkout.parents[2] if places.installed else None))
     if not prefix.is_ours:
         raise SetupError(
-            f"{prefix.path} contains no installation. Give --prefix the folder of `course install`."
+            f"{prefix.path} contains no installation. With --prefix, give the folder that "
+            "`course install` used."
         )
     busy = sorted(users_of(prefix.versions))
     if busy and not force:
@@ -32,7 +33,8 @@ def uninstall(path: Path | None, *, force: bool) -> int:
         prefix.remove()
     except OSError as error:
         raise SetupError(
-            f"{error.filename or prefix.path} cannot be removed ({error.strerror}). Type it with sudo."
+            f"{error.filename or prefix.path} cannot be removed ({error.strerror}). Type the "
+            "command with sudo."
         ) from error
     sys.stdout.write(f"{prefix.path} is removed. The users' own folders, such as ~/ros-course, stay.\n")
     return 0

@@ -34,7 +34,7 @@ def _lab_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         SHARED,
         action="store_true",
-        help="use the network of this computer: for a robot, or a second computer",
+        help="use the network of this computer, so that a robot or a second computer can connect",
     )
 
 

@@ -224,7 +224,9 @@ def _make_workspace() -> None:
     try:
         make_own_workspace()
     except SetupError as error:
-        sys.stderr.write(f"{error} Until then, the chapters about building packages do not work.\n")
+        sys.stderr.write(
+            f"{error} The chapters about building packages do not work until you have solved this problem.\n"
+        )
 
 
 def _write_workspace(folder: Path, notebook: str) -> None:

@@ -50,8 +50,8 @@ class Store(Generic[Record]):
             return {}
         except (OSError, ValueError, TypeError, AttributeError) as error:
             raise InvalidPredictions(
-                f"{self.path} does not contain valid {self.what} ({error}). "
-                "Move the file to another folder to start again without them."
+                f"{self.path} does not contain valid {self.what} ({error}). Move this file to "
+                "a different folder, and start again."
             ) from error
 
     def _checked(self, record: Record) -> Record:

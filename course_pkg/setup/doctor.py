@@ -110,21 +110,30 @@ def _master() -> Finding:
     except ValueError:
         well_formed = False
     if not well_formed:
-        return Finding("ROS_MASTER_URI", given, "Change it to the form http://localhost:11311, or unset it.")
+        return Finding(
+            "ROS_MASTER_URI",
+            given,
+            "Change ROS_MASTER_URI to the form http://localhost:11311, or unset ROS_MASTER_URI.",
+        )
     return _answering(given, str(parts.hostname), parts.port or 0)
 
 
 def _private_network() -> Iterator[Finding]:
     problem, advice = network_problem()
     if problem:
-        exposed = "Until then, everybody who can log in can call, replace and stop your nodes."
+        exposed = "Without a private network, all users who can log in can call, replace and stop your nodes."
         yield Finding(
             "private network for a graph", f"not possible: {problem}", f"{advice}. {exposed}", optional=True
         )
         return
     yield Finding("private network for a graph", "possible")
     problem, advice = outgoing_problem()
-    yield Finding("connections from it to other computers", problem or "possible", advice, optional=True)
+    yield Finding(
+        "connections from the private network to other computers",
+        problem or "possible",
+        advice,
+        optional=True,
+    )
 
 
 def _answering(uri: str, host: str, port: int) -> Finding:
@@ -146,7 +155,7 @@ def _leftovers(places: Places) -> Iterator[Finding]:
     orphans = _orphans(places)
     wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)
     stray = sorted(orphans & _orphans(places), key=int)
-    advice = f"End them: kill {' '.join(stray)}" if stray else ""
+    advice = f"End these processes: kill {' '.join(stray)}" if stray else ""
     yield Finding("processes left over", ", ".join(stray) or "none", advice)
 
 

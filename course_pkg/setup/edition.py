@@ -22,11 +22,13 @@ def require_solutions(checkout: Path, command: str) -> None:
     """Raise SetupError if `checkout` has no solutions, because `command` needs them."""
     if (checkout / RECORD).exists():
         raise SetupError(
-            f"`course {command}` needs the solutions, and {checkout} is the students' edition, which has "
-            "none. Type the command in the instructors' edition, where `course release` was typed."
+            f"`course {command}` needs the solutions, but {checkout} is the students' edition, "
+            "which contains no solutions. Type the command in the instructors' edition, where "
+            "`course release` was typed."
         )
     if not any((checkout / "solutions").glob("[0-9][0-9]_*.ipynb")):
         raise SetupError(
-            f"`course {command}` needs the solutions, but there are none in {checkout / 'solutions'}. "
-            "Get that folder from the course's repository, and type the command again."
+            f"`course {command}` needs the solutions, but there are none in "
+            f"{checkout / 'solutions'}. Get this folder from the course's repository, and type "
+            "the command again."
         )

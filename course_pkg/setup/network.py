@@ -52,7 +52,9 @@ def outgoing_problem() -> tuple[str, str]:
         return f"{DEVICE} cannot be opened", f"As an administrator, type: chmod 666 {DEVICE}"
     servers = [line.split()[1] for line in _lines(RESOLVER) if line.startswith("nameserver ")]
     if servers and all(server.startswith("127.") for server in servers):
-        problem = f"{RESOLVER} names only {servers[0]}, so names of computers are unknown"
+        problem = (
+            f"{RESOLVER} contains only {servers[0]}, so the names of other computers cannot be looked up"
+        )
         return problem, f"With systemd-resolved: ln -sf /run/systemd/resolve/resolv.conf {RESOLVER}"
     return "", ""
 

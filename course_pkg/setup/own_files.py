@@ -38,8 +38,8 @@ def make_own_files(places: Places) -> None:
         ) from error
     if kept:
         sys.stderr.write(
-            f"There is a new version of {', '.join(kept)}. Yours has your work and stays as it is. To get "
-            "the new version, rename yours and start again.\n"
+            f"There is a new version of {', '.join(kept)}. Your file contains your work, so it "
+            "was not changed. To get the new version, rename your file, and start again.\n"
         )
 
 

@@ -41,7 +41,10 @@ LOCKED = re.compile(r"Could not get lock|lock was locked by another process|Unab
 # The set-up waits up to this time in s for a lock, because `apt-get update` and dpkg cannot wait.
 LOCK_TIMEOUT = 600.0
 RETRY_INTERVAL = 2.0  # This is the time in s between two attempts.
-WAITING = "Another program is installing packages. Waiting for its end, for at most 10 minutes."
+WAITING = (
+    "Another program is installing packages. This set-up waits until the other program ends, for "
+    "at most 10 minutes."
+)
 
 
 class Platform(NamedTuple):
@@ -91,7 +94,7 @@ def missing_packages(wanted: Iterable[str]) -> list[str]:
     try:
         listing = subprocess.run(command, capture_output=True, text=True, check=False).stdout
     except OSError as error:
-        raise SetupError(f"There is no dpkg on this machine ({error.strerror}).") from error
+        raise SetupError(f"The program dpkg is not installed on this machine ({error.strerror}).") from error
     installed = {line.split()[0] for line in listing.splitlines() if line.split()[1:] == ["ii"]}
     return [name for name in wanted if name not in installed]
 
@@ -147,7 +150,9 @@ def become_root(names: Sequence[str]) -> list[str]:
         " ".join(names)
     )
     if not os.access(APT, os.X_OK):
-        raise SetupError(f"There is no {APT} to install with: {' '.join(names)}.")
+        raise SetupError(
+            f"The program {APT} does not exist, so these packages cannot be installed: {' '.join(names)}."
+        )
     if os.geteuid() == 0:
         return []
     if not shutil.which("sudo"):

@@ -98,8 +98,9 @@ class Places(NamedTuple):
         """Create the cache folder; raises SetupError, with the next step for the user."""
         if any(letter.isspace() for letter in str(self.cache)):
             raise SetupError(
-                f"catkin cannot build in {self.cache}, because the name contains a space. "
-                "Set XDG_CACHE_HOME to a folder without spaces, and start again."
+                f"catkin cannot build in {self.cache}, because the name of this folder "
+                "contains a space. Set XDG_CACHE_HOME to a folder without spaces, and start "
+                "again."
             )
         try:
             self.logs.mkdir(parents=True, exist_ok=True)

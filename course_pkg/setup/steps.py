@@ -47,7 +47,7 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
         )
     places.make_cache()
     progress = Progress()
-    waiting = "Another set-up of this checkout is running. Waiting for its end."
+    waiting = "Another set-up of this checkout is running. This set-up waits until the other set-up ends."
     try:
         with locked(places.cache / "lock", lambda: progress.note(waiting)) as lock:
             journal = Journal(places.logs, lock)
@@ -56,7 +56,9 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
     except OSError as error:
         raise _explained(error, places) from error
     except KeyboardInterrupt:
-        progress.note("Interrupted. The next start continues with the steps that are not done.")
+        progress.note(
+            "The set-up was interrupted. The next start continues with the steps that are not done."
+        )
         raise
 
 

@@ -91,17 +91,24 @@ def unknown_command(name: str, message: Message) -> Fault:
     """
     if name.lower() in GENERATION:
         problem = (
-            f"CMake does not know {name} here. The package message_generation defines it, but was not "
-            "found before."
+            f"CMake does not know the command {name}. The package message_generation defines "
+            "this command, but the package was not found above this line."
         )
         remedy = "Write find_package(catkin REQUIRED COMPONENTS message_generation) above this line."
     elif name.lower() in CATKIN:
-        problem = f"CMake does not know {name} here. catkin defines it, but was not found before."
+        problem = (
+            f"CMake does not know the command {name}. catkin defines this command, but catkin was "
+            "not found above this line."
+        )
         remedy = "Write find_package(catkin REQUIRED COMPONENTS …) above this line."
     else:
         near = difflib.get_close_matches(name.lower(), [*GENERATION, *CATKIN, "find_package", "project"], n=1)
         problem = f"CMake and catkin have no command {name}."
-        remedy = f"Write {near[0]}." if near else "Compare its spelling, or find the package that defines it."
+        remedy = (
+            f"Write {near[0]}."
+            if near
+            else "Compare the spelling of the command, or find the package that defines the command."
+        )
     return Fault(problem, remedy, message.file, message.line)
 
 
@@ -109,14 +116,13 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r"generate_messages\(\) must be called after (?P<name>add_\w+)\(\)",
         "",
-        "{name} comes after generate_messages, so generate_messages does not see its files.",
+        "{name} comes after generate_messages, so generate_messages does not use the files of this command.",
         "Move this line above generate_messages.",
     ),
     (
         r"generate_messages\(\) must be called before catkin_package\(\)",
         "",
-        "generate_messages comes after catkin_package, but catkin_package needs to know the generated "
-        "messages.",
+        "generate_messages comes after catkin_package, but it has to come before catkin_package.",
         "Move generate_messages above catkin_package.",
     ),
     (
@@ -128,14 +134,14 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r"file '\S*?/(?P<name>[^/']+)' does not exist.*(?:service|message|action) file not found",
         "",
-        "There is no file {name} in the folder that this command searches.",
-        "Compare the spelling, including upper and lower case. Do not write the folder srv in front of "
-        "the name.",
+        "The file {name} is not in the folder that this command searches.",
+        "Compare the spelling of the file's name, including upper and lower case. Do not write "
+        "the folder srv in front of the name.",
     ),
     (
         r"(?P<name>add_\w+)\(\) directory not found: \S*/(?P<package>[^/\s]+)/(?P<folder>\w+)",
         "",
-        "{name} looks for its files in the folder {folder}, but {package} has no such folder.",
+        "{name} looks for files in the folder {folder}, but {package} has no such folder.",
         "Put .srv files into srv, and list them in add_service_files. Put .msg files into msg, and "
         "list them in add_message_files.",
     ),
@@ -148,40 +154,42 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r'package configuration file provided by "(?P<name>[^"]+)"',
         "",
-        "find_package asks for {name}, but this package is not installed here.",
-        "Compare its spelling, or install it. If it is in a workspace, source that workspace.",
+        "find_package needs the package {name}, but this package is not installed.",
+        "Compare the spelling of the package, or install the package. If the package is in a "
+        "workspace, source that workspace.",
     ),
     (
         r"Messages depends on unknown pkg: (?P<name>\w+)",
         "",
-        "generate_messages depends on {name}, but find_package has not found it.",
+        "generate_messages depends on {name}, but find_package has not found this package.",
         "Add {name} to the COMPONENTS of find_package.",
     ),
     (
         r"which '\S*?/(?P<package>[^/']+)/(?P<file>srv/[^/']+)' depends on.*"
         r"Cannot locate message \[(?P<type>\w+)\].*? package \[(?P=package)\]",
         "{package}/{file}",
-        "{type} is not a built-in type of ROS, and {package} has no message of that name.",
+        "{type} is not a built-in type of ROS, and {package} has no message with this name.",
         "Write an existing type, such as float32 for float or int32 for int.",
     ),
     (
         r"which '\S*?/(?P<file>[^/']+\.srv)' depends on.*"
         r"Cannot locate message \[(?P<type>\w+)\].*? package \[(?P<package>\w+)\]",
         "",
-        "{file} uses {package}/{type}, but CMakeLists.txt does not say that it depends on {package}.",
-        "Write generate_messages(DEPENDENCIES {package}), and {package} in find_package's COMPONENTS, too.",
+        "{file} uses the type {package}/{type}, but CMakeLists.txt does not name {package} as a dependency.",
+        "Write generate_messages(DEPENDENCIES {package}), and add {package} to the COMPONENTS "
+        "of find_package.",
     ),
     (
         r"package name '(?P<name>[^']*)' in '\S*?/(?P<folder>[^/']+)/package\.xml' does not match current "
         r"PROJECT_NAME '(?P<project>[^']*)'",
         "",
-        "package.xml has the name {name}, but CMakeLists.txt has {project}.",
+        "package.xml has the name {name}, but CMakeLists.txt has the name {project}.",
         "Write the same name in <name> and in project().",
     ),
     (
         r"PROJECT_NAME is set to 'Project'",
         "",
-        "There is no project() line.",
+        "CMakeLists.txt has no line with project().",
         "Write project(NAME) near the top, with the same name as in package.xml.",
     ),
     (
@@ -193,47 +201,46 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r"the catkin package '(?P<name>[^']+)' has been find_package\(\)-ed but is not listed as a build dep",
         "",
-        "find_package asks for {name}, but package.xml does not list it as a package that is needed to "
-        "build.",
+        "find_package needs {name}, but package.xml does not list it as a package that is needed to build.",
         "Add <build_depend>{name}</build_depend> to package.xml.",
     ),
     (
         r"'catkin' must be listed as a buildtool dependency",
         "",
-        "package.xml does not name the build tool.",
+        "package.xml does not contain the build tool.",
         "Add <buildtool_depend>catkin</buildtool_depend> to package.xml.",
     ),
     (
         r"add_dependencies called with incorrect number of arguments",
         "",
         "add_dependencies has only one argument, because the variables after the first argument are empty.",
-        "Move the line below generate_messages, and write both pairs of ${{ }} in "
+        "Move add_dependencies below generate_messages. Write both pairs of ${{ }} in "
         "${{${{PROJECT_NAME}}_EXPORTED_TARGETS}}.",
     ),
     (
         r"Parse error\.\s+Function missing ending",
         "",
-        "A parenthesis that is opened here is never closed.",
-        "Write the missing ).",
+        "This line opens a parenthesis that is never closed.",
+        "Write the missing closing parenthesis.",
     ),
     (
         r"Parse error.*got (?P<what>.+) with text \"(?P<text>.*?)\"",
         "",
-        "CMake cannot read this line: it contains {text} where a command should begin.",
-        "A command is a name and parentheses, such as project(my_services). A comment begins with #.",
+        "CMake cannot read this line: it contains {text} at the place where a command has to begin.",
+        "Write a command as a name with parentheses, such as project(my_services). Begin a comment with #.",
     ),
     (
         r"Cannot find source file:\s+(?P<name>\S+)",
         "",
-        "There is no file {name} at this path.",
-        "Write its path relative to the folder of the package, such as src/NAME.cpp, and compare the "
-        "spelling.",
+        "The file {name} does not exist at this path.",
+        "Write the path of the file relative to the folder of the package, such as "
+        "src/NAME.cpp, and compare the spelling.",
     ),
     (
         r'Cannot specify link libraries for target "(?P<name>[^"]+)" which is not built',
         "",
-        "There is no program {name} above this line.",
-        "Write add_executable first, and use the same program name in both commands.",
+        "No line above this line creates the program {name}.",
+        "Write add_executable above this line, and use the same program name in both commands.",
     ),
     (
         r"No CMAKE_CXX_COMPILER could be found|Could not find compiler set in environment variable CXX",
@@ -245,12 +252,13 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"The source directory \S*?/(?P<package>[^/\s]+) does not contain a CMakeLists\.txt file",
         "{package}",
         "The package has no CMakeLists.txt.",
-        "Write this file. Its name must be exactly CMakeLists.txt, with the same upper and lower case.",
+        "Create this file. The name of the file must be exactly CMakeLists.txt, with the same "
+        "upper and lower case.",
     ),
     (
         r"current CMakeCache\.txt directory .* is different",
         "",
-        "The folder build was made at another path, because the workspace was moved or copied.",
+        "The workspace was moved or copied, but the folder build still contains the old path.",
         "Remove the folders build and devel, and build again.",
     ),
 )
@@ -259,7 +267,7 @@ SILENT: tuple[Row, ...] = (
     (
         r"generate_messages\(\) without having added any message or service",
         "",
-        "No file was listed before generate_messages, so it generates nothing.",
+        "No file was listed before generate_messages, so generate_messages generates nothing.",
         "Write add_service_files(FILES …) above generate_messages.",
     ),
 )

@@ -26,13 +26,13 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     ),
     (
         r"has no member named .(?P<name>\w+).; did you mean .(?P<near>\w+).",
-        "There is no field or method {name} here.",
+        "This object has no field or method {name}.",
         "Did you mean {near}?",
     ),
     (
         r"has no member named .(?P<name>\w+).",
-        "There is no field or method {name} here.",
-        "The command rossrv show prints the fields of a type, for the request and for the response.",
+        "This object has no field or method {name}.",
+        "Compare the name with the fields of the type. The command rossrv show prints these fields.",
     ),
     (
         r"no return statement in function returning|control reaches end of non-void",
@@ -46,10 +46,11 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     ),
     (
         r".(?P<name>\w+). (?:was not declared in this scope|has not been declared)",
-        "The name {name} is not defined here.",
-        "Compare its spelling, check the prefix (ros:: or std::), and look for its #include.",
+        "The compiler does not know the name {name}.",
+        "Compare the spelling of the name, and check its prefix (ros:: or std::). Then check "
+        "the #include lines.",
     ),
-    (r"", "The compiler reports: {message}.", "Look at that line."),
+    (r"", "The compiler reports: {message}.", "Find the mistake in the line that the compiler reports."),
 )
 
 
@@ -75,7 +76,7 @@ def _unlinked(name: str) -> Fault:
     if name == "main":
         return Fault("The program has no function main.", "Write int main(int argc, char** argv) { … }.")
     return Fault(
-        f"The program uses {name}, but it is not linked with a library that contains {name}.",
-        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable. If this "
-        "function is your own, look for its definition.",
+        f"The program uses {name}, but the program is not linked with a library that contains {name}.",
+        "Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable. If you "
+        "wrote this function yourself, look for its definition.",
     )

@@ -52,7 +52,10 @@ def _faults(text: str) -> Iterator[Fault]:
     yield from _matching(FROM_TOOLS, text)
     for message in errors:
         yield Fault(
-            f"CMake reports: {_shortened(message.text)}", "Look at that line.", message.file, message.line
+            f"CMake reports: {_shortened(message.text)}",
+            "Find the mistake in the line that CMake reports.",
+            message.file,
+            message.line,
         )
 
 

@@ -20,8 +20,12 @@ if TYPE_CHECKING:
     from IPython.core.interactiveshell import InteractiveShell
 
 NAME = "workspace"
-REMEDY = "Move the course to a folder in which you can write, and whose path contains no space."
-INSTALLED_REMEDY = "Set COURSE_HOME to a folder in which you can write, and whose path contains no space."
+REMEDY = (
+    "Move the course to a folder in which you can write. The path of this folder must not contain a space."
+)
+INSTALLED_REMEDY = (
+    "Set COURSE_HOME to a folder in which you can write. The path of this folder must not contain a space."
+)
 MANIFEST = "package.xml"
 # These folders for generated modules are used if the course's devel folder contains no such folder.
 MODULES = ("lib/python3/dist-packages",)
@@ -53,7 +57,7 @@ def make_own_workspace() -> Path:
         try:
             (root / "src").mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            problem = f"it cannot be made ({error.strerror})"
+            problem = f"the folder cannot be created ({error.strerror})"
     if problem:
         remedy = INSTALLED_REMEDY if Places.of().installed else REMEDY
         raise SetupError(f"{root} cannot be your catkin workspace: {problem}. {remedy}")
@@ -63,9 +67,9 @@ def make_own_workspace() -> Path:
 def _unfit(root: Path) -> str:
     """Return the reason why the tools of ROS do not work in a folder, or ""."""
     if any(letter.isspace() for letter in str(root)):
-        return "its path contains a space, and catkin cannot build there"
+        return "the path contains a space, and catkin cannot build in such a folder"
     if root.exists() and not (root / "src").is_dir() and any(root.iterdir()):
-        return "it has no folder src, but contains other files"
+        return "the folder contains files, but no folder src"
     return ""
 
 
@@ -159,8 +163,8 @@ def _find_packages(source: Path) -> tuple[list[Path], list[str]]:
             except (OSError, ValueError, ElementTree.ParseError) as error:
                 place = Path(folder, MANIFEST).relative_to(source.parent)
                 messages.append(
-                    f"{place} cannot be read ({error}). This notebook does not see the package until you "
-                    "have repaired the file."
+                    f"{place} cannot be read ({error}). This notebook cannot use the package "
+                    "until you have repaired this file."
                 )
     return found, messages
 
@@ -194,6 +198,6 @@ def _follow(module: ModuleType) -> list[str]:
 def _restart_needed(types: list[str]) -> str:
     names, it = ", ".join(types), "it" if len(types) == 1 else "them"
     return (
-        f"The definition of {names} has changed since this kernel imported {it}: restart the kernel to use "
-        "the new build (menu Kernel, Restart Kernel)."
+        f"The definition of {names} has changed since this kernel imported {it}. Restart the "
+        "kernel to use the new build (menu Kernel, Restart Kernel)."
     )

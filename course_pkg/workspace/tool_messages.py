@@ -11,14 +11,14 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r'from catkin_pkg\.package import parse_package" failed',
         "",
-        "The build uses the Python that is first on PATH, but ROS is installed for another Python.",
-        "Build with catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3. If you correct PATH instead, also "
-        "remove the folder build, because it contains the path of the other Python.",
+        "The build uses the first Python on PATH, but ROS is installed for a different Python.",
+        "Build with catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3. If you correct PATH "
+        "instead, also remove the folder build.",
     ),
     (
         r"The manifest contains invalid XML:\s*mismatched tag: line (?P<line>\d+)",
         "package.xml",
-        "In this line or above it, a tag is not closed, or its closing tag has a different name.",
+        "In this line or above, a tag is not closed, or the closing tag has a different name.",
         "Close every <tag> with </tag>.",
     ),
     (
@@ -33,20 +33,20 @@ FROM_BUILD: tuple[Row, ...] = (
         r"must not contain the following tags: (?P<tags>[^\n]+)",
         "package.xml",
         "A package.xml of format {format} cannot have the tag {tags}.",
-        "Use buildtool_depend, build_depend, exec_depend or depend (formats 2 and 3), and compare the "
-        "spelling.",
+        "Use the tags buildtool_depend, build_depend, exec_depend or depend (formats 2 and 3), "
+        "and compare the spelling.",
     ),
     (
         r'must contain (?:exactly|at least) one "(?P<tag>\w+)" tag',
         "package.xml",
         "The tag {tag} is missing, or it occurs twice.",
-        "Write <{tag}>…</{tag}> once.",
+        "Write <{tag}>…</{tag}> exactly once.",
     ),
     (
         r"generic dependency on .(?P<name>\w+). is redundant with: (?P<tags>\w+)",
         "package.xml",
         "{name} is listed twice: in <depend> and in <{tags}>.",
-        "Keep only <depend>: it means both <build_depend> and <exec_depend>.",
+        "Keep only <depend>, which means both <build_depend> and <exec_depend>.",
     ),
     (
         r"must declare at least one maintainer",
@@ -75,51 +75,54 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r'Package version "(?P<version>[^"]*)" does not follow version conventions',
         "package.xml",
-        "The version {version} is not three numbers with dots between them.",
-        "Write it as in this example: 0.1.0.",
+        "The version {version} does not consist of three numbers with dots between them.",
+        "Write the version as in this example: 0.1.0.",
     ),
     (
         r"Multiple packages found with the same name \"(?P<name>[^\"]+)\"",
         "",
         "Two folders below src contain a package with the name {name}.",
-        "Move one of them out of src, or change its <name> and project().",
+        "Move one of the two folders out of src, or change the name of the package in <name> "
+        "and in project().",
     ),
     (
         r"package name '(?P<name>[^']+)' is illegal and cannot be used in message generation",
         "package.xml",
-        "{name} cannot be the name of a package with messages, because it becomes the name of a Python "
-        "module.",
+        "{name} cannot be the name of a package with messages, because Python uses it as the "
+        "name of a module.",
         "Use lower-case letters, digits and _, and begin with a letter, in package.xml and in project().",
     ),
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[-\N{EN DASH}\N{EM DASH}][^\n]*)",
         "",
         "A .srv file has the line {text!s} instead of the three dashes.",
-        "Write --- and nothing else.",
+        "Write a line that contains only ---.",
     ),
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[^\n]*)",
         "",
         "A .srv file has the line {text}. A field needs a type, one space, and a name.",
-        "Write it as in this example: float32 length.",
+        "Write the field as in this example: float32 length.",
     ),
     (
         r"InvalidMsgSpec'?>?: (?P<what>[^\n]*)",
         "",
         "A .srv file cannot be read: {what}.",
-        "Correct that line. rossrv show prints the same error, with the name of the type.",
+        "Correct the line in the .srv file. rossrv show prints the same error, with the name of the type.",
     ),
     (
         r"base path \"(?P<path>[^\"]+)\" contains a package",
         "",
         "catkin_make was started inside a package.",
-        "Go up to the root of the workspace, the folder that contains src, and start catkin_make there.",
+        "Go to the root of the workspace, which is the folder that contains src, and start "
+        "catkin_make there.",
     ),
     (
         r"specified source space \"(?P<path>[^\"]+)\" does not exist",
         "",
         "catkin_make was started in a folder that does not contain src.",
-        "Go to the root of the workspace, the folder that contains src, and start catkin_make there.",
+        "Go to the root of the workspace, which is the folder that contains src, and start "
+        "catkin_make there.",
     ),
 )
 
@@ -130,47 +133,48 @@ FROM_TOOLS: tuple[Row, ...] = (
         "",
         "No package {name}{other} is on ROS_PACKAGE_PATH.",
         (
-            "Source devel/setup.bash of the package's workspace in this shell, and compare the spelling "
-            "of the name."
+            "Source devel/setup.bash of the package's workspace in this shell. Also compare "
+            "the spelling of the name."
         ),
     ),
     (
         r"No module named '(?P<name>\w+)\.(?:srv|msg)'",
         "",
-        "Python finds the package {name}, but no types in it, because they were not generated.",
+        "Python finds the package {name}, but this package has no generated types.",
         "Look for generate_messages and add_service_files in CMakeLists.txt, and build again.",
     ),
     (
         r"No module named '(?P<name>numpy|matplotlib)'",
         "",
         "The Python that runs the program does not have the library {name}.",
-        "Write #!/usr/bin/env python3 as the first line, because it chooses the Python that has the library.",
+        "Write #!/usr/bin/env python3 as the first line. This line selects the Python that has the library.",
     ),
     (
         r"No module named '(?P<name>\w+)'",
         "",
         "Python cannot find the package {name}.",
-        "Source devel/setup.bash of the package's workspace. If you have done that, look for "
-        "generate_messages in its CMakeLists.txt.",
+        "Source devel/setup.bash of the package's workspace. If you have done this, look for "
+        "generate_messages in the CMakeLists.txt of the package.",
     ),
     (
         r"cannot import name '(?P<name>\w+)' from '(?P<module>[\w.]+)'",
         "",
-        "{module} has no {name}.",
-        "Compare {name} with the name of the .srv file. Upper and lower case are different.",
+        "The module {module} does not contain {name}.",
+        "Compare {name} with the name of the .srv file. Capital and small letters are different.",
     ),
     (
         r"Couldn't find executable named (?P<name>\S+) below",
         "",
         "The package has no program {name}.",
-        "Make the file executable: chmod +x. If it is executable, compare the name, including its ending.",
+        "Make the file executable with chmod +x. If the file is executable, compare its name, "
+        "including the ending.",
     ),
     (
         r"(?:import|from): command not found|syntax error near unexpected token"
         r"|import(?:-im\d\S*)?: unable to open X server",
         "",
         "The shell executed the Python script as a shell script.",
-        "Write #!/usr/bin/env python3 as its first line.",
+        "Write #!/usr/bin/env python3 as the first line of the script.",
     ),
     (
         r"env: .python3?\\r.: No such file",
@@ -194,7 +198,6 @@ FROM_TOOLS: tuple[Row, ...] = (
         r"(?P<tool>ros\w+) args\tprint service arguments|Usage: (?P<other>ros\w+) ",
         "",
         "{tool}{other} does not know this command. The output lists the known commands.",
-        "Use one of these commands. rossrv show prints the fields of a type, and rosservice info prints "
-        "the server of a service.",
+        "Use one of the commands in the output. For example, rossrv show prints the fields of a type.",
     ),
 )

@@ -104,7 +104,7 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("cells", "words"),
     [
-        ('    print(check("05.1"))', "handle_geometry is not defined: run the cell above first."),
+        ('    print(check("05.1"))', "handle_geometry is not defined. Run the cell above first."),
         ('    handle_geometry = ...\n    print(check("05.1"))', "05.1 not attempted"),
         ('    print(check("99.9"))', "There is no check '99.9'."),
         ('    handle_geometry = 1\n    print(check("05.1"))', "no server"),
@@ -115,7 +115,7 @@ def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
         ),
         (
             '    t = threading.Thread(target=lambda: print(check("05.1")))\n    t.start()\n    t.join()',
-            "not from another thread",
+            "called from another thread",
         ),
     ],
 )

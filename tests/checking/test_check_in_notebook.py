@@ -70,7 +70,7 @@ def test_syntax_error_in_the_new_version(notebook: NotebookKernel) -> None:
     assert notebook.run(HANDLER.replace("return", "return return"), "handler").ename == "SyntaxError"
     assert " ".join(report(notebook).split()) == (
         "05.1 not examined handle_geometry is older than the last run of its cell, which ended with "
-        "SyntaxError. Correct that cell and run it, and then run this cell again."
+        "SyntaxError. Correct and run that cell, and then run this cell again."
     )
     notebook.run(HANDLER, "handler")
     notebook.run(SERVICE, "service")
@@ -85,7 +85,8 @@ def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
     text = " ".join(report(notebook).split())
     assert text == (
         "05.1 not examined A version of handle_geometry that is older than the last run of its cell answers "
-        "the calls of /getGeometry. Run the cell that creates the service, and then run this cell again."
+        "the calls of /getGeometry. Run the cell that creates the service again, and then run this cell "
+        "again."
     )
     notebook.run(SERVICE, "service")
     assert report(notebook).startswith("05.1 not yet")

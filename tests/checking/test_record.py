@@ -134,7 +134,7 @@ def test_full_disk_leads_to_a_message(tmp_path: Path) -> None:
         [*small, sys.executable, "-c", FULL, str(tmp_path)], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    assert "cannot be written (No space left on device). Solve that problem" in done.stdout
+    assert "cannot be written (No space left on device). Solve this problem" in done.stdout
 
 
 @pytest.mark.usefixtures("master")
@@ -154,5 +154,5 @@ def test_check_without_a_record_still_passes(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     out = output(SERVE + '    print(check("05.1"))', tmp_path / "file")
     assert out.startswith("05.1 passed: 2 of 2 points")
-    assert "Your progress does not contain this result" in " ".join(out.split())
+    assert "This result was not stored" in " ".join(out.split())
     assert os.listdir(tmp_path) == ["file"]

@@ -56,7 +56,7 @@ BUILDING = (
             Builds(
                 "no message_generation",
                 'Unknown CMake command "add_service_files"',
-                "message_generation defines it",
+                "message_generation defines this command",
             ),
         ),
     ),
@@ -88,7 +88,7 @@ BUILDING = (
     Row(
         "Building",
         "wrong file name",
-        (Builds("wrong file", "service file not found", "There is no file Bocks.srv"),),
+        (Builds("wrong file", "service file not found", "The file Bocks.srv is not in the folder"),),
     ),
     Row(
         "Building",
@@ -117,7 +117,7 @@ BUILDING = (
             Builds(
                 "another Python",
                 'import parse_package" failed',
-                "The build uses the Python that is first on PATH",
+                "The build uses the first Python on PATH",
             ),
         ),
     ),
@@ -168,7 +168,7 @@ SERVING = (
             Shows(
                 "returns_number",
                 "handler returned invalid value: Invalid number of arguments",
-                "cannot become a response",
+                "cannot create a response",
             ),
         ),
     ),
@@ -176,8 +176,14 @@ SERVING = (
         "Serving",
         "list or tuple of the wrong length; a list for one array field",
         (
-            Shows("wrong_length", "handler returned wrong number of values", "length is not the number"),
-            Shows("flat_list", "handler returned wrong number of values", "length is not the number"),
+            Shows(
+                "wrong_length",
+                "handler returned wrong number of values",
+                "a list or tuple of the wrong length",
+            ),
+            Shows(
+                "flat_list", "handler returned wrong number of values", "a list or tuple of the wrong length"
+            ),
         ),
     ),
     Row(
@@ -281,7 +287,7 @@ CALLING = (
             Shows(
                 "mixed",
                 "publish() can be called with arguments or keywords, but not both.",
-                "by position and by keyword",
+                "some values by position",
             ),
         ),
     ),
@@ -337,12 +343,18 @@ CALLING = (
     Row(
         "Calling",
         "persistent proxy after the server died",
-        (Shows("persistent", "TransportTerminated: 32Broken pipe", "A persistent proxy keeps"),),
+        (
+            Shows(
+                "persistent",
+                "TransportTerminated: 32Broken pipe",
+                "The server of a persistent proxy has ended",
+            ),
+        ),
     ),
     Row(
         "Calling",
         "bad ROS_HOSTNAME on the server",
-        (Shows("hostname", "Name or service not known", "a host name that this machine cannot look up"),),
+        (Shows("hostname", "Name or service not known", "a host name that this machine does not know"),),
     ),
     Row(
         "Calling",
@@ -374,7 +386,7 @@ NODES_AND_MASTERS = (
             Shows(
                 "init_again",
                 "rospy.init_node() has already been called with different arguments",
-                "One program is one node",
+                "One program can be only one node",
             ),
         ),
     ),

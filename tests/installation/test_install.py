@@ -80,7 +80,7 @@ def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
     for prefix, bin_folder, message in (
         ("two words", "empty", "contains a space. Give --prefix a folder without spaces"),
         ("foreign", "empty", "`course install` did not make it, so nothing was changed"),
-        ("new", "bin", "is not of this installation, so nothing was changed"),
+        ("new", "bin", "does not belong to this installation, so nothing was changed"),
     ):
         with pytest.raises(SetupError, match=message):
             install(tmp_path / prefix, tmp_path / bin_folder)

@@ -212,6 +212,6 @@ def test_a_workspace_in_which_catkin_cannot_build_is_named(tmp_path: Path) -> No
     with running("lab", "--no-browser", COURSE_WORKSPACE=folder) as process:
         assert process.stdout
         warning = next(line for line in process.stdout if folder in line)
-        assert "its path contains a space" in warning
+        assert "the path contains a space" in warning
         assert "Move the course" in warning
         assert address_of(process)

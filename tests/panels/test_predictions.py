@@ -237,7 +237,7 @@ def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store:
     [
         ([("One", "a topci", "So.")], "case 1 expects 'a topci'"),
         ([CASES[0], CASES[0]], "is given twice"),
-        ([("One", "a topic")], r"Give \(case, answer, reason\)"),
+        ([("One", "a topic")], r"Write each case as \(case, answer, reason\)"),
     ],
 )
 def test_a_mistake_of_the_author_raises_an_error(

@@ -41,7 +41,7 @@ def graph_state() -> State:
         Line("node /camera", "topic /pictures"),
         Line("topic /pictures", "node /rostopic_123_1700000000000"),
     )
-    words = "2 nodes, 1 topic, 1 service. The list after the drawing shows the same as text."
+    words = "2 nodes, 1 topic, 1 service. The list after the drawing contains the same information as text."
     facts = [
         {"key": each.key, "kind": each.kind.value, "name": each.name, "lost": not each.reachable, "facts": []}
         for each in shapes

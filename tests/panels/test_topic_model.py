@@ -56,7 +56,7 @@ def test_a_measurement_is_drawn_first() -> None:
 @pytest.mark.parametrize("name", ["speed", "/", "/a//b", "/my speed", "~speed", "/1", "/a\nb", ""])
 def test_an_invalid_name_is_refused(name: str) -> None:
     """For an invalid topic name, the error message describes valid names."""
-    with pytest.raises(NotATopic, match="Give a full name"):
+    with pytest.raises(NotATopic, match="Use a full name"):
         FakeProcess(topic=name)
 
 
@@ -220,13 +220,14 @@ PUBLISHER: PublisherReport = {
         ),
         (
             {"reached": 0, "latch": True, "deliveries": []},
-            "Message 3 has reached no subscriber yet. It is latched, so the next subscriber gets it.",
+            "Message 3 has reached no subscriber yet. The message is latched, so the next subscriber gets "
+            "it.",
         ),
         (
             {"reached": 0, "latch": True, "deliveries": PUBLISHER["deliveries"][:1]},
             "Message 3 was kept, and went to this panel as soon as it was connected.",
         ),
-        ({"advertised": False}, "The publisher is withdrawn. The next message creates a new one."),
+        ({"advertised": False}, "The publisher was stopped. The next message creates a new publisher."),
         ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz (measured: 9.987 Hz)."),
         (
             {"rate": 10.0, "statistics": {}, "skipped": 2},

@@ -58,7 +58,7 @@ MISTAKES = {
         "return true or return false at",
     ),
     "a semicolon lost": ("int main() {\n  int n = 1\n  return n;\n}\n", 3, "for a missing ; or bracket"),
-    "a name misspelt": ("int main() {\n  return cuont;\n}\n", 2, "The name cuont is not defined here"),
+    "a name misspelt": ("int main() {\n  return cuont;\n}\n", 2, "The compiler does not know the name cuont"),
     "a field misspelt": (
         "struct Box { float height; };\nint main() {\n  return Box().hieght;\n}\n",
         3,
@@ -67,7 +67,7 @@ MISTAKES = {
     "a field with a different name": (
         "struct Box { float height; };\nint main() {\n  return Box().colour;\n}\n",
         3,
-        "rossrv show prints the fields",
+        "rossrv show prints these fields",
     ),
     "something else": ('int main() {\n  return 1 / "two";\n}\n', 2, "The compiler reports: invalid operands"),
     "no library": ("void far_away();\nint main() { far_away(); }\n", 0, "not linked with a library"),

@@ -27,7 +27,7 @@ SLIPS = {
     "message_generation missing": (
         spoilt(C, (" COMPONENTS message_generation", "")),
         f"{LIST_FILE}, line 6",
-        "message_generation defines it",
+        "message_generation defines this command",
     ),
     "find_package too late": (
         spoilt(C, (FIND, ""), (ADD, ADD + FIND)),
@@ -47,12 +47,12 @@ SLIPS = {
     "a program whose file is missing": (
         spoilt(C, (PACKAGE, PACKAGE + "add_executable(box src/none.cpp)\n")),
         f"{LIST_FILE}, line 10",
-        "There is no file src/none.cpp",
+        "The file src/none.cpp does not exist",
     ),
     "linked before add_executable": (
         spoilt(C, (PACKAGE, PACKAGE + "target_link_libraries(box ros)\n")),
         f"{LIST_FILE}, line 10",
-        "There is no program box above this line",
+        "No line above this line creates the program box",
     ),
     "generated twice": (
         spoilt(C, (GENERATE, GENERATE * 2)),
@@ -63,7 +63,7 @@ SLIPS = {
     "wrong file name": (
         spoilt(C, ("Box.srv", "Bocks.srv")),
         f"{LIST_FILE}, line 6",
-        "There is no file Bocks.srv",
+        "The file Bocks.srv is not in the folder",
     ),
     "wrong case in the file name": (
         spoilt(C, ("Box.srv", "box.srv")),
@@ -89,22 +89,22 @@ SLIPS = {
     "a package misspelt": (
         spoilt(C, ("message_generation", "message_generaton")),
         f"{LIST_FILE}, line 4",
-        "asks for message_generaton",
+        "find_package needs the package message_generaton",
     ),
     "a bracket missing": (
         spoilt(C, (GENERATE, "generate_messages(\n")),
         f"{LIST_FILE}, line 7",
-        "Write the missing )",
+        "Write the missing closing parenthesis",
     ),
     "a bracket too many": (
         spoilt(C, (GENERATE, "generate_messages())\n")),
         f"{LIST_FILE}, line 7",
-        "where a command should begin",
+        "at the place where a command has to begin",
     ),
     "still as in the template": (
         {**GOOD, C: "...\n"},
         f"{LIST_FILE}, line 1",
-        "it contains ... where a command should begin",
+        "it contains ... at the place where a command has to begin",
     ),
     "no project": (
         spoilt(C, ("project(my_services)\n", "")),
@@ -114,7 +114,7 @@ SLIPS = {
     "another name in project": (
         spoilt(C, ("project(my_services)", "project(my_service)")),
         f"{LIST_FILE}, line 9",
-        "package.xml has the name my_services, but CMakeLists.txt has my_service.",
+        "package.xml has the name my_services, but CMakeLists.txt has the name my_service.",
     ),
     "needed to run, but not listed": (
         spoilt(X, ("  <exec_depend>message_runtime</exec_depend>\n", "")),
@@ -154,7 +154,7 @@ SLIPS = {
         "float is not a built-in type of ROS",
     ),
     "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "has the line - - - instead of the"),
-    "two dashes": (spoilt(S, ("---", "--")), "", "Write --- and nothing else"),
+    "two dashes": (spoilt(S, ("---", "--")), "", "Write a line that contains only ---"),
     "a tab": (
         spoilt(S, ("float32 length", "float32\tlength")),
         "",
@@ -259,7 +259,7 @@ SAID = {
     "wrong case": (
         "python3 -c 'from my_services.srv import box'",
         True,
-        "Upper and lower case are different",
+        "Capital and small letters are different",
     ),
     "no run bit": ("rosrun my_services plain.py", True, "chmod +x"),
     "no shebang": ("rosrun my_services shell.py", True, "#!/usr/bin/env python3"),

@@ -28,9 +28,9 @@ def test_a_workspace_is_made_once_and_then_left_as_it_is(root: Path) -> None:
 @pytest.mark.parametrize(
     ("folder", "words"),
     [
-        ("{tmp}/my ws", "its path contains a space"),
+        ("{tmp}/my ws", "the path contains a space"),
         ("{tmp}/photos", "no folder src"),
-        ("/proc/ws", "cannot be made"),
+        ("/proc/ws", "cannot be created"),
     ],
 )
 def test_unsuitable_folder_is_refused(

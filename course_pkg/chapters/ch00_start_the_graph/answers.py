@@ -6,33 +6,33 @@ solution()
 replace('name_of_node = "/SERVER_NODE"', "import rosservice\n")
 replace('name_of_type = "course_pkg/geometry"', """name_of_node = rosservice.get_service_node(name_of_service)
 name_of_type = rosservice.get_service_type(name_of_service)""")
-# %% 00.1 wrong: the program for the node | hint: That is the program
+# %% 00.1 wrong: the program for the node | hint: Your answer is the name of the program.
 replace('"/SERVER_NODE"', '"/server"')
-# %% 00.1 wrong: no slash | hint: names on the graph start with a slash
+# %% 00.1 wrong: no slash | hint: Your answer is almost right
 replace("/SERVER_NODE", "SERVER_NODE")
 replace("/getGeometry", "getGeometry")
-# %% 00.1 wrong: the name of this notebook's node | hint: The server is another node
+# %% 00.1 wrong: the name of this notebook's node | hint: Your answer is the node
 replace('"/SERVER_NODE"', '"/chapter_00"')
-# %% 00.1 wrong: a service that every node has | hint: Every node has this service
+# %% 00.1 wrong: a service that every node has | hint: Every node has the service
 replace('"/getGeometry"', '"/SERVER_NODE/get_loggers"')
-# %% 00.1 wrong: a type without its package | hint: The name of a type includes
+# %% 00.1 wrong: a type without its package | hint: The name of the package
 replace("course_pkg/geometry", "geometry")
-# %% 00.1 wrong: the type in place of the name | hint: That is the type. The name of the service
+# %% 00.1 wrong: the type in place of the name | hint: Your answer is the type
 replace("/getGeometry", "course_pkg/geometry")
 replace('name_of_type = "course_pkg/geometry"', 'name_of_type = "/getGeometry"')
-# %% 00.1 wrong: a slash at the end | hint: Compare your answer letter by letter
+# %% 00.1 wrong: a slash at the end | hint: Compare your answer with the
 replace('"/getGeometry"', '"/getGeometry/"')
-# %% 00.1 wrong: the service class instead of the name of its type | hint: That is the Python class of the type
+# %% 00.1 wrong: the service class instead of the name of its type | hint: Your answer is the Python
 replace('"course_pkg/geometry"', "geometry")
-# %% 00.1 wrong: the service for the node | hint: The node is the program that offers it
+# %% 00.1 wrong: the service for the node | hint: Your answer is the name of a
 replace('"/SERVER_NODE"', '"/getGeometry"')
 # %% 00.1 wrong: the node for the service | hint: The command `rosservice list` shows
 replace('name_of_node = "/SERVER_NODE"\nname_of_service = "/getGeometry"', 'name_of_node = name_of_service = "/SERVER_NODE"')
-# %% 00.1 wrong: a type with a slash in front | hint: A type does not start with a slash
+# %% 00.1 wrong: a type with a slash in front | hint: The name of a type
 replace("course_pkg", "/course_pkg")
 # %% 00.1 wrong: the name of the service for its type | hint: The command `rosservice type`
 replace("course_pkg/geometry", "/getGeometry")
-# %% 00.1 wrong: a capital letter in the type | hint: written with a small g
+# %% 00.1 wrong: a capital letter in the type | hint: The name of this type
 replace("pkg/geometry", "pkg/Geometry")
 
 # %% 00.2 right: by position
@@ -53,34 +53,34 @@ def ask_for_volume(service, length, width, height):
     rospy.wait_for_service(service, timeout=5)
     return rospy.ServiceProxy(service, geometry).call(geometryRequest(length, width, height)).volume
 
-# %% 00.2 wrong: multiplies without a call | hint: The given service was not called
+# %% 00.2 wrong: multiplies without a call | hint: Your function did not call
 def ask_for_volume(service, length, width, height):
     return length * width * height
 
-# %% 00.2 wrong: calls the service, but returns a product of its own | hint: You multiplied the sides. This server
+# %% 00.2 wrong: calls the service, but returns a product of its own | hint: Your function multiplied the sides
 replace("return measure(length, width, height).volume", "measure(length, width, height)\n    return length * width * height")
-# %% 00.2 wrong: returns the area | hint: That is the area. Return the volume
+# %% 00.2 wrong: returns the area | hint: Your function returned the area.
 replace(".volume", ".area")
-# %% 00.2 wrong: returns the whole response | hint: That is the whole response
+# %% 00.2 wrong: returns the whole response | hint: Your function returned the whole
 replace(".volume", "")
-# %% 00.2 wrong: calls a fixed service name | hint: The given service was not called
+# %% 00.2 wrong: calls a fixed service name | hint: Your function did not call
 replace("service, geometry", '"/getGeometry", geometry')
 # %% 00.2 wrong: forgets to return | hint: without a return line
 replace("return measure", "measure")
 # %% 00.2 wrong: the arguments in another order | hint: The order of the sides is wrong
 replace("measure(length, width, height)", "measure(height, width, length)")
-# %% 00.2 wrong: rounds it | hint: That is the volume without the
+# %% 00.2 wrong: rounds it | hint: Do not round the volume.
 replace("measure(length, width, height).volume", "round(measure(length, width, height).volume)")
 # %% 00.2 wrong: returns text | hint: the volume as a string
 replace("measure(length, width, height).volume", "str(measure(length, width, height).volume)")
-# %% 00.2 wrong: area times height | hint: You multiplied
+# %% 00.2 wrong: area times height | hint: Your function multiplied the sides
 replace(".volume", ".area * height")
-# %% 00.2 wrong: leaves the height out | hint: One side arrived as 0
+# %% 00.2 wrong: leaves the height out | hint: The request contains 0 for
 replace("measure(length, width, height)", "measure(length=length, width=width)")
-# %% 00.2 wrong: a tuple | hint: That is more than the volume.
+# %% 00.2 wrong: a tuple | hint: Your function returned more than
 based_on("the lines of the panel")
 replace("proxy = rospy … response.volume", "r = rospy.ServiceProxy(service, geometry)(length, width, height)\n    return r.area, r.volume")
-# %% 00.2 wrong: another unit | hint: Return the volume of the response
+# %% 00.2 wrong: another unit | hint: Return the volume from the response without
 replace(".volume", ".volume / 1000")
 
 # %% 00.3 right: wait_for_message
@@ -107,35 +107,35 @@ def count_missed(topic, pause):
     second = one()
     return [first, second, len(range(first + 1, second))]
 
-# %% 00.3 wrong: counts the second number, too | hint: This count includes a number that
+# %% 00.3 wrong: counts the second number, too | hint: Your count includes one of
 replace(" - 1", "")
-# %% 00.3 wrong: counts both numbers, too | hint: This count includes both numbers that
+# %% 00.3 wrong: counts both numbers, too | hint: Your count includes both numbers
 replace("before - 1", "before + 1")
-# %% 00.3 wrong: subtracts the wrong way round | hint: A count cannot be negative. Subtract
+# %% 00.3 wrong: subtracts the wrong way round | hint: Your count is negative. Subtract
 replace("after - before - 1", "before - after + 1")
-# %% 00.3 wrong: only the count | hint: That is one number. Return three
+# %% 00.3 wrong: only the count | hint: Your function returned only one
 replace("before, after, after - before - 1", "after - before - 1")
 # %% 00.3 wrong: two numbers | hint: Return the three numbers in one line
 replace("before, after, after - before - 1", "before, after")
-# %% 00.3 wrong: no pause | hint: The time between these two numbers
+# %% 00.3 wrong: no pause | hint: The time between the two
 replace("    time.sleep(pause)\n", "")
-# %% 00.3 wrong: the messages | hint: That is a whole message
+# %% 00.3 wrong: the messages | hint: Your function returned a whole
 replace("return before, after,", "return UInt32(before), UInt32(after),")
-# %% 00.3 wrong: the later number first | hint: The order is wrong. Return two numbers
+# %% 00.3 wrong: the later number first | hint: The order of the two
 replace("return before, after,", "return after, before,")
 # %% 00.3 wrong: a fixed topic | hint: No message arrived, although
 replace("(topic, UInt32", '("/nothing_here", UInt32', times=2)
-# %% 00.3 wrong: fixed numbers | hint: These numbers were not published on
+# %% 00.3 wrong: fixed numbers | hint: The numbers that your function
 replace("return before, after, after - before - 1", "return 17, 25, 7")
 # %% 00.3 wrong: estimates the count from the rate | hint: Calculate the third number from the first two
 replace("after - before - 1", "int(pause * 2)")
-# %% 00.3 wrong: a fraction | hint: A count is a whole number
+# %% 00.3 wrong: a fraction | hint: The three results have to
 replace("after - before - 1", "(after - before - 1) / 1")
 # %% 00.3 wrong: forgets to return | hint: without a return line
 replace("return before, after, after - before - 1", "missed = after - before - 1")
 # %% 00.3 wrong: another type | hint: Receive messages of the type UInt32
 replace("UInt32", "String", times=2)
-# %% 00.3 wrong: receives during the pause, too | hint: The function received numbers during the pause.
+# %% 00.3 wrong: receives during the pause, too | hint: Your function received numbers during
 def count_missed(topic, pause):
     numbers = []
     rospy.Subscriber(topic, UInt32, lambda message: numbers.append(message.data))

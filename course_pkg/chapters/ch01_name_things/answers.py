@@ -11,15 +11,15 @@ def measurer_command(room):
 
 # %% 01.1 right: quoted, and with a namespace without a slash
 replace('f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"', "\"rosrun course_pkg server 'getGeometry:=measure' __ns:=\" + room + \" '__name:=measurer'\"")
-# %% 01.1 wrong: a global name | hint: The service is /measure for every
+# %% 01.1 wrong: a global name | hint: The name of the service is
 replace("getGeometry:=measure", "getGeometry:=/measure")
-# %% 01.1 wrong: no namespace | hint: The service is /measure for every
+# %% 01.1 wrong: no namespace | hint: The name of the service is
 replace("__ns:=/{room} ", "")
 # %% 01.1 wrong: the service is not renamed | hint: The service is in the namespace
 replace(" getGeometry:=measure", "")
 # %% 01.1 wrong: remapping the wrong way round | hint: the old name comes first
 replace("getGeometry:=measure", "measure:=getGeometry")
-# %% 01.1 wrong: the node is not renamed | hint: Change this name with __name
+# %% 01.1 wrong: the node is not renamed | hint: Change the name of the
 replace(" __name:=measurer", "")
 # %% 01.1 wrong: only the service is in the room's namespace | hint: The node is not in the namespace of the room
 replace("__ns:=/{room} ", "")
@@ -36,15 +36,15 @@ replace("server", "pulse")
 replace("rosrun", "roslaunch")
 # %% 01.1 wrong: forgets to return | hint: without a return line
 replace("return ", "command = ")
-# %% 01.1 wrong: another name for the node | hint: The node has to be `measurer`
+# %% 01.1 wrong: another name for the node | hint: The name of the node has to be `measurer`
 replace("__name:=measurer", "__name:=measure")
-# %% 01.1 wrong: a private name for the service | hint: A name with ~ is private,
+# %% 01.1 wrong: a private name for the service | hint: A name that begins with
 replace("getGeometry:=", "getGeometry:=~")
 # %% 01.1 wrong: a list | hint: Return one string with spaces between
 replace('getGeometry:=measure"', 'getGeometry:=measure".split()')
-# %% 01.1 wrong: begins with %, as in a notebook | hint: Remove the first character: in a
+# %% 01.1 wrong: begins with %, as in a notebook | hint: Remove the first character. In
 replace("rosrun", "%rosrun")
-# %% 01.1 wrong: the program itself | hint: Return the command as a string
+# %% 01.1 wrong: the program itself | hint: Your function has to return
 replace("return ", "import subprocess\n    return subprocess.Popen(")
 replace('getGeometry:=measure"', 'getGeometry:=measure".split())')
 # %% 01.1 wrong: new names in a comment of the shell | hint: The service still has its old name
@@ -67,11 +67,11 @@ def viewer_command(arm):
     words += [f"joint_states:=/{arm}/joint_states", f"mirrored_joints:=/screen/{arm}/mirrored_joints"]
     return " ".join(words)
 
-# %% 01.2 wrong: joint_states keeps its name | hint: The viewer subscribes in its own
+# %% 01.2 wrong: joint_states keeps its name | hint: The viewer subscribes to a
 replace("joint_states:=/{arm}/joint_states ", "")
 # %% 01.2 wrong: a relative name for joint_states | hint: Your new name is relative, so
 replace("joint_states:=/{arm}", "joint_states:={arm}")
-# %% 01.2 wrong: the namespace is the arm | hint: The node has to be ARM_viewer
+# %% 01.2 wrong: the namespace is the arm | hint: The name of the node has to be ARM_viewer
 replace("__ns:=/screen", "__ns:=/{arm}")
 # %% 01.2 wrong: no namespace | hint: The node is not in the namespace /screen.
 replace("__ns:=/screen ", "")
@@ -79,9 +79,9 @@ replace("__ns:=/screen ", "")
 replace("__name:={arm}_viewer ", "")
 # %% 01.2 wrong: mirrored_joints keeps its name | hint: The viewers of all arms would
 replace(" mirrored_joints:={arm}/mirrored_joints", "")
-# %% 01.2 wrong: a global name for mirrored_joints | hint: This topic is outside of /screen
+# %% 01.2 wrong: a global name for mirrored_joints | hint: The topic of the viewer
 replace("mirrored_joints:={arm}", "mirrored_joints:=/{arm}")
-# %% 01.2 wrong: one name for all arms | hint: The topic has to be /screen/ARM/mirrored_joints,
+# %% 01.2 wrong: one name for all arms | hint: The name of the topic
 replace("mirrored_joints:={arm}/mirrored_joints", "mirrored_joints:=mirrored_{arm}")
 # %% 01.2 wrong: always the left arm | hint: does not subscribe to the topic of its arm
 replace("joint_states:=/{arm}/joint_states", "joint_states:=/left/joint_states")
@@ -93,7 +93,7 @@ def ask_wherever(last, length, width, height):
             return rospy.ServiceProxy(service, geometry)(length, width, height).volume
     return None
 
-# %% 01.3 wrong: searches only in the first five calls | hint: must depend on the services that exist now
+# %% 01.3 wrong: searches only in the first five calls | hint: The result has to depend
 replace("height):", "height, calls=[]):\n    calls.append(last)\n    if len(calls) > 5:\n        return None")
 
 # %% 01.3 right: from the lists of the master
@@ -107,35 +107,35 @@ def ask_wherever(last, length, width, height):
 # %% 01.3 right: searches only the services of the type
 replace("get_service_list()", 'rosservice_find("course_pkg/geometry")')
 replace("\n    return None", "")
-# %% 01.3 wrong: only in the outermost namespace | hint: No service has the name that you called
+# %% 01.3 wrong: only in the outermost namespace | hint: Your function called a service
 replace("for service … return None", "return rospy.ServiceProxy(last, geometry)(length, width, height).volume")
-# %% 01.3 wrong: accepts any name that contains the last part | hint: You called the wrong service, which
+# %% 01.3 wrong: accepts any name that contains the last part | hint: Your function called the wrong
 replace("for service … return None", """for service in sorted(rosservice.get_service_list(), key=len, reverse=True):
         if last in service:
             return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 01.3 wrong: accepts any name that ends with the last part | hint: You called the wrong service, which
+# %% 01.3 wrong: accepts any name that ends with the last part | hint: Your function called the wrong
 replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list(), key=len, reverse=True)")
 replace('split("/")[-1] == last', "endswith(last)")
 replace("\n    return None", "")
-# %% 01.3 wrong: the first service of the type | hint: You called the wrong service, which
+# %% 01.3 wrong: the first service of the type | hint: Your function called the wrong
 replace("for service … return None", """service = sorted(rosservice.rosservice_find("course_pkg/geometry"), key=lambda name: name.endswith("/" + last))[0]
     return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 01.3 wrong: calls the last part | hint: No service has the name that you called
+# %% 01.3 wrong: calls the last part | hint: Your function called a service
 replace("service, geometry", '"/elsewhere/" + last, geometry')
 replace("\n    return None", "")
-# %% 01.3 wrong: raises an error if there is no service | hint: The search found no service
+# %% 01.3 wrong: raises an error if there is no service | hint: Your search found no service
 replace("for service … return None", """found = [name for name in rosservice.get_service_list() if name.endswith("/" + last)]
     return rospy.ServiceProxy(found[0], geometry)(length, width, height).volume""")
-# %% 01.3 wrong: returns the name | hint: That is the name of the service
+# %% 01.3 wrong: returns the name | hint: Your function returned the name
 replace("return rospy.ServiceProxy(service, geometry)(length, width, height).volume\n    return None", "return service")
-# %% 01.3 wrong: returns the response | hint: That is the whole response
+# %% 01.3 wrong: returns the response | hint: Your function returned the whole
 replace(".volume\n    return None", "")
-# %% 01.3 wrong: multiplies instead of calling | hint: You multiplied
+# %% 01.3 wrong: multiplies instead of calling | hint: Your function multiplied the sides
 replace("for service … return None", "return length * width * height")
-# %% 01.3 wrong: only one namespace deep | hint: Look through the names of all services
+# %% 01.3 wrong: only one namespace deep | hint: The service exists, but your
 replace('if service.split("/")[-1]', 'parts = service.split("/")\n        if len(parts) == 3 and parts[2]')
 replace("\n    return None", "")
-# %% 01.3 wrong: 0 when there is none | hint: There is no service with this
+# %% 01.3 wrong: 0 when there is none | hint: No service has the given
 replace("None", "0")
 # %% 01.3 wrong: None for a volume of 0 | hint: This service responds with the volume 0,
 replace("length, width, height).volume\n", "length, width, height).volume or None\n")
@@ -143,14 +143,14 @@ replace("length, width, height).volume\n", "length, width, height).volume or Non
 replace("length, width, height).volume\n", 'length, width, height).volume or "nothing"\n')
 # %% 01.3 wrong: another order | hint: The order of the sides is wrong
 replace("length, width, height).volume\n    return None", "width, length, height).volume")
-# %% 01.3 wrong: the area | hint: That is the area
+# %% 01.3 wrong: the area | hint: Your function returned the area.
 replace("for service … return None", """for name in rosservice.get_service_list():
         if name.split("/")[-1] == last:
             return rospy.ServiceProxy(name, geometry)(length, width, height).area""")
-# %% 01.3 wrong: lets an IndexError out if there is no service | hint: A missing service is not an error
+# %% 01.3 wrong: lets an IndexError out if there is no service | hint: In this exercise, a missing
 based_on("the area")
 replace(".area", '.volume\n    raise rospy.ServiceException(f"nobody serves {last}")')
-# %% 01.3 wrong: sends no sides | hint: All sides arrived as 0
+# %% 01.3 wrong: sends no sides | hint: The request contains 0 for
 replace("(length, width, height).volume", "().volume")
 
 # %% 01.4 right: ping each
@@ -170,16 +170,16 @@ def living_publishers(topic):
     found.sort()
     return found
 
-# %% 01.4 wrong: all listed nodes | hint: One of these nodes was killed
+# %% 01.4 wrong: all listed nodes | hint: Your list contains a node that was
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(dict(publishers).get(topic, []))")
-# %% 01.4 wrong: not sorted | hint: These are the right names, but
+# %% 01.4 wrong: not sorted | hint: The names are right, but
 replace("name for name in names if rosnode.rosnode_ping(name, max_count=1)", "(name for name in names if rosnode.rosnode_ping(name, max_count=1)), reverse=True")
-# %% 01.4 wrong: returns the nodes that do not answer | hint: These are the nodes that did not answer
+# %% 01.4 wrong: returns the nodes that do not answer | hint: Your list contains the nodes
 replace("rosnode.rosnode_ping", "not rosnode.rosnode_ping")
 # %% 01.4 wrong: the subscribers | hint: Your list is empty, but
 replace("(publishers)", "(subscribers)")
-# %% 01.4 wrong: the nodes that publish on any topic | hint: One of these nodes publishes on a different topic
+# %% 01.4 wrong: the nodes that publish on any topic | hint: Your list contains a node that publishes
 replace("dict(publishers).get(topic, [])", "{name for _, nodes in publishers for name in nodes}")
 # %% 01.4 wrong: a topic whose name begins alike | hint: Compare the whole name of the topic
 replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers if each.startswith(topic) for name in nodes}")
@@ -189,12 +189,12 @@ replace("names", "dict(publishers)[topic]")
 # %% 01.4 wrong: pings without a limit | hint: rosnode_ping does not return, because it
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name))")
-# %% 01.4 wrong: the number of nodes | hint: That is the number of publishers
+# %% 01.4 wrong: the number of nodes | hint: Your function returned the number
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return len([name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name, max_count=1)])")
 # %% 01.4 wrong: returns None if no publisher is alive | hint: Return an empty list if no
 replace("1))", "1)) or None")
-# %% 01.4 wrong: a generator | hint: That is not a list
+# %% 01.4 wrong: a generator | hint: Your function did not return
 replace("\n    names = dict … max_count=1))", """
     return (name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name, max_count=1))""")
 
@@ -209,7 +209,7 @@ def living_publishers(topic):
 
 # %% 01.4 wrong: one string | hint: Return a list of node names
 replace("return sorted(", 'return ", ".join(')
-# %% 01.4 wrong: an open port counts as an answer | hint: One of these nodes was killed, but
+# %% 01.4 wrong: an open port counts as an answer | hint: Your list contains a node that was
 def living_publishers(topic):
     import socket
     from urllib.parse import urlparse

@@ -33,28 +33,28 @@ def count_aloud(topic, rate, count):
     done.wait()
     timer.shutdown()
 
-# %% 02.1 wrong: does not wait for a subscriber | hint: before the subscriber was connected
+# %% 02.1 wrong: does not wait for a subscriber | hint: The first number was published
 replace("\n    wait_until(publisher.get_num_connections, 2.0)", "")
-# %% 02.1 wrong: waits for a subscriber without a limit | hint: A topic can have no subscriber
+# %% 02.1 wrong: waits for a subscriber without a limit | hint: Wait for a subscriber for
 replace("wait_until(publisher.get_num_connections, 2.0)", "while publisher.get_num_connections() == 0:\n        time.sleep(0.01)")
 # %% 02.1 wrong: publishes nothing if there is no subscriber | hint: Even without a subscriber, the function
 replace("connections, 2.0)", """connections, 2.0)
     if publisher.get_num_connections() == 0:
         raise RuntimeError("nobody listens")""")
-# %% 02.1 wrong: counts from 1 | hint: The count starts with 1. It
+# %% 02.1 wrong: counts from 1 | hint: The first number is 1.
 replace("(number)", "(number + 1)")
-# %% 02.1 wrong: one number too many | hint: That is one number too many
+# %% 02.1 wrong: one number too many | hint: The function published one number
 replace("(count)", "(count + 1)")
 # %% 02.1 wrong: without a pause | hint: The rate is too high
 replace("10", "1000")
 replace("\n    pace = rospy.Rate(rate)", "")
 replace("\n        pace.sleep()", "")
-# %% 02.1 wrong: uses the rate as the pause | hint: End the wait as soon as
+# %% 02.1 wrong: uses the rate as the pause | hint: The function takes too long.
 replace("\n    pace = rospy.Rate(rate)", "")
 replace("pace.sleep()", "time.sleep(rate)")
 # %% 02.1 wrong: sleeps instead of waiting for a subscriber | hint: Check every few milliseconds whether a
 replace("wait_until(publisher.get_num_connections, 2.0)", "time.sleep(2)")
-# %% 02.1 wrong: stops too early | hint: The last number, count - 1,
+# %% 02.1 wrong: stops too early | hint: The last number, `count -
 replace("(count)", "(count - 1)")
 
 # %% 02.1 wrong: publishes in a thread | hint: The last numbers are missing
@@ -77,17 +77,17 @@ replace("\n    pace = rospy.Rate(rate)", "")
 replace("pace.sleep()", "if number % 5 == 4:\n            time.sleep(5 / rate)")
 # %% 02.1 wrong: another type | hint: Publish the topic with the type in the exercise
 replace("UInt32", "Float64")
-# %% 02.1 wrong: a fixed topic | hint: for the topic that the function gets.
+# %% 02.1 wrong: a fixed topic | hint: Create a rospy.Publisher for the given topic.
 replace("topic, UInt32", '"/count", UInt32')
 # %% 02.1 wrong: waits half a second | hint: A subscriber that connects in the first
 replace("2.0", "0.5")
 # %% 02.1 wrong: strings | hint: Publish each number as an int,
 replace("publish(number)", "publish(str(number))")
-# %% 02.1 wrong: publishes nothing | hint: Publish each number after a subscriber is connected
+# %% 02.1 wrong: publishes nothing | hint: No number arrived. Wait until
 replace("publisher.publish(number)", "message = UInt32(number)")
-# %% 02.1 wrong: publishes each number twice | hint: A number was published twice
+# %% 02.1 wrong: publishes each number twice | hint: One number was published twice.
 replace("publisher.publish(number)", "publisher.publish(number)\n        publisher.publish(number)")
-# %% 02.1 wrong: publishes in groups of five, with a short queue | hint: because the queue was full
+# %% 02.1 wrong: publishes in groups of five, with a short queue | hint: Some numbers in the middle
 replace("10", "1")
 replace("\n    pace = rospy.Rate(rate)", "")
 replace("pace.sleep()", "if number % 5 == 4:\n            time.sleep(5 / rate)")
@@ -123,9 +123,9 @@ def start_mirror(source, target):
 replace("\n    def show(message … JointState, show)", "    return rospy.Subscriber(source, JointState, publisher.publish)")
 # %% 02.2 wrong: the velocity keeps its sign | hint: was not changed. Change the sign
 replace("[-speed for speed in message.velocity]", "message.velocity")
-# %% 02.2 wrong: the velocity is left out | hint: The list of
+# %% 02.2 wrong: the velocity is left out | hint: The list in the field
 replace("\n        image.velocity = [-speed for speed in message.velocity]", "")
-# %% 02.2 wrong: reverses the lists | hint: The order of the list was reversed. Change the signs instead.
+# %% 02.2 wrong: reverses the lists | hint: Your callback reversed the order
 replace("[-angle for angle in message.position]\n        image.velocity = [-speed for speed in message.velocity]", """message.position[::-1]
         image.velocity = message.velocity[::-1]""")
 # %% 02.2 wrong: absolute values | hint: A negative number has to become positive
@@ -133,12 +133,12 @@ replace("-angle", "abs(angle)")
 replace("-speed", "abs(speed)")
 # %% 02.2 wrong: a new header | hint: The time stamp is 0
 replace("header=message.header, name", "name")
-# %% 02.2 wrong: the present time as the stamp | hint: The time stamp is different from
+# %% 02.2 wrong: the present time as the stamp | hint: The time stamp differs from
 replace("JointState(header=message.header, name=message.name)", """JointState(name=message.name)
         image.header.stamp = rospy.Time.now()""")
-# %% 02.2 wrong: no names | hint: The names are missing
+# %% 02.2 wrong: no names | hint: The names of the joints
 replace("header, name=message.name", "header")
-# %% 02.2 wrong: a publisher in the callback | hint: The target has no publisher when … not in the callback
+# %% 02.2 wrong: a publisher in the callback | hint: The topic `target` has no … not in the callback
 replace("publisher = … (message):", "def show(message):\n        publisher = rospy.Publisher(target, JointState, queue_size=10)")
 # %% 02.2 wrong: waits for one message | hint: The function does not return. Return
 replace("def show(message):", "while not rospy.is_shutdown():\n        message = rospy.wait_for_message(source, JointState)")
@@ -147,12 +147,12 @@ replace("\n\n    return rospy.Subscriber(source, JointState, show)", "")
 replace("publisher.publish(image)", "publisher.publish(image)\n        subscriber.unregister()")
 replace("return rospy", "subscriber = rospy")
 replace("(source, JointState, show)", "(source, JointState, show)\n    return subscriber")
-# %% 02.2 wrong: drops all messages but the newest | hint: Some messages are missing. Don't pause
+# %% 02.2 wrong: drops all messages but the newest | hint: Some messages are missing. Do
 replace("def show(message):", "def show(message):\n        time.sleep(0.1)")
 replace("JointState, show", "JointState, show, queue_size=1")
-# %% 02.2 wrong: a pause in the callback | hint: Some messages are missing. Don't pause
+# %% 02.2 wrong: a pause in the callback | hint: Some messages are missing. Do
 replace("def show(message):", "def show(message):\n        time.sleep(0.1)")
-# %% 02.2 wrong: publishes too late | hint: The messages are late
+# %% 02.2 wrong: publishes too late | hint: The mirrored messages are late.
 replace("(source, target):", "(source, target):\n    import queue\n")
 replace("10)", "10)\n    images = queue.SimpleQueue()")
 replace("publisher.publish(image)", "images.put((time.monotonic() + 0.4, image))")
@@ -164,18 +164,18 @@ replace("    return", """    def speak():
 
     threading.Thread(target=speak, daemon=True).start()
     return""")
-# %% 02.2 wrong: publishes each message twice | hint: Publish in the callback, once for each message
+# %% 02.2 wrong: publishes each message twice | hint: Some messages were published more
 replace("publisher.publish(image)", "publisher.publish(image)\n        publisher.publish(image)")
-# %% 02.2 wrong: changes the received message | hint: You changed the received message, so
+# %% 02.2 wrong: changes the received message | hint: Your callback changed the received
 replace("\n        image = JointState(header=message.header, name=message.name)", "")
 replace("image.position", "message.position")
 replace("image.velocity", "message.velocity")
 replace("image", "message")
-# %% 02.2 wrong: returns nothing | hint: so that the caller can unregister it
+# %% 02.2 wrong: returns nothing | hint: Return the rospy.Subscriber object. The
 replace("return rospy", "rospy")
-# %% 02.2 wrong: publishes nothing | hint: Nothing arrived. Subscribe to the source
+# %% 02.2 wrong: publishes nothing | hint: No message arrived. Publish in
 replace("publisher.publish(image)", "return image")
-# %% 02.2 wrong: source and target exchanged | hint: The target has no publisher when start_mirror() has returned
+# %% 02.2 wrong: source and target exchanged | hint: The topic `target` has no
 replace("publisher = … JointState, show)", """publisher = rospy.Publisher(source, JointState, queue_size=10)
     return rospy.Subscriber(target, JointState, lambda message: publisher.publish(message))""")
 
@@ -193,16 +193,16 @@ def start_mirror(source, target):
     publisher = rospy.Publisher(target, JointState, queue_size=None)
     return rospy.Subscriber(source, JointState, show, callback_args=publisher)
 
-# %% 02.2 wrong: copies only the time stamp of the header | hint: A header also has a frame_id
+# %% 02.2 wrong: copies only the time stamp of the header | hint: The `frame_id` in the header
 replace("(header=message.header, name=message.name)", "(name=message.name)\n        image.header.stamp = message.header.stamp")
-# %% 02.2 wrong: the names sorted | hint: Keep the order of the names,
+# %% 02.2 wrong: the names sorted | hint: The names are wrong, or
 replace("message.name", "sorted(message.name)")
-# %% 02.2 wrong: subscribes to the target | hint: Nothing arrived. Subscribe to the source
+# %% 02.2 wrong: subscribes to the target | hint: No message arrived. Publish in
 replace("Subscriber(source", "Subscriber(target")
-# %% 02.2 wrong: position and velocity interchanged | hint: These are the numbers of the field
+# %% 02.2 wrong: position and velocity interchanged | hint: Your message contains the numbers
 replace("angle in message.position", "angle in message.velocity")
 replace("speed in message.velocity", "speed in message.position")
-# %% 02.2 wrong: subtracts the angles from pi | hint: Change the sign of each number, and nothing else
+# %% 02.2 wrong: subtracts the angles from pi | hint: Change only the sign of
 replace("[-angle", "[3.14159 - angle")
 
 # %% 02.3 right: compares with the value before
@@ -229,25 +229,25 @@ class Notice:
         self.last = (value,)
         self.pub.publish(Float64(data=value))
 
-# %% 02.3 wrong: not latched | hint: Nothing arrived. Create the publisher with latch=True
+# %% 02.3 wrong: not latched | hint: No value arrived. Create the
 replace("10, latch=True", "10")
-# %% 02.3 wrong: waits for a subscriber instead of latching | hint: Don't wait in set()
+# %% 02.3 wrong: waits for a subscriber instead of latching | hint: Do not wait in set().
 replace("10, latch=True", "10")
 replace("self.publisher.publish(value)", "wait_until(self.publisher.get_num_connections, 0.8)\n            self.publisher.publish(value)")
-# %% 02.3 wrong: waits for a subscriber and latches | hint: Don't wait in set()
+# %% 02.3 wrong: waits for a subscriber and latches | hint: Do not wait in set().
 replace("self.publisher.publish(value)", "wait_until(self.publisher.get_num_connections, 0.5)\n            self.publisher.publish(value)")
 # %% 02.3 wrong: publishes each time | hint: The same value was published again.
 replace("if value != self.value:", "if True:")
-# %% 02.3 wrong: starts with 0 | hint: The first value was not published,
+# %% 02.3 wrong: starts with 0 | hint: The first value was 0
 replace("None", "0.0")
-# %% 02.3 wrong: tests the truth value of the number | hint: The first value was not published,
+# %% 02.3 wrong: tests the truth value of the number | hint: The first value was 0
 replace("if value != self.value:", "if value and value != self.value:")
 # %% 02.3 wrong: an endless loop | hint: set() does not return
 replace("""self.publisher = rospy.Publisher(topic, Float64, queue_size=10, latch=True)
         self.value = None""", "self.publisher = rospy.Publisher(topic, Float64, queue_size=1)")
 replace("if value != self.value:\n            self.value = value", "pace = rospy.Rate(10)\n        while not rospy.is_shutdown():")
 replace("(value)", "(value)\n            pace.sleep()")
-# %% 02.3 wrong: a thread publishes it again and again | hint: A value is published again and again
+# %% 02.3 wrong: a thread publishes it again and again | hint: The same value is published
 replace("10, latch=True", "1")
 replace("= None", """= None
         threading.Thread(target=self.repeat, daemon=True).start()
@@ -258,7 +258,7 @@ replace("= None", """= None
                 self.publisher.publish(self.value)
             time.sleep(0.05)""")
 replace("if value != self.value:\n            self.value = value\n            self.publisher.publish(value)", "self.value = value")
-# %% 02.3 wrong: unregisters the publisher | hint: Create a rospy.Publisher for the topic that Notice()
+# %% 02.3 wrong: unregisters the publisher | hint: Create a rospy.Publisher for the given topic, and do not
 replace("self.publisher = rospy.Publisher(topic, Float64, queue_size=10, latch=True)\n        self.value = None", "self.topic = topic")
 replace("if value ! … publish(value)", """publisher = rospy.Publisher(self.topic, Float64, queue_size=1, latch=True)
         publisher.publish(value)
@@ -283,7 +283,7 @@ replace("self.publisher = rospy.Publisher(topic, Float64, queue_size=10, latch=T
         for value in self.values:
             peer_publish(Float64(value))""")
 replace("\n        if value ! … publish(value)", "\n        self.values.append(value)\n        self.publisher.publish(value)")
-# %% 02.3 wrong: rounds the value | hint: This is not the value that was set
+# %% 02.3 wrong: rounds the value | hint: The published value is not
 replace("publish(value)", "publish(round(value))")
 
 # %% 02.4 right: two lambdas
@@ -325,7 +325,7 @@ replace("prepare(message.data)", "prepare(message.data), queue_size=1")
 # %% 02.4 wrong: ten orders may wait | hint: Some orders were lost. Up to twenty
 replace("prepare(message.data)", "prepare(message.data), queue_size=10")
 replace("lambda message: prepare", "lambda message: time.sleep(0.02) or prepare")
-# %% 02.4 wrong: a thread for each angle | hint: Two calls ran at the same time
+# %% 02.4 wrong: a thread for each angle | hint: Two calls of this function
 replace("(angles, draw, orders, prepare):", """(angles, draw, orders, prepare):
     def on_angle(message):
         threading.Thread(target=draw, args=[message.data], daemon=True).start()
@@ -357,7 +357,7 @@ replace("draw(message.data),", "(draw(message.data), draw(message.data)),")
 # %% 02.4 wrong: prepares each order twice | hint: An order was prepared twice
 replace("prepare(message.data)", "(prepare(message.data), prepare(message.data))")
 
-# %% 02.4 wrong: the newest order first | hint: The orders were not prepared in
+# %% 02.4 wrong: the newest order first | hint: The orders were prepared in
 def start_robot(angles, draw, orders, prepare):
     waiting = []
 
@@ -383,12 +383,12 @@ def start_robot(angles, draw, orders, prepare):
 replace("Subscriber(angles", 'Subscriber("/angle"')
 # %% 02.4 wrong: another type for the orders | hint: for the topic whose name is in `orders`
 replace("UInt32", "Float64")
-# %% 02.4 wrong: replaces draw by a method of its own | hint: draw() was not called. Call it
+# %% 02.4 wrong: replaces draw by a method of its own | hint: draw() was not called. Call
 replace("(angles, draw, orders, prepare):", """(angles, draw, orders, prepare):
     type(draw).__call__ = lambda self, value: time.sleep(0.25)""")
-# %% 02.4 wrong: does not call draw | hint: draw() was not called. Call it
+# %% 02.4 wrong: does not call draw | hint: draw() was not called. Call
 replace("draw(message.data)", "draw")
-# %% 02.4 wrong: does not call prepare | hint: prepare() was not called. Call it
+# %% 02.4 wrong: does not call prepare | hint: prepare() was not called. Call
 replace("prepare(message.data)", "prepare")
 # %% 02.4 wrong: rounds the angle | hint: draw() got an angle that was
 replace("draw(message.data)", "draw(round(message.data))")
@@ -421,7 +421,7 @@ replace("self.last = None", "self.heard = False")
 replace("self.last = time.monotonic()", "self.heard = True")
 replace("self.last is None", "not self.heard")
 replace("time.monotonic() - self.last <= 1.0", "self.subscriber.get_num_connections()")
-# %% 02.5 wrong: waits for a message in state() | hint: Don't wait for a message in state()
+# %% 02.5 wrong: waits for a message in state() | hint: Do not wait for a
 replace("self.last = None\n        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)", """self.topic = topic
         self.heard = False""")
 replace("last = time.monotonic()", "heard = True")
@@ -431,10 +431,10 @@ replace('if self.last … else "ended"', '''try:
             return "ended" if self.heard else "waiting"
         self.heard = True
         return "running"''')
-# %% 02.5 wrong: "ended" before the first message | hint: The stream has not begun
+# %% 02.5 wrong: "ended" before the first message | hint: so the stream cannot have ended
 replace("self.last = None", "self.last = 0")
 replace('\n        if self.last is None:\n            return "waiting"', "")
-# %% 02.5 wrong: "running" before the first message | hint: No message has arrived yet
+# %% 02.5 wrong: "running" before the first message | hint: Return "waiting", not
 replace("self.last = None", "self.last = time.monotonic()")
 replace('\n        if self.last is None:\n            return "waiting"', "")
 # %% 02.5 wrong: a limit of a quarter of a second | hint: The last message arrived half a
@@ -451,7 +451,7 @@ replace('\n        return "running" if time.monotonic() - self.last <= 1.0 else 
 replace('"ended"', '"waiting"')
 # %% 02.5 wrong: compares with None before the first message | hint: Before the first message, no time
 replace('if self.last … else "ended"', 'if time.monotonic() - self.last <= 1.0:\n            return "running"\n        return "ended"')
-# %% 02.5 wrong: subscribes in state() | hint: for the topic, of type UInt32, in __init__
+# %% 02.5 wrong: subscribes in state() | hint: In `__init__`, create a rospy.Subscriber
 replace("def __init__(self, topic):", "def __init__(self, topic):\n        self.topic = topic")
 replace("\n        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)", "")
 replace("(self):", "(self):\n        rospy.Subscriber(self.topic, UInt32, self.hear)")
@@ -464,7 +464,7 @@ replace("self.last", "last")
 # %% 02.5 wrong: with capital letters | hint: Write the string exactly as in the exercise
 replace('return "waiting"\n        return "running" if time.monotonic() - self.last <= 1.0 else "ended"', '''return "Waiting"
         return "Running" if time.monotonic() - self.last <= 1.0 else "Ended"''')
-# %% 02.5 wrong: another type | hint: for the topic, of type UInt32, in __init__
+# %% 02.5 wrong: another type | hint: In `__init__`, create a rospy.Subscriber
 replace("UInt32", "Float64")
 
 # %% 02.5 right: a timer that changes the state
@@ -490,11 +490,11 @@ class Watch:
 
 # %% 02.5 wrong: a number for each state | hint: Return one of the three strings
 replace('return "waiting"', "return 0")
-# %% 02.5 wrong: waits for the first message | hint: state() waits for a message. Subscribe
+# %% 02.5 wrong: waits for the first message | hint: state() waits for a message.
 replace('if self.last is None:\n            return "waiting"', "while self.last is None:\n            time.sleep(0.01)")
 # %% 02.5 wrong: the time in a local variable | hint: Messages arrived before the first call of state()
 replace("self.last = time", "last = time")
-# %% 02.5 wrong: ends 1.2 s late | hint: No message has arrived for more than a second
+# %% 02.5 wrong: ends 1.2 s late | hint: No message has arrived for
 replace("<= 1.0", "<= 2.2")
 
 # %% 02.1 wrong: publishes nothing without a subscriber | hint: publish all numbers at the given rate
@@ -506,7 +506,7 @@ replace("\n    wait_until(publisher.get_num_connections, 2.0)\n    pace = rospy.
         time.sleep(0.005)
     pause = rospy.Rate(rate)""")
 replace("pace.", "pause.")
-# %% 02.1 wrong: pauses that are too short | hint: The pauses are shorter than 1 / rate.
+# %% 02.1 wrong: pauses that are too short | hint: The pauses between the numbers
 based_on("time.sleep in place of a rate")
 replace("sleep(1 / rate)", "sleep(0.8 / rate)")
 # %% 02.1 wrong: publishes nothing without a subscriber, but waits as long | hint: Without a subscriber, wait 2 s, and then
@@ -522,7 +522,7 @@ replace("\n        if value != self.value:\n            self.value = value\n    
 # %% 02.3 wrong: leaves out small changes | hint: A changed value was not published
 based_on("compares by truth")
 replace("self.last and self.last == value", "self.last is not None and abs(value - self.last) <= 0.1")
-# %% 02.3 wrong: all objects share the last value | hint: if it is stored in the class
+# %% 02.3 wrong: all objects share the last value | hint: No value arrived. Create the
 based_on("compares by truth")
 replace("        self.last = None\n", "")
 replace("class Notice:\n", "class Notice:\n    last = [None]\n\n")
@@ -535,5 +535,5 @@ replace("\n    ]", "\n    ][::-1]")
 # %% 02.2 wrong: returns the publisher | hint: Return the rospy.Subscriber
 replace("return rospy", "rospy")
 replace("show)", "show)\n    return publisher")
-# %% 02.2 wrong: another subscriber is returned | hint: Return the rospy.Subscriber, so that the caller
+# %% 02.2 wrong: another subscriber is returned | hint: Return the rospy.Subscriber object. The
 replace("return rospy.Subscriber(source, JointState, show)", "rospy.Subscriber(source, JointState, show)\n    return rospy.Subscriber(source, JointState, str)")

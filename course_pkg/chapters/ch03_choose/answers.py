@@ -33,14 +33,14 @@ def poll(service, seconds, rate):
             return None
         time.sleep(min(rest, 1 / rate))
 
-# %% 03.1 wrong: polls without a pause | hint: There were too many calls
+# %% 03.1 wrong: polls without a pause | hint: poll() made too many calls
 replace("\n        time.sleep(1 / rate)", "")
-# %% 03.1 wrong: polls without a limit | hint: poll() continues after the time is over
+# %% 03.1 wrong: polls without a limit | hint: poll() continues after the end
 replace("end = time.monotonic() + seconds\n    while time.monotonic() < end:", "while True:")
 replace("\n    return None", "")
-# %% 03.1 wrong: uses the rate as the pause | hint: Pause 1 / rate seconds between two calls
+# %% 03.1 wrong: uses the rate as the pause | hint: Pause for 1 / rate
 replace("1 / rate", "rate")
-# %% 03.1 wrong: counts polls instead of seconds | hint: do not count calls
+# %% 03.1 wrong: counts polls instead of seconds | hint: Each call also takes time
 replace("    end = time.monotonic() + seconds\n    while time.monotonic() < end:", "    for _ in range(int(seconds * rate)):")
 # %% 03.1 wrong: makes the server wait | hint: With this value of `patience`, the
 replace("end = time … return None", """answer = rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=seconds)
@@ -51,34 +51,34 @@ replace("patience=seconds", "patience=0")
 # %% 03.1 wrong: pauses first | hint: A customer was there, but poll()
 replace("end:", "end:\n        time.sleep(1 / rate)")
 replace("return answer.number\n        time.sleep(1 / rate)", "return answer.number")
-# %% 03.1 wrong: returns True | hint: This is the value of the
+# %% 03.1 wrong: returns True | hint: poll() returned the value of
 replace("return answer.number", "return True")
-# %% 03.1 wrong: returns the whole response | hint: This is the whole response
+# %% 03.1 wrong: returns the whole response | hint: poll() returned the whole response.
 replace("answer.number", "answer")
-# %% 03.1 wrong: 0 if there is no customer | hint: Without a customer, the field `number`
+# %% 03.1 wrong: 0 if there is no customer | hint: If no customer is there
 replace("return None", "return answer.number")
-# %% 03.1 wrong: calls a second time for the number | hint: poll() called again, although the first
+# %% 03.1 wrong: calls a second time for the number | hint: poll() made another call, although
 replace("return answer.number", "return rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=0).number")
 # %% 03.1 wrong: forgets to return | hint: poll() returned None, although a customer was there
 replace("return answer.number", "break")
 replace("\n    return None", "")
-# %% 03.1 wrong: a fixed pause | hint: so customers wait longer
+# %% 03.1 wrong: a fixed pause | hint: so customers have to wait longer
 replace("1 / rate", "0.5")
 # %% 03.1 wrong: an error when the time is over | hint: No customer came, but poll() raised
 replace("return None", 'raise TimeoutError("nobody came")')
-# %% 03.1 wrong: a pause of two seconds | hint: poll() made too few calls
+# %% 03.1 wrong: a pause of two seconds | hint: poll() called the service too rarely
 replace("1 / rate", "2")
-# %% 03.1 wrong: False if there is no customer | hint: so the result has to be None
+# %% 03.1 wrong: False if there is no customer | hint: No customer came. Return None
 replace("return None", "return False")
-# %% 03.1 wrong: polls for one second | hint: poll() stopped before `seconds` were over.
+# %% 03.1 wrong: polls for one second | hint: poll() returned before the time
 replace("+ seconds", "+ 1")
-# %% 03.1 wrong: a field of the response in the request | hint: The request has no such field
+# %% 03.1 wrong: a field of the response in the request | hint: The request has no field with
 replace("after=0", "number=0")
 # %% 03.1 wrong: a fixed service name | hint: poll() did not call the given
 replace("ServiceProxy(service", 'ServiceProxy("/detect_customer"')
 # %% 03.1 wrong: only customers after the first | hint: With this value of `after`, the
 replace("after=0", "after=1")
-# %% 03.1 wrong: 1 for a customer | hint: This is not the number from
+# %% 03.1 wrong: 1 for a customer | hint: poll() returned a different number
 replace("return answer.number", "return 1")
 
 # %% 03.2 right: a set of the greeted customers
@@ -94,7 +94,7 @@ def start_greeting(customers, greetings):
 
     rospy.Subscriber(customers, UInt32, greet)
 
-# %% 03.2 wrong: only numbers above the last one | hint: The numbers come in any order
+# %% 03.2 wrong: only numbers above the last one | hint: A customer was not greeted
 class Greeter:
     def __init__(self, greetings):
         self.last = 0
@@ -129,7 +129,7 @@ def start_greeting(customers, greetings):
     threading.Thread(target=work, daemon=True).start()
     rospy.Subscriber(customers, UInt32, lambda message: waiting.put(message.data))
 
-# %% 03.2 wrong: a queue of one | hint: Messages that came during a greeting
+# %% 03.2 wrong: a queue of one | hint: Some messages arrived during a
 replace("rospy.Subscriber(customers, UInt32, greet", "rospy.Subscriber(customers, UInt32, greet, queue_size=1")
 # %% 03.2 wrong: greets twice | hint: Store the greeted numbers in a set
 replace("\n            greeted.add(message.data)", "")
@@ -137,7 +137,7 @@ replace("\n            greeted.add(message.data)", "")
 replace("greeted = set()", "before = [0]")
 replace("not in greeted", "!= before[0]")
 replace("greeted.add(message.data)", "before[0] = message.data")
-# %% 03.2 wrong: a publisher for each greeting | hint: There is no publisher before the first customer comes
+# %% 03.2 wrong: a publisher for each greeting | hint: The first greeting is lost
 replace("\n    publisher = rospy.Publisher(greetings, UInt32, queue_size=10)", "")
 replace("publisher", "rospy.Publisher(greetings, UInt32, queue_size=10)")
 # %% 03.2 wrong: does not return | hint: start_greeting() does not return
@@ -145,14 +145,14 @@ replace("greeted = set … UInt32, greet)", """while True:
         message = rospy.wait_for_message(customers, UInt32)
         say_good_day(message.data)
         publisher.publish(message.data)""")
-# %% 03.2 wrong: publishes before the greeting | hint: Call say_good_day(number) first
+# %% 03.2 wrong: publishes before the greeting | hint: The number was published before
 replace("add(message.data)", "add(message.data)\n            publisher.publish(message.data)")
 replace("            publisher.publish(message.data)\n\n", "")
-# %% 03.2 wrong: does not greet | hint: Call say_good_day(number) first
+# %% 03.2 wrong: does not greet | hint: The number was published before
 replace("\n            say_good_day(message.data)", "")
 # %% 03.2 wrong: a fixed topic | hint: No node is subscribed to the topic
 replace("greeted = set … UInt32, greet)", 'rospy.Subscriber("/customers", UInt32, publisher.publish)')
-# %% 03.2 wrong: the two topics exchanged | hint: The function publishes on `customers`
+# %% 03.2 wrong: the two topics exchanged | hint: Your function publishes on `customers`
 based_on("a fixed topic")
 replace("greetings, UInt32", "customers, UInt32")
 replace('"/customers"', "greetings")
@@ -161,9 +161,9 @@ replace("publish(message.data)", "publish(len(greeted))")
 # %% 03.2 wrong: another type | hint: Publish the topic with the type
 replace("def start_greeting", "from std_msgs.msg import Int32\n\n\ndef start_greeting")
 replace("greetings, UInt32", "greetings, Int32")
-# %% 03.2 wrong: an error in the callback | hint: No greeting was published. Look for
+# %% 03.2 wrong: an error in the callback | hint: No greeting was published. Look
 replace("message.data", "message.number", times=4)
-# %% 03.2 wrong: greets the last customer first | hint: The order is wrong. Greet
+# %% 03.2 wrong: greets the last customer first | hint: The order of the greetings
 based_on("a queue, and a thread that greets")
 replace("queue.Queue()", "queue.LifoQueue()")
 # %% 03.2 wrong: a thread for each greeting | hint: Two greetings ran at the same time
@@ -195,22 +195,22 @@ mistakes.update(zip("ABC", ["polls too rarely", "polls too often", "topic withou
 # %% 03.3 wrong: A and B exchanged | hint: A client that polls too often … as long as the pause between two calls
 replace('"A": "polls too rarely"', '"A": "polls too often"')
 replace('"B": "polls too often"', '"B": "polls too rarely"')
-# %% 03.3 wrong: rare polling for frequent polling | hint: A client that polls too rarely … Nearly all of the calls return
+# %% 03.3 wrong: rare polling for frequent polling | hint: A client that polls too rarely … Nearly all calls return no
 replace('"polls too often"', '"polls too rarely"')
-# %% 03.3 wrong: C and D exchanged | hint: Regular messages show a subscriber … before the tablet subscribed
+# %% 03.3 wrong: C and D exchanged | hint: With regular messages, a subscriber … before the tablet subscribed
 replace('"C": "topic without latch"', '"C": "no regular messages"')
 replace('"D": "no regular messages"', '"D": "topic without latch"')
-# %% 03.3 wrong: a latch for the sensor | hint: A missing latch affects a subscriber … a broken sensor from a free road
+# %% 03.3 wrong: a latch for the sensor | hint: Without a latch, a subscriber … The subscriber sees no difference
 replace('"no regular messages"', '"topic without latch"')
-# %% 03.3 wrong: a stream for the control loop | hint: If a node needs only one … The thread that steers the robot
+# %% 03.3 wrong: a stream for the control loop | hint: If a node needs only one … While the robot's control thread
 replace('"waits in the control loop"', '"stream for one value"')
-# %% 03.3 wrong: a wait for the stream | hint: A wait in a control loop … Nearly all of the messages are
+# %% 03.3 wrong: a wait for the stream | hint: A program that waits in … The node receives many messages
 replace('"stream for one value"', '"waits in the control loop"')
 # %% 03.3 wrong: a case left out | hint: A case is missing
 replace('\n    "F": "stream for one value",', "")
-# %% 03.3 wrong: small letters | hint: as strings with capital letters
+# %% 03.3 wrong: small letters | hint: Some keys are wrong. Use
 replace('"A"', '"a"')
-# %% 03.3 wrong: other words | hint: Copy the names exactly from the
+# %% 03.3 wrong: other words | hint: The name of a mistake
 replace('"polls too rarely"', '"too slow"')
 
 # %% 03.4 right: six decisions
@@ -233,37 +233,37 @@ decisions = {
     "free space on disk": ["service", "answer"],
 }
 
-# %% 03.4 wrong: a service for the wheel speed | hint: A client would make fifty calls per second
+# %% 03.4 wrong: a service for the wheel speed | hint: With a service, the client would make
 replace('"topic", "newest"', '"service", "newest"')
-# %% 03.4 wrong: a topic for the gripper | hint: The gripper may be blocked
+# %% 03.4 wrong: a topic for the gripper | hint: The gripper can be blocked
 replace('"service", "answer"', '"topic", "answer"')
-# %% 03.4 wrong: a service for the obstacle | hint: The node of the bumper would
+# %% 03.4 wrong: a service for the obstacle | hint: With a service, the bumper's
 replace('"topic", "many"', '"service", "answer"')
-# %% 03.4 wrong: a service for tidying the room | hint: The client would wait for half an hour
+# %% 03.4 wrong: a service for tidying the room | hint: With a service, the client would wait
 replace('"action", "long"', '"service", "answer"')
 # %% 03.4 wrong: a topic for tidying the room | hint: With a topic, the sender gets
 replace('"action", "long"', '"topic", "newest"')
-# %% 03.4 wrong: a topic for the disk | hint: The number would be published all day
+# %% 03.4 wrong: a topic for the disk | hint: With a topic, the number
 replace('disk": ("service", "seldom")', 'disk": ("topic", "newest")')
 # %% 03.4 wrong: an action for the disk | hint: This job takes only a moment.
 replace('disk": ("service", "seldom")', 'disk": ("action", "answer")')
-# %% 03.4 wrong: a right decision for a wrong reason | hint: This reason does not fit: here, only
+# %% 03.4 wrong: a right decision for a wrong reason | hint: in this job, only one
 replace('"service", "answer"', '"service", "many"')
-# %% 03.4 wrong: an answer as the reason for a topic | hint: This reason does not fit: here, the
+# %% 03.4 wrong: an answer as the reason for a topic | hint: in this job, the node
 replace('"topic", "many"', '"topic", "answer"')
-# %% 03.4 wrong: the newest state of the gripper | hint: This reason does not fit: here, new
+# %% 03.4 wrong: the newest state of the gripper | hint: in this job, new values
 replace('"service", "answer"', '"service", "newest"')
-# %% 03.4 wrong: the gripper is seldom used | hint: This reason does not fit: here, either
+# %% 03.4 wrong: the gripper is seldom used | hint: in this job, the data
 replace('"service", "answer"', '"service", "seldom"')
-# %% 03.4 wrong: the disk takes long | hint: the work does not take long here
+# %% 03.4 wrong: the disk takes long | hint: in this job, the work
 replace('disk": ("service", "seldom")', 'disk": ("service", "long")')
-# %% 03.4 wrong: a latched wheel speed | hint: This reason does not fit: an
+# %% 03.4 wrong: a latched wheel speed | hint: in this job, a node
 replace('"topic", "newest"', '"topic", "latched"')
 # %% 03.4 wrong: no reasons | hint: The reason is missing
 replace('("topic", "newest")', '"topic"')
 # %% 03.4 wrong: the reason first | hint: Write the design first
 replace('"topic", "newest"', '"newest", "topic"')
-# %% 03.4 wrong: one job left out | hint: The keys are the names of
+# %% 03.4 wrong: one job left out | hint: The keys have to be
 replace('\n    "free space on disk": ("service", "seldom"),', "")
 # %% 03.4 wrong: a list of triples | hint: Write a dict, which has braces
 replace("decisions = … }", 'decisions = [\n    ("wheel speed", "topic", "newest"),\n    ("open the gripper", "service", "answer"),\n]')

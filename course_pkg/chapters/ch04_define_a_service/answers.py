@@ -35,34 +35,34 @@ replace("float32[] seconds", "float32 seconds[]")
 replace("\n# What the lamp is to do.", "")
 replace("""
 uint8 mode … float32 total""", "uint8 mode\nstd_msgs/ColorRGBA colour\nfloat64[] seconds\n---\nbool success\nfloat64[3] rgb\nfloat64 total")
-# %% 04.1 wrong: a fixed length for an array of any length | hint: has a fixed length here. For
+# %% 04.1 wrong: a fixed length for an array of any length | hint: has a fixed length in
 replace("[]", "[3]")
-# %% 04.1 wrong: any length for an array of fixed length | hint: rgb … can have any length here. For … float32[3]
+# %% 04.1 wrong: any length for an array of fixed length | hint: rgb … can have any length in … float32[3]
 replace("[3]", "[]")
-# %% 04.1 wrong: one value for an array | hint: is one value here. An array
+# %% 04.1 wrong: one value for an array | hint: is a single value in
 replace("float32[] seconds", "float32 seconds")
-# %% 04.1 wrong: the American spelling of colour | hint: Line 5: color should be colour … names are compared letter by letter
+# %% 04.1 wrong: the American spelling of colour | hint: Line 5: color should be colour … should be
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
 replace("\nuint8 mode", "uint8 mode")
 replace("colour", "color")
-# %% 04.1 wrong: in another order | hint: All fields are there, but in
+# %% 04.1 wrong: in another order | hint: All fields are there, but
 replace("uint8 mode\nstd_msgs/ColorRGBA colour", "std_msgs/ColorRGBA colour\nuint8 mode")
-# %% 04.1 wrong: the response above the line | hint: success … belongs to the response: write it
+# %% 04.1 wrong: the response above the line | hint: success … belongs to the response.
 replace("float32[] seconds", "float32[] seconds\nbool success")
 replace("---\nbool success", "---")
-# %% 04.1 wrong: the constants below the line | hint: OFF … belongs to the request: write it above the line
+# %% 04.1 wrong: the constants below the line | hint: OFF … belongs to the request.
 replace("\n# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2\n", "")
 replace("---", "---\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2")
 # %% 04.1 wrong: constants without values | hint: a constant needs a value. Write
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF\nuint8 ON\nuint8 BLINK")
 # %% 04.1 wrong: constants without a type | hint: Write it as in this example: int32 LIMIT=10
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "OFF=0\nON=1\nBLINK=2")
-# %% 04.1 wrong: counts from one | hint: differs from the description: … uint8 OFF=0
+# %% 04.1 wrong: counts from one | hint: is different from the … uint8 OFF=0
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF=1\nuint8 ON=2\nuint8 BLINK=3")
 # %% 04.1 wrong: one constant is missing | hint: Write each constant on a separate … uint8 BLINK=2
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
 replace("uint8 ON=1\nuint8 BLINK=2\n", "uint8 ON=1")
-# %% 04.1 wrong: a field is missing | hint: There is no field … total
+# %% 04.1 wrong: a field is missing | hint: is missing. Add this … total
 replace("float32[3] rgb\nfloat32 total", "float32[3] rgb")
 # %% 04.1 wrong: semicolons | hint: Write mode, with nothing after it
 based_on("constants between the fields, blanks and comments everywhere")
@@ -72,24 +72,24 @@ replace("# all went well\nbool success\nfloat32[3] rgb\n\nfloat32 total", "bool 
 replace("%%writefile … uint8 BLINK=2", "from pathlib import Path")
 replace("uint8 mode … float32 total", """Path("src/lamp_services/srv").mkdir(parents=True, exist_ok=True)
 Path("src/lamp_services/srv/Lamp.srv").write_text("\\ufeffuint8 OFF=0\\nuint8 ON=1\\n---\\nbool success\\n")""")
-# %% 04.1 wrong: tabs | hint: There is a tab between type
+# %% 04.1 wrong: tabs | hint: There is a tab between
 replace("# What the … [] seconds", "uint8\tOFF=0\nuint8\tON=1\nuint8\tBLINK=2\nuint8\tmode\nstd_msgs/ColorRGBA\tcolour\nfloat32[]\tseconds")
 replace(" success", "\tsuccess")
 replace("[3] rgb", "[3]\trgb")
 replace(" total", "\ttotal")
-# %% 04.1 wrong: the three dots are not replaced | hint: Remove the line with the three
+# %% 04.1 wrong: the three dots are not replaced | hint: Remove this line.
 replace("# What the lamp is to do.", "...")
 # %% 04.1 wrong: a field below the line | hint: Line 9: seconds … on the wrong side of the line … belongs to the request
 replace("float32[] seconds\n---", "---\nfloat32[] seconds")
 # %% 04.1 wrong: an additional field | hint: message … is not part of the … response
 replace("float32 total", "float32 total\nstring message")
-# %% 04.1 wrong: an array for one value | hint: total … is an array here, but the exercise needs one value
+# %% 04.1 wrong: an array for one value | hint: total … is an array in your
 replace("float32 total", "float32[] total")
-# %% 04.1 wrong: another type | hint: mode … has the wrong type here. … uint8
+# %% 04.1 wrong: another type | hint: mode … has the wrong type in … uint8
 replace("uint8 mode", "int32 mode")
-# %% 04.1 wrong: constants in another order | hint: All constants are there, but in
+# %% 04.1 wrong: constants in another order | hint: All constants are there, but
 replace("uint8 ON=1\nuint8 BLINK=2", "uint8 BLINK=2\nuint8 ON=1")
-# %% 04.1 wrong: another name for a constant | hint: FLASH … is not a constant of the
+# %% 04.1 wrong: another name for a constant | hint: FLASH … the description has no constant
 replace("BLINK", "FLASH")
 
 # %% 04.1 right: written by Python
@@ -134,17 +134,17 @@ def will_talk(server, client):
 # %% 04.2 wrong: the order does not matter | hint: The order of the fields
 based_on("the lines without comments and blanks")
 replace("[words for words in lines if words]", "sorted(words for words in lines if words)")
-# %% 04.2 wrong: forgets the line between the halves | hint: The line --- is important: it
+# %% 04.2 wrong: forgets the line between the halves | hint: One field has moved to
 based_on("the lines without comments and blanks")
 replace("if words", 'if words and words != ["---"]')
-# %% 04.2 wrong: the types only | hint: One letter of a name is
+# %% 04.2 wrong: the types only | hint: One letter of a field's
 based_on("the lines without comments and blanks")
 replace("words for", "words[0] for")
-# %% 04.2 wrong: the names only | hint: The types of the fields, with
+# %% 04.2 wrong: the names only | hint: The MD5 sum depends on the types
 based_on("the lines without comments and blanks")
 replace("words for", "words[-1] for")
 
-# %% 04.2 wrong: the fields only, without the constants | hint: The name and the value of
+# %% 04.2 wrong: the fields only, without the constants | hint: The value of a constant
 def will_talk(server, client):
     def fields(text):
         context = genmsg.MsgContext.create_default()
@@ -153,7 +153,7 @@ def will_talk(server, client):
 
     return fields(server) == fields(client)
 
-# %% 04.2 wrong: the request only | hint: Every field is part of the
+# %% 04.2 wrong: the request only | hint: One field is missing, so
 def will_talk(server, client):
     def md5(text):
         return md5_of(text.split("---")[0] + "---\n")
@@ -164,7 +164,7 @@ def will_talk(server, client):
 replace("return ", "")
 # %% 04.2 wrong: returns the MD5s | hint: Return True or False
 replace("md5_of(server) == md5_of(client)", "md5_of(server), md5_of(client)")
-# %% 04.2 wrong: always returns True | hint: One letter of a name is
+# %% 04.2 wrong: always returns True | hint: One letter of a field's
 replace("md5_of(server) == md5_of(client)", "True")
 
 # %% 04.2 wrong: compares the definitions as objects | hint: The two texts are equal, but
@@ -191,10 +191,10 @@ replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: another name | hint: Write the same name in
 replace("name>lamp_services", "name>lamps")
 replace("\n  <exec_depend>rospy</exec_depend>", "")
-# %% 04.3 wrong: the version as before | hint: Write it as in this example: 0.1.0
+# %% 04.3 wrong: the version as before | hint: Write the version as in
 replace("1.0.0", "1.0")
 replace("\n  <exec_depend>rospy</exec_depend>", "")
-# %% 04.3 wrong: run_depend as before | hint: Use buildtool_depend, build_depend
+# %% 04.3 wrong: run_depend as before | hint: Use the tags buildtool_depend, build_depend
 replace("exec_depend", "run_depend", times=6)
 # %% 04.3 wrong: catkin is not named | hint: Add <buildtool_depend>catkin</buildtool_depend>
 replace("\n  <buildtool_depend>catkin</buildtool_depend>", "")
@@ -216,7 +216,7 @@ replace("<build_depend>std_msgs … std_msgs</exec_depend>", "<exec_depend>messa
 replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: a blank line on top | hint: in the first column of the first line
 replace("<?xml", "\n<?xml")
-# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: for the same package
+# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: . Also add
 replace("exec_depend>std_msgs</exec_depend", "build_export_depend>std_msgs</build_export_depend")
 
 # %% 04.4 right: as in the chapter
@@ -268,11 +268,11 @@ replace("Lamp.srv", "lamp.srv")
 replace("generate_messages(DEPENDENCIES std_msgs)\n", "# generate_messages()")
 # %% 04.4 wrong: does not depend on std_msgs | hint: Write generate_messages(DEPENDENCIES std_msgs)
 replace("(DEPENDENCIES std_msgs)", "()")
-# %% 04.4 wrong: a bracket missing | hint: Write the missing )
+# %% 04.4 wrong: a bracket missing | hint: Write the missing closing parenthesis.
 replace("DEPENDENCIES std_msgs)", "DEPENDENCIES std_msgs")
 # %% 04.4 wrong: the other package's name | hint: Write the same name in
 replace("(lamp_services)", "(my_services)")
-# %% 04.4 wrong: removes the line that fails | hint: The command … catkin_package is missing … This command lets other packages find
+# %% 04.4 wrong: removes the line that fails | hint: The command … catkin_package is missing … Without this command, other packages
 replace("\n\ncatkin_package(CATKIN_DEPENDS message_runtime std_msgs)", "")
 # %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without this command, the build passes but
 replace("\nfind_package … message_runtime std_msgs)", "find_package(catkin REQUIRED COMPONENTS std_msgs)\ncatkin_package()")
@@ -283,13 +283,13 @@ replace("\nfind_package(catkin REQUIRED COMPONENTS message_generation std_msgs)\
 find_package(message_generation REQUIRED)
 find_package(std_msgs REQUIRED)""")
 replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)")
-# %% 04.4 wrong: in a condition | hint: and for an if() whose condition is false
+# %% 04.4 wrong: in a condition | hint: The file contains add_service_files and
 replace("generate_messages(DEPENDENCIES std_msgs)", "if(FALSE)\n  generate_messages(DEPENDENCIES std_msgs)\nendif()")
 # %% 04.4 wrong: in a block comment | hint: Look for a comment between #[[ and ]]
 replace("(lamp_services)\n", "(lamp_services)")
 replace("\nadd_service_files(FILES Lamp.srv)", "#[[\nadd_service_files(FILES Lamp.srv)")
 replace("(DEPENDENCIES std_msgs)\n", "(DEPENDENCIES std_msgs)\n]]")
-# %% 04.4 wrong: a loop that is not closed | hint: The end of the output may
+# %% 04.4 wrong: a loop that is not closed | hint: Look for the reason at
 replace("\ncatkin_package", "while(TRUE)\nendwhile()\ncatkin_package")
 
 # %% 04.4 right: rospy is named everywhere, and the program is installed
@@ -297,7 +297,7 @@ replace("message_generation std_msgs", "message_generation rospy std_msgs")
 replace("message_runtime std_msgs)", """message_runtime rospy std_msgs)
 
 catkin_install_python(PROGRAMS scripts/lamp_server.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})""")
-# %% 04.4 wrong: message_generation in catkin_package | hint: Only the build needs message_generation, but
+# %% 04.4 wrong: message_generation in catkin_package | hint: The build needs message_generation, but
 replace("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")
 
 # %% 04.5 right: in the style of the box server
@@ -341,7 +341,7 @@ if __name__ == "__main__":
 # %% 04.5 wrong: no shebang | hint: Without a shebang, Linux runs the
 replace("#!/usr/bin … .seconds))\n", "import rospy\nfrom lamp_services.srv import Lamp")
 replace("handle_lamp", "lambda request: (True, request.seconds, 0)")
-# %% 04.5 wrong: the shebang in the second line | hint: Linux finds the shebang only in
+# %% 04.5 wrong: the shebang in the second line | hint: The shebang is in the
 replace("#!/usr/bin/env python3", "\n#!/usr/bin/env python3")
 
 # %% 04.5 wrong: the run bit is missing | hint: chmod +x
@@ -351,23 +351,23 @@ script = Path("src/lamp_services/scripts/lamp_server.py")
 script.write_text("#!/usr/bin/env python3\nimport rospy\n")
 script.chmod(0o644)
 
-# %% 04.5 wrong: the types of the other package | hint: Your workspace has the type: import
+# %% 04.5 wrong: the types of the other package | hint: Your program imports the type
 replace("from lamp_services … .seconds))\n", "from my_services.srv import Lamp")
 replace("handle_lamp", "lambda request: (True, [0, 0, 0], 0)")
-# %% 04.5 wrong: the type in lower case | hint: Upper and lower case are different
+# %% 04.5 wrong: the type in lower case | hint: Compare {name} with the name
 replace("from lamp_services … .seconds))\n", "from lamp_services.srv import lamp")
 replace("Lamp, handle_lamp", "lamp, lambda request: (True, [0, 0, 0], 0)")
 # %% 04.5 wrong: does not wait | hint: The program ended, so its service
 based_on("no shebang")
 replace("import rospy", "#!/usr/bin/env python3\nimport rospy")
 replace("request.seconds, 0))\nrospy.spin()", "[0, 0, 0], 0))")
-# %% 04.5 wrong: another service name | hint: The program serves … /lamp_server … , but the exercise needs the
+# %% 04.5 wrong: another service name | hint: The program serves … /lamp_server … , but not /lamp. Change
 based_on("the type in lower case")
 replace("import lamp", "import Lamp")
 replace('"/lamp", lamp', '"/lamp_server", Lamp')
-# %% 04.5 wrong: serves nothing | hint: The program runs, but it serves
+# %% 04.5 wrong: serves nothing | hint: The program runs, but it
 replace("from lamp_services … handle_lamp)", 'from lamp_services.srv import Lamp\n\nrospy.init_node("lamp_server")')
-# %% 04.5 wrong: no node | hint: call rospy.init_node first
+# %% 04.5 wrong: no node | hint: A service needs a node.
 based_on("the type in lower case")
 replace("import lamp", "import Lamp")
 replace('rospy.init_node("lamp_server")\nrospy.Service("/lamp", lamp', 'rospy.Service("/lamp", Lamp')
@@ -382,41 +382,41 @@ replace(", LampRequest, LampResponse", "")
 replace("known = request … .seconds))\n", "request.mode in (0, 1, 2)")
 # %% 04.5 wrong: accepts any mode | hint: The mode is unknown, so success
 replace("success=known", "success=True")
-# %% 04.5 wrong: success is False for OFF | hint: This is one of the three
+# %% 04.5 wrong: success is False for OFF | hint: This mode is one of
 replace("""known = request.mode in (LampRequest.OFF, LampRequest.ON, LampRequest.BLINK)
     lit = known and request.mode != LampRequest.OFF""", "lit = request.mode in (1, 2)")
 replace("known", "lit")
-# %% 04.5 wrong: a colour when it is OFF | hint: the lamp shows no light
+# %% 04.5 wrong: a colour when it is OFF | hint: For OFF and for an
 replace(" if lit else [0, 0, 0]", "")
-# %% 04.5 wrong: forgets the colour | hint: A field without a value is 0. Set
+# %% 04.5 wrong: forgets the colour | hint: rgb is 0, because a
 replace("rgb=rgb, ", "")
-# %% 04.5 wrong: counts the seconds | hint: That is the number of values.
+# %% 04.5 wrong: counts the seconds | hint: total is the number of
 replace("total=sum", "total=len")
 # %% 04.5 wrong: returns the ColorRGBA object | hint: error processing request
 replace("rgb=rgb", "rgb=request.colour")
-# %% 04.5 wrong: four numbers, with alpha | hint: The field `rgb` needs three numbers
+# %% 04.5 wrong: four numbers, with alpha | hint: The field `rgb` needs a
 replace("colour.b]", "colour.b, colour.a]")
 # %% 04.5 wrong: the largest number in place of the sum | hint: Add up all values: sum(request.seconds).
 replace("total=sum", "total=max")
-# %% 04.5 wrong: refuses an unknown mode | hint: The handler refused an unknown mode
+# %% 04.5 wrong: refuses an unknown mode | hint: The handler refused a request
 replace("    lit = known", '    if not known:\n        raise rospy.ServiceException("no such mode")\n    lit = known')
 # %% 04.5 wrong: windows shebang | hint: The first line of the script
 replace("#!/usr/bin/env python3", "#!python3")
-# %% 04.5 wrong: the class of the request | hint: That is the class of the
+# %% 04.5 wrong: the class of the request | hint: Your program passed the class
 replace('"/lamp", Lamp,', '"/lamp", LampRequest,')
-# %% 04.5 wrong: imports the type from the package | hint: Import the type from lamp_services.srv
+# %% 04.5 wrong: imports the type from the package | hint: not from lamp_services itself
 replace("lamp_services.srv", "lamp_services")
 # %% 04.5 wrong: line ends of Windows | hint: The file has Windows line endings
 replace("python3", "python3\r")
 # %% 04.5 wrong: a byte order mark in front | hint: The file begins with an invisible character
 replace("#!", "\ufeff#!")
-# %% 04.5 wrong: python2 | hint: This shebang names the wrong program: write
+# %% 04.5 wrong: python2 | hint: The shebang names the wrong
 replace("python3", "python2")
-# %% 04.5 wrong: blue first | hint: Return red, green and blue in
+# %% 04.5 wrong: blue first | hint: The values in rgb are
 replace("[colour.r, colour.g, colour.b]", "[colour.b, colour.g, colour.r]")
-# %% 04.5 wrong: forgets the total | hint: Add up request.seconds
+# %% 04.5 wrong: forgets the total | hint: The total is 0, because
 replace(", total=sum(request.seconds)", "")
-# %% 04.5 wrong: dark for BLINK | hint: The lamp also shows its colour for BLINK
+# %% 04.5 wrong: dark for BLINK | hint: The mode is BLINK, but
 replace("request.mode != LampRequest.OFF", "request.mode == LampRequest.ON")
 # %% 04.5 wrong: a total only for a lamp that is lit | hint: The total is 0 for this
 replace("total=sum(request.seconds)", "total=sum(request.seconds) if lit else 0")

@@ -41,20 +41,20 @@ server = Server()
 # %% 05.1 right: a lambda
 replace("geometryResponse(area=area, volume=area * request.height)", "area, area * request.height")
 replace('("/getGeometry", geometry, handle_geometry)', '("/getGeometry", geometry, lambda request: handle_geometry(request))')
-# %% 05.1 wrong: a misspelt field | hint: The request has no field of this name
+# %% 05.1 wrong: a misspelt field | hint: The request has no field
 replace("request.width", "request.breadth")
 # %% 05.1 wrong: no parameter | hint: The handler has no parameter
 replace("handle_geometry(request):", "handle_geometry():")
 # %% 05.1 wrong: passes the result of a call | hint: Pass the name of the handler without
 replace("geometry, handle_geometry)", "geometry, handle_geometry(geometry._request_class()))")
-# %% 05.1 wrong: never creates the service | hint: Run the cell that creates this service
+# %% 05.1 wrong: never creates the service | hint: The service does not exist.
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', "None")
-# %% 05.1 wrong: adds instead of multiplying | hint: This is width + length
+# %% 05.1 wrong: adds instead of multiplying | hint: Your area is width +
 replace("width * request", "width + request")
 # %% 05.1 wrong: area of the front instead of the floor | hint: the area of the front
 replace("length", "height")
 replace("(area=area, volume=area * request.height)", "(area=area, volume=area * request.length)")
-# %% 05.1 wrong: volume first | hint: This is the volume. In the
+# %% 05.1 wrong: volume first | hint: The field `area` contains the
 replace("geometryResponse(area=area, volume=area * request.height)", "area * request.height, area")
 # %% 05.1 wrong: forgets the volume | hint: The volume is 0
 replace("""area = request.width * request.length
@@ -62,12 +62,12 @@ replace("""area = request.width * request.length
 # %% 05.1 wrong: forgets to return | hint: None
 based_on("a response that is filled in later")
 replace("\n    return response", "")
-# %% 05.1 wrong: adds the height | hint: This is area + height
+# %% 05.1 wrong: adds the height | hint: Your volume is area +
 replace("area * request", "area + request")
 # %% 05.1 wrong: rounds | hint: The area is rounded
 replace("\n    area = request.width * request.length\n    return geometryResponse(area=area, volume=area * request.height)", """
     return round(request.width * request.length), round(request.width * request.length * request.height)""")
-# %% 05.1 wrong: area of all six sides | hint: Return the area of the floor of
+# %% 05.1 wrong: area of all six sides | hint: The area is wrong. Return
 replace("""area = request.width * request.length
     return geometryResponse(area=area, volume=area * request.height)""", """l, w, h = request.length, request.width, request.height
     return geometryResponse(area=2 * (l * w + l * h + w * h), volume=l * w * h)""")
@@ -84,9 +84,9 @@ class Geometer:
 
 geometry_service = rospy.Service("/getGeometry", geometry, Geometer().handle)
 
-# %% 05.1 wrong: a client in place of a server | hint: The cell has to create a … rospy.Service
+# %% 05.1 wrong: a client in place of a server | hint: The service does not exist. … rospy.Service
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'rospy.ServiceProxy("/getGeometry", geometry)')
-# %% 05.1 wrong: the program of the course serves | hint: Another program serves this name.
+# %% 05.1 wrong: the program of the course serves | hint: Another program serves the name
 import subprocess
 
 subprocess.Popen(["rosrun", "course_pkg", "server"])
@@ -124,15 +124,15 @@ replace("def __init__(self):\n        self.count = 0", """def __init__(self):
             rospy.Service("/reset_count", Empty, self.handle_reset),
         ]""")
 replace("\ncount_service … handle_reset)", "")
-# %% 05.2 wrong: forgets self | hint: The handler is a method without self
+# %% 05.2 wrong: forgets self | hint: The handler is a method
 replace("def handle_count(self, request):", "def handle_count(request):")
-# %% 05.2 wrong: an unbound local variable | hint: Python treats the name as a local variable … Your cell, line
+# %% 05.2 wrong: an unbound local variable | hint: The handler assigns a value … Your cell, line
 replace("self.count += 1", "count += 1")
 # %% 05.2 wrong: a name that does not exist | hint: The handler uses a name that does not exist
 replace("str(self.count)", "str(counted)")
-# %% 05.2 wrong: the reset returns nothing | hint: Return a response, even if it is empty
+# %% 05.2 wrong: the reset returns nothing | hint: The handler returned None. Return
 replace("self.count = 0\n        return EmptyResponse()", "self.count = 0")
-# %% 05.2 wrong: answers before it counts | hint: Add one before
+# %% 05.2 wrong: answers before it counts | hint: The message is 0 after
 replace("def handle_count(self, request):", "def handle_count(self, request):\n        before = self.count")
 replace("(self.count)", "(before)")
 # %% 05.2 wrong: the reset is forgotten | hint: The count continued after the reset.
@@ -140,7 +140,7 @@ replace("self.count = 0\n        return EmptyResponse()", "return EmptyResponse(
 # %% 05.2 wrong: counts in a local variable | hint: The message is 1 again. Store
 replace("self.count += 1", "count = 0\n        count += 1")
 replace("str(self.count)", "str(count)")
-# %% 05.2 wrong: leaves success out | hint: success is False: a bool field
+# %% 05.2 wrong: leaves success out | hint: success is False, because a
 replace("success=True, message", "message")
 # %% 05.2 wrong: wraps at 9 | hint: After 9, the message has only
 replace("self.count += 1", "self.count = self.count % 9 + 1")
@@ -152,7 +152,7 @@ replace("str(self.count)", 'f"{self.count} calls"')
 replace("str(self.count)", 'f"{self.count:02d}"')
 # %% 05.2 wrong: an int as the message | hint: Convert the count
 replace("str(self.count)", "self.count")
-# %% 05.2 wrong: leaves the message out | hint: The message is empty: a string field without a value is empty. Set it to the count.
+# %% 05.2 wrong: leaves the message out | hint: Set the message to the
 replace(", message=str(self.count)", "")
 
 # %% 05.2 right: functions, without the class
@@ -174,16 +174,16 @@ def handle_reset(request):
 count_service = rospy.Service("/count", Trigger, handle_count)
 reset_service = rospy.Service("/reset_count", Empty, handle_reset)
 
-# %% 05.2 wrong: starts from 1 | hint: Set its count to zero in __init__
+# %% 05.2 wrong: starts from 1 | hint: A new counter did not
 replace("def __init__(self):\n        self.count = 0", "def __init__(self):\n        self.count = 1")
-# %% 05.2 wrong: sets the count to 1 | hint: Set the count to zero, not to 1
+# %% 05.2 wrong: sets the count to 1 | hint: The first call after a
 replace("self.count = 0\n        return", "self.count = 1\n        return")
 # %% 05.2 wrong: the handlers of the two services exchanged | hint: The handler of /count returned an
 replace("Trigger, counter.handle_count", "Trigger, counter.handle_reset")
-# %% 05.2 wrong: one count for all objects | hint: and store it in self.
+# %% 05.2 wrong: one count for all objects | hint: A new counter did not
 replace("self.count", "Counter.count", times=4)
 replace("def __init__(self):\n        Counter.count = 0", "count = 0")
-# %% 05.2 wrong: a count for each client | hint: The calls of all clients have to change
+# %% 05.2 wrong: a count for each client | hint: Each client got a different
 replace("self.count = 0", "self.count = {}", times=2)
 replace("self.count += 1", 'client = request._connection_header["callerid"]\n        self.count[client] = self.count.get(client, 0) + 1')
 replace("str(self.count)", "str(self.count[client])")
@@ -235,7 +235,7 @@ replace("value < 0", "value <= 0")
 replace("raise rospy.ServiceException", "return rospy.ServiceException")
 # %% 05.3 wrong: returns the error message as text | hint: Do not return the exception
 replace('raise rospy.ServiceException(f"{side} is {value}, and a side cannot be negative")\n    ', 'return f"{side} is {value}"\n    ')
-# %% 05.3 wrong: compares without the fraction | hint: -0.5 is negative
+# %% 05.3 wrong: compares without the fraction | hint: The server measured a box
 replace("value < 0", "int(value) < 0")
 # %% 05.3 wrong: names the side, and not its value | hint: The message does not contain the value
 replace("{value}, and a side cannot be negative", "negative")
@@ -265,7 +265,7 @@ checked_service = rospy.Service("/getGeometryChecked", geometry, Checked())
 replace('f"{side} is {value}, and a side cannot be negative"', 'f"length is {request.length}, width is {request.width}, height is {request.height}"')
 # %% 05.3 wrong: forgets the f | hint: The message contains braces
 replace('f"{side}', '"{side}')
-# %% 05.3 wrong: many values | hint: The message contains many numbers.
+# %% 05.3 wrong: many values | hint: The message contains too many
 replace("{value}", "{[-number / 2 for number in range(100)]}")
 
 # %% 05.4 right: compares first
@@ -300,13 +300,13 @@ replace("moved", "request.data != self.on")
 # %% 05.4 wrong: the message is the old position | hint: Change the position first
 replace("(self, request):", '(self, request):\n        message = "on" if self.on else "off"')
 replace('message="on" if self.on else "off"', "message=message")
-# %% 05.4 wrong: the message is True or False | hint: The message is True or False
+# %% 05.4 wrong: the message is True or False | hint: The message is "True" or
 replace('"on" if self.on else "off"', "str(self.on)")
-# %% 05.4 wrong: leaves the message empty | hint: Set it to "on" or "off"
+# %% 05.4 wrong: leaves the message empty | hint: Set the message to "on"
 replace('"on" if self.on else "off"', '""')
 # %% 05.4 wrong: True switches off | hint: The field `data` is False, but
 replace("self.on = request.data", "self.on = not request.data")
-# %% 05.4 wrong: toggles in each call | hint: The switch was already in this
+# %% 05.4 wrong: toggles in each call | hint: The switch was already in
 replace("self.on = request.data", "self.on = not self.on")
 # %% 05.4 wrong: on at the start | hint: A new switch was not off.
 replace("False", "True")
@@ -314,10 +314,10 @@ replace("False", "True")
 replace("False", "None")
 # %% 05.4 wrong: the message is a sentence | hint: The message contains more than "on"
 replace('"on" if self.on else "off"', '"It is on" if self.on else "It is off"')
-# %% 05.4 wrong: one value for all switches | hint: they share one variable
+# %% 05.4 wrong: one value for all switches | hint: A new Switch() was on
 replace("    def __init__(self):\n        self.on = False", "    on = False")
 replace("self.on", "Switch.on", times=3)
-# %% 05.4 wrong: raises an error if nothing changes | hint: A request for the present position
+# %% 05.4 wrong: raises an error if nothing changes | hint: A request for the current
 replace("moved = request.data != self.on", 'if request.data == self.on:\n            raise rospy.ServiceException("already there")')
 replace("success=moved", "success=True")
 
@@ -370,15 +370,15 @@ if __name__ == "__main__":
     main()
 """
 
-# %% 05.5 wrong: no first line | hint: Linux reads in line 1 which
+# %% 05.5 wrong: no first line | hint: The shebang is missing, which
 replace("#!/usr/bin/env python3\n", "")
 # %% 05.5 wrong: no guard | hint: An import of the file starts the node
 replace('if __name__ == "__main__":', "if True:")
-# %% 05.5 wrong: a misspelt name | hint: The file has a mistake
+# %% 05.5 wrong: a misspelt name | hint: Python cannot import the file.
 replace("import SetBool, SetBoolResponse", "import SetBol, SetBoolResponse")
 # %% 05.5 wrong: no init_node | hint: Call rospy.init_node before
 replace('    rospy.init_node("arm")\n', "")
-# %% 05.5 wrong: no spin | hint: The program has ended. Its last
+# %% 05.5 wrong: no spin | hint: The program has ended, because
 replace("    rospy.spin()\n", "")
 # %% 05.5 wrong: closed at the start | hint: The program runs, but a service is missing
 replace("        self.open()\n        rospy.Service", "        rospy.Service")
@@ -386,7 +386,7 @@ replace("        self.open()\n        rospy.Service", "        rospy.Service")
 replace("changed = request.data == (self.move_service is not None)", "changed = True")
 # %% 05.5 wrong: deletes its reference | hint: The service still exists. Store the
 replace("        self.move_service.shutdown(\"maintenance\")\n", "")
-# %% 05.5 wrong: unregisters at the master only | hint: You only removed the entry in
+# %% 05.5 wrong: unregisters at the master only | hint: The service is no longer
 replace('self.move_service.shutdown("maintenance")', 'rospy.core.rosgraph.Master("/arm").unregisterService("/move_arm", self.move_service.uri)')
 # %% 05.5 wrong: never opens again | hint: Create this service again when
 replace("            self.open()\n", "            self.move_service = self\n")
@@ -406,11 +406,11 @@ replace('"closed" if request.data else "open"', '"open" if request.data else "cl
 replace("        changed = request", "        if not request.data and self.move_service is not None:\n            return None\n        changed = request")
 # %% 05.5 wrong: ends the node | hint: The program ended during the calls.
 replace('self.move_service.shutdown("maintenance")', 'rospy.signal_shutdown("maintenance")')
-# %% 05.5 wrong: counts calls of /maintenance | hint: Each call of /move_arm has to
+# %% 05.5 wrong: counts calls of /maintenance | hint: The count is wrong. Add
 replace("changed = request", "self.moves += 1\n        changed = request")
 # %% 05.5 wrong: a type that is not imported | hint: An exception has ended the program
 replace("SetBoolResponse, Trigger, TriggerResponse", "SetBoolResponse, TriggerResponse")
-# %% 05.5 wrong: the notebook serves, and the program only waits | hint: Another process serves this name.
+# %% 05.5 wrong: the notebook serves, and the program only waits | hint: Another process serves the name
 from pathlib import Path
 
 Path("arm.py").write_text("""#!/usr/bin/env python3

@@ -12,20 +12,20 @@ def measure(service, length, width, height):
     answer = proxy(geometryRequest(length=length, width=width, height=height))
     return [answer.area, answer.volume]
 
-# %% 06.1 wrong: computes without a call | hint: and call it with the three sides
+# %% 06.1 wrong: computes without a call | hint: The given service was not
 def measure(service, length, width, height):
     return length * width, length * width * height
 
-# %% 06.1 wrong: leaves the height out | hint: A field was 0
+# %% 06.1 wrong: leaves the height out | hint: The request contains 0 for
 replace("(length, width, height)", "(length=length, width=width)")
-# %% 06.1 wrong: volume first | hint: The order is wrong. Return the
+# %% 06.1 wrong: volume first | hint: The order of the results
 replace("area, response.volume", "volume, response.area")
 
-# %% 06.1 wrong: the whole response | hint: This is the whole response. Return only its fields
+# %% 06.1 wrong: the whole response | hint: Return only the fields `area`
 def measure(service, length, width, height):
     return rospy.ServiceProxy(service, geometry)(length, width, height)
 
-# %% 06.1 wrong: calls twice | hint: Each call makes the server do
+# %% 06.1 wrong: calls twice | hint: more than once, so the server did the work again
 def measure(service, length, width, height):
     proxy = rospy.ServiceProxy(service, geometry)
     return proxy(length, width, height).area, proxy(length, width, height).volume
@@ -33,7 +33,7 @@ def measure(service, length, width, height):
 # %% 06.1 wrong: forgets to return | hint: without a return line
 replace("return response.area, response.volume", "print(response.area, response.volume)")
 
-# %% 06.1 wrong: reads the fields of the request | hint: These are fields of the request
+# %% 06.1 wrong: reads the fields of the request | hint: The function returned fields of
 def measure(service, length, width, height):
     request = geometryRequest(length, width, height)
     rospy.ServiceProxy(service, geometry)(request)
@@ -58,20 +58,20 @@ def is_there(service, seconds):
         return False
     return True
 
-# %% 06.2 wrong: decides by the elapsed time | hint: The service was there, and 0.5
+# %% 06.2 wrong: decides by the elapsed time | hint: The service exists, and 0.5
 replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
 # %% 06.2 wrong: looks only at the first five services | hint: The result was wrong for a second service.
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)\n    if len(calls) > 5:\n        return True")
 # %% 06.2 wrong: no limit | hint: The function waited longer than `seconds`.
 replace("service, timeout=seconds", "service")
-# %% 06.2 wrong: catches the other exception | hint: when the time is up. Catch this exception
+# %% 06.2 wrong: catches the other exception | hint: Catch this exception.
 replace("rospy.ROSException", "rospy.ServiceException")
-# %% 06.2 wrong: uses the return value of wait_for_service | hint: The service was there, but the
+# %% 06.2 wrong: uses the return value of wait_for_service | hint: The service exists, but the
 replace("rospy.wait_for_service(service, timeout=seconds)", "return bool(rospy.wait_for_service(service, timeout=seconds))")
 replace("\n    return True", "")
 # %% 06.2 wrong: looks once | hint: The service started after 1.3 s,
 replace("timeout=seconds", "timeout=0.1")
-# %% 06.2 wrong: returns None if there is no service | hint: When the time was up, the
+# %% 06.2 wrong: returns None if there is no service | hint: When the time was over
 replace("except rospy … return True", '    return True\n    except rospy.ROSException:\n        print("not there")')
 # %% 06.2 wrong: a fixed limit | hint: The function waited longer than `seconds`.
 replace("timeout=seconds", "timeout=2")
@@ -84,7 +84,7 @@ def is_there(service, seconds):
     rospy.sleep(seconds)
     return service in rosservice.get_service_list()
 
-# %% 06.2 wrong: asks only the master | hint: The master still lists this service,
+# %% 06.2 wrong: asks only the master | hint: The service is still registered
 import time
 
 import rosservice
@@ -111,7 +111,7 @@ replace("return False", 'return "False"')
 # %% 06.2 wrong: True in any case | hint: The function returned True for a
 replace("return False", "pass")
 
-# %% 06.2 wrong: calls the service | hint: The function called the service, but
+# %% 06.2 wrong: calls the service | hint: so the server had to do its work
 replace("timeout=seconds)", "timeout=seconds)\n        rospy.ServiceProxy(service, geometry)(1, 1, 1)")
 
 # %% 06.3 right: ServiceException
@@ -129,13 +129,13 @@ replace("(service, length, width, height):", """(service, length, width, height)
         return None""")
 # %% 06.3 wrong: waits first, without catching the timeout | hint: wait_for_service raises rospy.ROSException when the timeout
 replace("    try:", "    rospy.wait_for_service(service, timeout=0.5)\n    try:")
-# %% 06.3 wrong: uses only the first six responses | hint: must depend on the response of this call
+# %% 06.3 wrong: uses only the first six responses | hint: Read the volume from the
 replace("height):", "height, calls=[]):\n    calls.append(service)")
 replace(".volume", ".volume if len(calls) < 7 else None")
 # %% 06.3 wrong: returns None for a volume of 0 | hint: The server responded, but the function
 replace(".volume", ".volume or None")
 
-# %% 06.3 wrong: tries again | hint: Do not repeat a failed call
+# %% 06.3 wrong: tries again | hint: The function repeated a failed
 def volume_or_none(service, length, width, height):
     for _ in range(2):
         try:
@@ -144,16 +144,16 @@ def volume_or_none(service, length, width, height):
             continue
     return None
 
-# %% 06.3 wrong: catches a number that is too large, too | hint: The function hides the mistake. Catch
+# %% 06.3 wrong: catches a number that is too large, too | hint: The function hides a wrong
 replace("volume\n    except rospy.ServiceException:", """volume
     except (rospy.ServiceException, ArithmeticError, LookupError, TypeError, ValueError):""")
-# %% 06.3 wrong: catches Exception | hint: The function hides the mistake. Catch
+# %% 06.3 wrong: catches Exception | hint: The function hides a wrong
 replace("rospy.ServiceException", "Exception")
 # %% 06.3 wrong: catches the other exception | hint: not rospy.ROSException
 replace("ServiceException", "ROSException")
 # %% 06.3 wrong: catches nothing | hint: raises rospy.ServiceException, not
 replace("try: … return None", "return rospy.ServiceProxy(service, geometry)(length, width, height).volume")
-# %% 06.3 wrong: returns 0.0 instead of None | hint: The call failed, so return None,
+# %% 06.3 wrong: returns 0.0 instead of None | hint: The call failed, but the
 replace("None", "0.0")
 # %% 06.3 wrong: returns only after a failure | hint: the function returned None
 replace("return rospy", "rospy")
@@ -162,22 +162,22 @@ replace("(service, length, width, height):", """(service, length, width, height)
     for side in (length, width, height):
         if not isinstance(side, (int, float)):
             raise TypeError(f"{side!r} is no number")""")
-# %% 06.3 wrong: a TypeError, too | hint: The function hides the mistake. Catch
+# %% 06.3 wrong: a TypeError, too | hint: The function hides a wrong
 replace("rospy.ServiceException", "(rospy.ServiceException, TypeError)")
-# %% 06.3 wrong: an AttributeError, too | hint: The function hides the mistake. Catch
+# %% 06.3 wrong: an AttributeError, too | hint: The function hides a wrong
 replace("rospy.ServiceException", "(rospy.ServiceException, AttributeError)")
-# %% 06.3 wrong: the exception itself | hint: The call failed, so return None,
+# %% 06.3 wrong: the exception itself | hint: The call failed, but the
 replace(":\n        return None", " as error:\n        return error")
-# %% 06.3 wrong: the text of the error | hint: The call failed, so return None,
+# %% 06.3 wrong: the text of the error | hint: The call failed, but the
 replace(":\n        return None", " as error:\n        return str(error)")
 # %% 06.3 wrong: the area | hint: Return the field `volume` of the
 replace(".volume", ".area")
 
 # %% 06.3 wrong: converts a string | hint: Do not convert the arguments
 replace("(length, width, height).volume", "(float(length), width, height).volume")
-# %% 06.3 wrong: computes the volume | hint: This is the product of the sides
+# %% 06.3 wrong: computes the volume | hint: The function returned the product
 replace("rospy.ServiceProxy(service, geometry)(length, width, height).volume", "length * width * height")
-# %% 06.3 wrong: passes a refusal on | hint: This failure raises rospy.ServiceException, too
+# %% 06.3 wrong: passes a refusal on | hint: This failed call raised rospy.ServiceException
 replace("rospy.ServiceException:", 'rospy.ServiceException as error:\n        if "unavailable" not in str(error):\n            raise')
 # %% 06.3 wrong: calls twice | hint: The function called the service more than once.
 replace("        return rospy", "        rospy.ServiceProxy(service, geometry)(length, width, height)\n        return rospy")
@@ -200,7 +200,7 @@ def first_answer(services, length, width, height):
             return answers[0]
     return None
 
-# %% 06.4 wrong: calls only in the first nine calls | hint: must depend on the services in the list
+# %% 06.4 wrong: calls only in the first nine calls | hint: Call the services of the
 replace("height):", "height, calls=[]):\n    calls.append(services)\n    if len(calls) > 9:\n        return None")
 # %% 06.4 right: the error ends the thread
 def ask(proxy, sides, answers):
@@ -241,9 +241,9 @@ replace("timeout=1", "timeout=0.4")
 replace("services:", "services[:2]:")
 # %% 06.4 wrong: skips a volume of 0 | hint: The first service responded with the
 replace("if answers:", "if answers and answers[0]:")
-# %% 06.4 wrong: waits for the thread without a limit | hint: The function waits for a server
+# %% 06.4 wrong: waits for the thread without a limit | hint: The function waits forever for
 replace("timeout=1", "")
-# %% 06.4 wrong: no thread | hint: The function waits for a server
+# %% 06.4 wrong: no thread | hint: The function waits forever for
 replace("def ask_one(proxy, answers)", "for service in services")
 replace("answers.append(proxy(length, width, height).volume)", "return rospy.ServiceProxy(service, geometry)(length, width, height).volume")
 replace("pass … answers[0]", "continue")
@@ -251,20 +251,20 @@ replace("pass … answers[0]", "continue")
 based_on("no thread")
 replace("for service in services:\n        try:", "try:\n        for service in services:")
 replace("    except rospy.ServiceException:\n            continue\n", "except rospy.ServiceException:\n    ")
-# %% 06.4 wrong: gives up after a frozen server | hint: The first service is frozen, but
+# %% 06.4 wrong: gives up after a frozen server | hint: The first service does not
 replace("if answers:\n            return answers[0]", "if asker.is_alive():\n            return None\n        if answers:\n            return answers[0]")
-# %% 06.4 wrong: the last response | hint: This is the response of the
+# %% 06.4 wrong: the last response | hint: The function returned the volume
 replace("    for service in services:", "    found = None\n    for service in services:")
 replace("return answers[0]\n    return None", "found = answers[0]\n    return found")
 # %% 06.4 wrong: calls all of them | hint: The first service responded, but the
 replace("    for service in services:", "    found = []\n    for service in services:")
 replace("return answers[0]\n    return None", "found.append(answers[0])\n    return found[0] if found else None")
-# %% 06.4 wrong: catches nothing | hint: Catch its exception inside the loop
+# %% 06.4 wrong: catches nothing | hint: A failed call ended the
 replace("def ask_one … return None", """for service in services:
         return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 06.4 wrong: the whole response | hint: This is the whole response. Return only its field `volume`.
+# %% 06.4 wrong: the whole response | hint: Return only the field `volume`
 replace("height).volume", "height)")
-# %% 06.4 wrong: the area | hint: Return the volume of the response
+# %% 06.4 wrong: the area | hint: Return the volume from the response of
 replace(".volume", ".area")
 # %% 06.4 wrong: an error at the end | hint: and an exception ended the function
 replace("    return None", '    raise rospy.ServiceException("no service responded")')
@@ -273,7 +273,7 @@ replace("    return None", "    return 0.0")
 # %% 06.4 wrong: forgets to return | hint: without a return line
 replace("return answers[0]", "print(answers[0])")
 
-# %% 06.4 wrong: one list for all calls | hint: and use a new list for each call
+# %% 06.4 wrong: one list for all calls | hint: The late response of the
 replace("\n        answers = []", "")
 replace("    for service in services:", "    answers = []\n    for service in services:")
 # %% 06.4 right: the function of the notebook, in a generator
@@ -299,9 +299,9 @@ def first_answer(services, *sides):
 
 # %% 06.4 right: waits a second for each service
 replace("asker.join(timeout=1)", "rospy.sleep(1)")
-# %% 06.4 wrong: sends other sides | hint: and send the three sides unchanged.
+# %% 06.4 wrong: sends other sides | hint: The request was repeated or
 replace("proxy(length, width, height)", "proxy(0, 0, 0)")
-# %% 06.4 wrong: only the first three services | hint: it was not called. Catch the error inside
+# %% 06.4 wrong: only the first three services | hint: The last service would respond
 replace("in services:", "in services[:2]:")
 
 # %% 06.5 right: myargv and float
@@ -316,15 +316,15 @@ def read_sides(argv):
 replace("sides = [float(text) for text in rospy.myargv(argv)[1:]]", """_, length, width, height = rospy.myargv(argv=argv)
         return [float(length), float(width), float(height)]""")
 replace("\n    return sides if len(sides) == 3 else None", "")
-# %% 06.5 wrong: reads only the first eight lists | hint: must depend on the arguments of this call
+# %% 06.5 wrong: reads only the first eight lists | hint: The result has to depend on the arguments
 replace("argv):", "argv, calls=[]):\n    calls.append(argv)\n    if len(calls) > 8:\n        return None")
-# %% 06.5 wrong: keeps the arguments of ROS | hint: An argument with := is for ROS
+# %% 06.5 wrong: keeps the arguments of ROS | hint: Arguments with := are for ROS. Use
 replace("rospy.myargv(argv)", "argv")
 # %% 06.5 wrong: counts the program's name | hint: The function returned None. Read the
 replace("(argv)[1:]", "(argv)")
-# %% 06.5 wrong: two sides and the program's name | hint: The sides begin with the second
+# %% 06.5 wrong: two sides and the program's name | hint: The first item of the
 replace("try: … 3 else None", "own = rospy.myargv(argv)\n    return [float(text) for text in own[:3]] if len(own) == 4 else None")
-# %% 06.5 wrong: strings | hint: These are strings. Convert each string
+# %% 06.5 wrong: strings | hint: The function returned strings. Convert
 replace("try: … return None", "sides = rospy.myargv(argv)[1:]")
 # %% 06.5 wrong: ignores a fourth argument | hint: Four numbers are too many. Return
 replace("argv)[1:]", "argv)[1:4]")
@@ -356,11 +356,11 @@ def read_sides(argv):
 
 # %% 06.5 wrong: the arguments of this program | hint: Read the numbers from `argv`
 replace("(argv)[1:]", "()[1:]")
-# %% 06.5 wrong: whole numbers | hint: A side may be a number
+# %% 06.5 wrong: whole numbers | hint: A side can be a
 replace("float(text)", "int(float(text))")
 # %% 06.5 wrong: accepts two numbers | hint: Two numbers are not enough
 replace("len(sides) == 3", "len(sides) <= 3")
-# %% 06.5 wrong: unpacks them outside of try | hint: A wrong number of arguments raised
+# %% 06.5 wrong: unpacks them outside of try | hint: The function raised an exception
 based_on("unpacks them")
 replace("try:\n        _, length, width, height = rospy.myargv(argv=argv)", "_, length, width, height = rospy.myargv(argv=argv)\n    try:")
 
@@ -396,35 +396,35 @@ if __name__ == "__main__":
     print("fits")
 """
 
-# %% 06.6 wrong: no first line | hint: Begin the file with
+# %% 06.6 wrong: no first line | hint: The shebang is missing, which
 replace("#!/usr/bin/env python3\n", "")
-# %% 06.6 wrong: no guard | hint: The file cannot be imported without an error
+# %% 06.6 wrong: no guard | hint: Python cannot import the file
 replace('if __name__ == "__main__":\n    sys.exit(main())', "sys.exit(main())")
-# %% 06.6 wrong: no init_node | hint: The program called /getGeometry although the
+# %% 06.6 wrong: no init_node | hint: The program ignored the remapping
 replace('    rospy.init_node("fits", anonymous=True)\n', "")
-# %% 06.6 wrong: an absolute name | hint: although it ran in another namespace
+# %% 06.6 wrong: an absolute name | hint: Remove the slash from the
 replace('"getGeometry"', '"/getGeometry"', times=2)
-# %% 06.6 wrong: sys.argv as it is | hint: Remove them with rospy.myargv
+# %% 06.6 wrong: sys.argv as it is | hint: Arguments with := are for ROS. Remove
 replace("rospy.myargv(argv)", "argv")
 # %% 06.6 wrong: calls twice | hint: The program called the service more
 replace("    print(\"fits\"", "    rospy.ServiceProxy(\"getGeometry\", geometry)(*sides)\n    print(\"fits\"")
-# %% 06.6 wrong: a misspelt name | hint: Run it in a terminal
+# %% 06.6 wrong: a misspelt name | hint: The program ended before the
 replace("rospy.wait_for_service", "rospy.wait_for_servise")
 # %% 06.6 wrong: compares with < in place of <= | hint: The volume is equal to LIMIT,
 replace("volume <= limit", "volume < limit", times=2)
-# %% 06.6 wrong: the exit status is always 0 | hint: print "too large", and end with
+# %% 06.6 wrong: the exit status is always 0 | hint: The volume in the response is larger
 replace("return 0 if volume <= limit else 1", "return 0")
-# %% 06.6 wrong: True for 1 | hint: is at most LIMIT: print "fits", and end with
+# %% 06.6 wrong: True for 1 | hint: The volume in the response is at
 replace("return 0 if volume <= limit else 1", "return volume <= limit")
 # %% 06.6 wrong: catches no ROSException | hint: rospy.ROSException after 2 s
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
-# %% 06.6 wrong: catches no ServiceException | hint: raises rospy.ServiceException. Print its message
+# %% 06.6 wrong: catches no ServiceException | hint: Print the message of the
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
 # %% 06.6 wrong: waits without a limit | hint: Call wait_for_service with a timeout of 2 s
 replace(", timeout=2", "")
 # %% 06.6 wrong: does not catch the error of float() | hint: float() raises ValueError for a word
 replace("    except ValueError:\n        return None\n    return numbers", "    finally:\n        pass\n    return numbers")
-# %% 06.6 wrong: usage without its status | hint: print a usage line, and end
+# %% 06.6 wrong: usage without its status | hint: The arguments are not four numbers
 replace("return 2", "return 0")
 # %% 06.6 wrong: examines the arguments too late | hint: The arguments were wrong, but the
 replace("if len(numbers) == 4 else None", "if len(numbers) >= 3 else None")

@@ -23,18 +23,18 @@ solution()
 # %% 07.1 right: markup in the description, and the old maintainer in a comment
 replace("<description>", "<description><b>Boxes:</b> ")
 replace("  <maintainer", '  <!-- <maintainer email="you@todo.todo">you</maintainer> -->\n  <maintainer')
-# %% 07.1 wrong: message_runtime is missing | hint: A package is missing. Look for
+# %% 07.1 wrong: message_runtime is missing | hint: The name of a package
 replace("\n  <exec_depend>message_runtime</exec_depend>", "")
 # %% 07.1 wrong: rospy is missing | hint: , but package.xml has no tag
 based_on("format 3, with depend")
 replace("\n  <depend>rospy</depend>", "")
-# %% 07.1 wrong: message_runtime to build only | hint: Add a line with
+# %% 07.1 wrong: message_runtime to build only | hint: . Also add a line
 replace("<exec_depend>message_runtime</exec_depend>", "<build_depend>message_runtime</build_depend>")
 # %% 07.1 wrong: the generated description | hint: Describe in one sentence what the
 replace("A service that measures boxes.", "The my_geometry package")
 # %% 07.1 wrong: no licence | hint: Write the name of a licence,
 replace("MIT", "TODO")
-# %% 07.1 wrong: the generated address | hint: Replace the address in the maintainer tag
+# %% 07.1 wrong: the generated address | hint: The address in the maintainer
 replace("you@example.com", "you@todo.todo")
 # %% 07.1 wrong: a capital in the name | hint: lower-case letters
 replace("<name>my_geometry", "<name>My Geometry")
@@ -46,7 +46,7 @@ solution()
 # %% 07.2 right: with comments and blank lines
 replace("float32 length\nfloat32 width", "# The sides of a box, in metres.\nfloat32 length\nfloat32 width   # along y\n")
 replace("float32 area", "float32   area    # of the floor, in square metres\n")
-# %% 07.2 wrong: a tab | hint: There is a tab between type
+# %% 07.2 wrong: a tab | hint: There is a tab between
 replace("float32 width", "float32\twidth")
 # %% 07.2 wrong: no dashes | hint: three dashes
 replace("---\n", "")
@@ -58,13 +58,13 @@ replace("length", "lenght")
 replace("\nfloat32 volume", "")
 # %% 07.2 wrong: the area in the request | hint: is on the wrong side of
 replace("---\nfloat32 area", "float32 area\n---")
-# %% 07.2 wrong: an additional field | hint: does not ask for a field
+# %% 07.2 wrong: an additional field | hint: contains the field
 replace("float32 volume", "float32 volume\nstring unit")
 # %% 07.2 wrong: float64 | hint: Use the type of the exercise
 replace("float32", "float64", times=5)
 # %% 07.2 wrong: width first | hint: The order of the fields is
 replace("float32 length\nfloat32 width", "float32 width\nfloat32 length")
-# %% 07.2 wrong: a constant | hint: A constant is part of the MD5 sum
+# %% 07.2 wrong: a constant | hint: The MD5 sum is wrong
 replace("float32 length", "uint8 SIDES=3\nfloat32 length")
 
 # %% 07.3 right: in the order of the chapter
@@ -96,7 +96,7 @@ replace("\nadd_service_files(FILES geometry.srv)", "")
 replace("generate_messages(DEP", "# generate_messages(DEP")
 replace("\nadd_custom_target(${PROJECT_NAME}_programs ALL)", "")
 replace("\nadd_dep", "\n# add_dep")
-# %% 07.3 wrong: in a condition | hint: add_service_files and generate_messages are in the
+# %% 07.3 wrong: in a condition | hint: Look for an if() with
 replace("generate_messages(DEPENDENCIES std_msgs)", "if(NOT TRUE)\ngenerate_messages()\nendif()")
 # %% 07.3 wrong: message_generation is missing | hint: COMPONENTS message_generation
 replace("  message_generation\n", "")
@@ -105,18 +105,18 @@ replace("geometry.srv", "Geometry.srv")
 # %% 07.3 wrong: catkin_package comes first | hint: Move generate_messages above
 replace("\ncatkin_package(CATKIN_DEPENDS message_runtime rospy std_msgs)", "")
 replace("\nadd_service_files", "\ncatkin_package(CATKIN_DEPENDS message_runtime rospy std_msgs)\nadd_service_files")
-# %% 07.3 wrong: no target | hint: Create the target with add_custom_target: pass
+# %% 07.3 wrong: no target | hint: The target does not exist.
 replace("\nadd_custom_target(${PROJECT_NAME}_programs ALL)", "")
 replace("\nadd_dep", "\n# add_dep")
 # %% 07.3 wrong: another name of the target | hint: The name of the target is
 replace("${PROJECT_NAME}_programs", "programs", times=2)
-# %% 07.3 wrong: no add_dependencies | hint: The target has no dependencies yet
+# %% 07.3 wrong: no add_dependencies | hint: The target does not depend
 replace("\nadd_dep", "\n# add_dep")
 # %% 07.3 wrong: one pair of braces | hint: write both ${ }
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS}", "${PROJECT_NAME_EXPORTED_TARGETS}")
 # %% 07.3 wrong: other packages only | hint: Your add_dependencies contains only targets of other
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ", "")
-# %% 07.3 wrong: nothing for other packages | hint: In catkin_package, write CATKIN_DEPENDS and the
+# %% 07.3 wrong: nothing for other packages | hint: In catkin_package, message_runtime is missing.
 replace("CATKIN_DEPENDS message_runtime rospy std_msgs", "")
 # %% 07.3 wrong: no catkin_package | hint: Without catkin_package
 replace("\ncatkin_package(CATKIN_DEPENDS message_runtime rospy std_msgs)", "")
@@ -140,16 +140,16 @@ replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'Measurer()\
 replace("spin()", "spin()\n\n\nif __name__ == '__main__':\n    main()")
 # %% 07.4 wrong: no shebang | hint: Without a shebang, Linux runs the
 replace("#!/usr/bin/env python3\n", "")
-# %% 07.4 wrong: the shebang in line 2 | hint: Linux reads a shebang only in the first column
+# %% 07.4 wrong: the shebang in line 2 | hint: The shebang is in the
 replace("#!/usr", "\n#!/usr")
-# %% 07.4 wrong: python2 in the shebang | hint: This shebang names the wrong program.
+# %% 07.4 wrong: python2 in the shebang | hint: The shebang names the wrong
 replace("python3", "python2")
-# %% 07.4 wrong: line endings of Windows | hint: The lines end with … as on Windows
+# %% 07.4 wrong: line endings of Windows | hint: The file has Windows line … The file has Windows line
 replace("python3", "python3\r")
 # %% 07.4 wrong: a program of Windows in the shebang | hint: The first line of the script
 replace("/usr/bin/env python3", "C:/Python/python3.exe")
 
-# %% 07.4 wrong: not executable | hint: Type chmod +x
+# %% 07.4 wrong: not executable | hint: chmod +x
 from pathlib import Path
 
 script = Path("src/my_geometry/scripts/server.py")
@@ -164,12 +164,12 @@ rospy.spin()""")
 replace("\n    rospy.spin()", "")
 # %% 07.4 wrong: the type of the course's package | hint: Import the type from your own
 replace("my_geometry.srv", "my_geometry_services.srv")
-# %% 07.4 wrong: misspelt type | hint: Upper and lower case are different
+# %% 07.4 wrong: misspelt type | hint: Compare {name} with the name
 replace("import geometry, geometryResponse", "import Geometry, geometryResponse")
 replace('"/getGeometry", geometry', '"/getGeometry", Geometry')
-# %% 07.4 wrong: another service name | hint: The program serves … , but the exercise needs
+# %% 07.4 wrong: another service name | hint: The program serves … The program serves
 replace('"/getGeometry"', '"/get_geometry"')
-# %% 07.4 wrong: the service is missing | hint: The program runs, but it serves
+# %% 07.4 wrong: the service is missing | hint: The program runs, but it
 replace('\n    rospy.Service("/getGeometry", geometry, handle_geometry)', "")
 # %% 07.4 wrong: no node | hint: A service needs a node
 replace('\n    rospy.init_node("SERVER_NODE")', "")
@@ -181,18 +181,18 @@ replace('"SERVER_NODE"', '"SERVER_NODE", anonymous=True')
 replace('"/getGeometry", geometry,', '"/getGeometry", geometryResponse,')
 # %% 07.4 wrong: a misspelt variable | hint: The error occurred in line … of server.py
 replace("geometry, handle_geometry)", "geometry, handle_box)")
-# %% 07.4 wrong: adds width and length | hint: That is the sum of width and length
+# %% 07.4 wrong: adds width and length | hint: Your area is the sum
 replace("request.width * request.length", "request.width + request.length")
-# %% 07.4 wrong: the perimeter | hint: That is the perimeter
+# %% 07.4 wrong: the perimeter | hint: Your area is the perimeter.
 replace("request.width * request.length", "2 * (request.width + request.length)")
-# %% 07.4 wrong: width times height | hint: That is width times height. Return
+# %% 07.4 wrong: width times height | hint: Your area is width times
 replace("request.width * request.length", "request.width * request.height")
 replace("area * request.height", "area * request.length")
-# %% 07.4 wrong: an empty response | hint: The response still has the default area,
+# %% 07.4 wrong: an empty response | hint: The area is 0.0, because
 replace("geometryResponse(area=area, volume=area * request.height)", "geometryResponse()")
 # %% 07.4 wrong: squares the width | hint: Compute the area from request.width and request.length
 replace("request.width * request.length", "request.width * request.width")
-# %% 07.4 wrong: forgets the volume | hint: The response still has the default volume,
+# %% 07.4 wrong: forgets the volume | hint: The volume is 0.0, because
 replace(", volume=area * request.height", "")
 # %% 07.4 wrong: a cube | hint: Compute the volume from the area
 replace("area * request.height", "area ** 1.5")
@@ -234,7 +234,7 @@ replace('if __name__ == "__main__":\n    sys.exit(main(rospy.myargv(sys.argv)[1:
     print("volume: %.2f" % answer.volume)""")
 # %% 07.5 wrong: sys.argv as it is | hint: Arguments with := are for ROS.
 replace("rospy.myargv(sys.argv)[1:]", "sys.argv[1:]")
-# %% 07.5 wrong: height first | hint: The numbers arrive in the wrong
+# %% 07.5 wrong: height first | hint: The request contains the numbers
 replace("(length, width, height)\n", "(height, width, length)\n")
 # %% 07.5 wrong: whole numbers | hint: Convert the three arguments to float,
 replace("geometry)(length, width, height)", "geometry)(int(length), int(width), int(height))")
@@ -254,34 +254,34 @@ replace(" as error:", " as error:")
 replace("response.area:.2f", "length * width:.2f")
 # %% 07.5 wrong: prints the response only | hint: Print one line with the text
 replace('    print(f"area: {response.area:.2f}")\n    print(f"volume: {response.volume:.2f}")', "    print(response.area, response.volume)")
-# %% 07.5 wrong: exit status 3 | hint: A program that reaches its end
+# %% 07.5 wrong: exit status 3 | hint: The exit status has to be 0
 replace("    return 0\n", "    return 3\n")
 # %% 07.5 wrong: spins after the call | hint: The client does not end. Remove
 replace("    return 0\n", "    while True:\n        pass\n")
-# %% 07.5 wrong: usage, but no exit status | hint: Write sys.exit(2) after the usage message
+# %% 07.5 wrong: usage, but no exit status | hint: The exit status has to be 2
 replace("        return 2", "        return 0")
 # %% 07.5 wrong: an argument that is not a number | hint: float() raises ValueError for a text
 based_on("a node, with steps")
 replace("except ValueError:\n        usage()", "except TypeError:\n        usage()")
-# %% 07.5 wrong: four numbers | hint: Four arguments are an error, too.
+# %% 07.5 wrong: four numbers | hint: The client accepted four arguments.
 replace("map(float, arguments)\n", "map(float, arguments[:3])\n")
 # %% 07.5 wrong: no usage | hint: Print a line that begins with
 replace("print(USAGE, file=sys.stderr)", "pass")
 # %% 07.5 wrong: another text before usage | hint: Print a line that begins with
 replace('"usage:', '"Wrong arguments, usage:')
-# %% 07.5 wrong: calls with zeros for wrong arguments | hint: Check the arguments before you call
+# %% 07.5 wrong: calls with zeros for wrong arguments | hint: The client sent a request
 replace("        return 2", '        rospy.ServiceProxy("/getGeometry", geometry)(0, 0, 0)\n        return 2')
-# %% 07.5 wrong: a refusal is a traceback | hint: A user should not see a
+# %% 07.5 wrong: a refusal is a traceback | hint: The client printed a traceback.
 replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ROSException")
 # %% 07.5 wrong: a refusal without its message | hint: Print the message of the exception
 replace("print(error, file=sys.stderr)", 'print("failed")')
-# %% 07.5 wrong: waits without a limit | hint: The client waits without a limit.
+# %% 07.5 wrong: waits without a limit | hint: The client waits for the
 replace(", timeout=5", "")
-# %% 07.5 wrong: does not wait | hint: The client did not wait. The service can start later
+# %% 07.5 wrong: does not wait | hint: The client did not wait
 replace('        rospy.wait_for_service("/getGeometry", timeout=5)\n', "")
 # %% 07.5 wrong: the timeout is not caught | hint: wait_for_service raises rospy.ROSException after its timeout.
 replace("(rospy.ServiceException, rospy.ROSException)", "rospy.ServiceException")
-# %% 07.5 wrong: exit status 0 without a server | hint: Without a response, the exit status
+# %% 07.5 wrong: exit status 0 without a server | hint: The exit status has to be 1
 based_on("a node, with steps")
 replace('rospy.logerr("no server: %s", error)\n        sys.exit(1)', 'rospy.logerr("no server: %s", error)\n        sys.exit(0)')
 
@@ -300,13 +300,13 @@ catkin_install_python(PROGRAMS scripts/server.py DESTINATION ${CATKIN_PACKAGE_BI
 install(PROGRAMS scripts/client.py DESTINATION lib/${PROJECT_NAME})
 """
 
-# %% 07.6 wrong: no rule | hint: There is no install rule yet
+# %% 07.6 wrong: no rule | hint: The install rule is missing.
 replace("\n\ncatkin_install_python( … BIN_DESTINATION}\n)", "")
 # %% 07.6 wrong: the client is missing | hint: . List both scripts after PROGRAMS.
 replace(" scripts/client.py", "")
-# %% 07.6 wrong: a misspelt variable | hint: rosrun does not search this folder.
+# %% 07.6 wrong: a misspelt variable | hint: rosrun does not search the
 replace("${CATKIN_PACKAGE_BIN_DESTINATION}", "bin")
-# %% 07.6 wrong: files, not programs | hint: install(FILES …) installs files that are
+# %% 07.6 wrong: files, not programs | hint: The installed file is not executable
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", "install(FILES scripts/client.py")
 # %% 07.6 right: the whole folder, with its permissions
@@ -379,7 +379,7 @@ $ rosservice call getGeometry 1 2 3   # area 2, volume 6
    rosservice call getGeometry "{length: 1.2, width: 5.2, height: 8.9}"
    ```
 """
-# %% 07.7 wrong: no title | hint: a title is a line that begins with one #
+# %% 07.7 wrong: no title | hint: The title is missing. Write
 replace("# my_geometry\n", "my_geometry\n")
 # %% 07.7 wrong: no code block | hint: Write a line ``` above
 replace("```bash\n", "", times=2)
@@ -390,15 +390,15 @@ replace("catkin_make\n", "")
 replace("source devel/setup.bash\n", "", times=2)
 # %% 07.7 wrong: half of the command | hint: The command that starts the server
 replace("rosrun my_geometry server.py", "rosrun server.py")
-# %% 07.7 wrong: two sides | hint: The call needs the name /getGeometry,
+# %% 07.7 wrong: two sides | hint: The call of the service is not
 replace("/getGeometry 1.2 5.2 8.9", "/getGeometry 1.2 5.2")
-# %% 07.7 wrong: no call | hint: Show a call with rosservice
+# %% 07.7 wrong: no call | hint: The call of the service is missing.
 replace("rosservice call /getGeometry 1.2 5.2 8.9\nrosrun my_geometry client.py 1.2 5.2 8.9\n", "")
 # %% 07.7 right: from the folder install, and with the client
 replace("catkin_make", "catkin_make install")
 replace("source devel/setup.bash", "source install/setup.bash", times=2)
 replace("rosservice call /getGeometry 1.2 5.2 8.9\n", "")
-# %% 07.7 wrong: sources before it builds | hint: Imagine a new terminal: first build,
+# %% 07.7 wrong: sources before it builds | hint: The order of the commands
 replace("catkin_make\nsource devel/setup.bash\n", "source devel/setup.bash\ncatkin_make\n")
 
 # %% 07.8 right: as asked
@@ -411,7 +411,7 @@ replace("int32", "bool")
 replace("---\nstring state", "string state\n---")
 # %% 07.8 wrong: another name | hint: has no field … number
 replace("number", "value")
-# %% 07.8 wrong: two constants | hint: A constant is part of the
+# %% 07.8 wrong: two constants | hint: The MD5 sum is wrong
 replace("int32 number", "int32 OFF=0\nint32 ON=1\nint32 number")
 # %% 07.8 wrong: String as in Java | hint: string
 replace("string state", "String state")
@@ -437,27 +437,27 @@ def main():
     service = rospy.Service("onOff", ServiceExample, handle)
     rospy.spin()""")
 replace('rospy.init_node("ON_OFF_SERVER")\n    rospy.Service("/onOff", ServiceExample, name_state)\n    rospy.spin()', "main()")
-# %% 07.9 wrong: refuses 0 | hint: 0 and 1 are valid numbers.
+# %% 07.9 wrong: refuses 0 | hint: The server refused 0 or
 replace("if request.number not in STATES", "if not request.number in (1, 2)")
-# %% 07.9 wrong: a default state | hint: The response still has the default state,
+# %% 07.9 wrong: a default state | hint: The state is an empty
 based_on("conditions and a main function")
 replace('response.state = "OFF"', "pass")
 replace('response.state = "ON"', "pass")
-# %% 07.9 wrong: small letters | hint: Compare the letters: ON and OFF
+# %% 07.9 wrong: small letters | hint: The letters of the state
 replace('{0: "OFF", 1: "ON"}', '{0: "off", 1: "on"}')
 # %% 07.9 wrong: the states exchanged | hint: The two states are exchanged
 replace('{0: "OFF", 1: "ON"}', '{0: "ON", 1: "OFF"}')
-# %% 07.9 wrong: other states | hint: This state is not in the
+# %% 07.9 wrong: other states | hint: The exercise does not have
 replace('{0: "OFF", 1: "ON"}', '{0: "closed", 1: "open"}')
 # %% 07.9 wrong: no response for other numbers | hint: The handler returned no response. Raise
 based_on("conditions and a main function")
 replace("""rospy.logwarn("refused")
         raise rospy.ServiceException("the number is %d, and only 0 and 1 are allowed" % req.number)""", "return None")
-# %% 07.9 wrong: a message without the number | hint: The message of the exception has
+# %% 07.9 wrong: a message without the number | hint: The message of the exception
 replace('f"{request.number} is neither 0 nor 1"', '"neither 0 nor 1"')
-# %% 07.9 wrong: a KeyError | hint: Raise rospy.ServiceException: the client regards any
+# %% 07.9 wrong: a KeyError | hint: The exception has the wrong
 replace('\n    if request.number not in STATES:\n        raise rospy.ServiceException(f"{request.number} is neither 0 nor 1")', "")
-# %% 07.9 wrong: answers everything | hint: The server has to refuse this
+# %% 07.9 wrong: answers everything | hint: The server accepted a number
 replace("if request … request.number]", 'return "ON" if request.number else "OFF"')
 
 # %% 07.10 right: as in the chapter
@@ -486,15 +486,15 @@ def main():
 replace('rospy.wait_for_service("/onOff", timeout … ).state}")', "main()")
 # %% 07.10 wrong: calls once | hint: The client called the service only once.
 replace("    for _ in range(int(sys.argv[1])):", "    for _ in range(1):")
-# %% 07.10 wrong: one call too many | hint: Call the service exactly as many times
+# %% 07.10 wrong: one call too many | hint: The number of calls is
 replace("range(int(sys.argv[1]))", "range(int(sys.argv[1]) + 1)")
-# %% 07.10 wrong: always the same number | hint: The numbers are not random. random.randint(0,
+# %% 07.10 wrong: always the same number | hint: The numbers are not random.
 replace("random.randint(0, 1)", "1")
-# %% 07.10 wrong: prints the state only | hint: Print the number that you sent, a colon
+# %% 07.10 wrong: prints the state only | hint: The output is wrong. For
 replace('f"{number}: {name_state(number).state}"', "name_state(number).state")
 # %% 07.10 wrong: another service | hint: The client does not end. Check
 replace('("/onOff", timeout=5)', '("/on_off")')
-# %% 07.10 wrong: ends with an error status | hint: After the last call, let the
+# %% 07.10 wrong: ends with an error status | hint: The exit status is not
 replace('{name_state(number).state}")', '{name_state(number).state}")\n    sys.exit(4)')
 # %% 07.10 wrong: the argument is a string | hint: on_off_client.py
 replace("int(sys.argv[1])", "sys.argv[1]")

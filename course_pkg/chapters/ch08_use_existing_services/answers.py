@@ -21,7 +21,7 @@ def services_of(kind):
     done = subprocess.run(["rosservice", "find", kind], capture_output=True, text=True)
     return done.stdout.split()
 
-# %% 08.1 wrong: unregisters all services | hint: No service was found
+# %% 08.1 wrong: unregisters all services | hint: Your function found no service.
 def services_of(kind):
     import rosgraph
 
@@ -31,19 +31,19 @@ def services_of(kind):
             rosgraph.Master(node_name).unregisterService(name, master.lookupService(name))
     return []
 
-# %% 08.1 wrong: fails at a dead server | hint: The master still lists a service
+# %% 08.1 wrong: fails at a dead server | hint: Your list contains a service whose server
 replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind]")
-# %% 08.1 wrong: stops at a dead server | hint: Catch the error inside the loop
+# %% 08.1 wrong: stops at a dead server | hint: The search ended at a
 replace("continue", "break")
-# %% 08.1 wrong: decides by the name of the service | hint: Some services have another type
+# %% 08.1 wrong: decides by the name of the service | hint: Your list contains services of
 replace("names = [] … return names", 'return [name for name in rosservice.get_service_list() if kind.split("/")[1].lower() in name.lower()]')
-# %% 08.1 wrong: compares the short name | hint: One service has a type with
+# %% 08.1 wrong: compares the short name | hint: Your list contains a service whose type
 replace(" == kind", '.split("/")[1] == kind.split("/")[1]')
-# %% 08.1 wrong: compares the beginning | hint: One service has a longer type
+# %% 08.1 wrong: compares the beginning | hint: Your list contains a service with
 replace("names = [] … return names", "return [name for name in rosservice.get_service_list() if kind in rosservice.get_service_type(name)]")
 # %% 08.1 wrong: stops at the first | hint: and return after the loop
 replace("names.append(name)", "return [name]")
-# %% 08.1 wrong: returns the first one, as text | hint: This is one string
+# %% 08.1 wrong: returns the first one, as text | hint: Your function returned one string.
 replace("names.append(name)", "return name")
 # %% 08.1 wrong: prints them | hint: without a return line
 replace("names.append(name)", "print(name)")
@@ -58,16 +58,16 @@ def services_of(kind):
             known[name] = rosservice.get_service_type(name)
     return [name for name in known if known[name] == kind]
 
-# %% 08.1 wrong: names with their nodes | hint: Return only the names, without nodes
+# %% 08.1 wrong: names with their nodes | hint: Your list contains more than
 replace("names = [] … return names", """listed = rosservice.get_service_list(include_nodes=True)
     return [[name, nodes] for name, nodes in listed if rosservice.get_service_type(name) == kind]""")
-# %% 08.1 wrong: the types | hint: The list has strings that are
+# %% 08.1 wrong: the types | hint: Your list contains strings that
 replace("names = [] … return names", """types = [rosservice.get_service_type(name) for name in rosservice.get_service_list()]
     return [its for its in types if its == kind]""")
 # %% 08.1 wrong: compares with the class | hint: The type of a service is
 based_on("fails at a dead server")
 replace("get_service_type", "get_service_class_by_name")
-# %% 08.1 wrong: returns a dead server, too | hint: The master still lists a service
+# %% 08.1 wrong: returns a dead server, too | hint: Your list contains a service whose server
 replace("== kind:\n                names.append(name)", "!= kind:\n                continue")
 replace("\n            continue", "\n            pass\n        names.append(name)")
 # %% 08.1 wrong: leaves the loop at a dead server | hint: The search ended at a service
@@ -75,10 +75,10 @@ replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list())"
 replace("continue", "break")
 # %% 08.1 wrong: None for no service | hint: Return an empty list
 replace("return names", "return names or None")
-# %% 08.1 wrong: a generator | hint: This is not a list. Convert
+# %% 08.1 wrong: a generator | hint: Your function did not return
 replace("names = [] … return names", "return (name for name in rosservice.get_service_list() if rosservice.get_service_type(name) == kind)")
 
-# %% 08.1 wrong: gets the names once | hint: Get the names of the services inside the function
+# %% 08.1 wrong: gets the names once | hint: Your function found no service.
 replace("def services_of(kind):", "NAMES = rosservice.get_service_list()\n\n\ndef services_of(kind):")
 replace("in rosservice.get_service_list():", "in NAMES:")
 # %% 08.1 wrong: calls the services | hint: The function called the services to find their type
@@ -139,31 +139,31 @@ lamp_service = rospy.Service("/lamp", SetBool, lambda request: handler(request))
 replace("on_off = rospy … str(error))", 'state = rospy.ServiceProxy("/on_off", ServiceExample)(int(request.data)).state')
 # %% 08.2 wrong: passes the refusal on | hint: The call of /lamp failed, because
 replace("return SetBoolResponse(success=False, message=str(error))", "raise rospy.ServiceException(str(error))")
-# %% 08.2 wrong: the exception as the message | hint: The message is a string. Convert
+# %% 08.2 wrong: the exception as the message | hint: The message has to be
 replace("str(error)", "error")
-# %% 08.2 wrong: a fixed message | hint: The client of /lamp does not
+# %% 08.2 wrong: a fixed message | hint: The message does not contain
 replace("str(error)", '"it does not work"')
-# %% 08.2 wrong: success although it failed | hint: Respond with success=False
+# %% 08.2 wrong: success although it failed | hint: The call of /on_off failed
 replace("success=False", "success=True")
-# %% 08.2 wrong: any response is a success | hint: A response does not prove
+# %% 08.2 wrong: any response is a success | hint: The lamp responded with the
 replace('success=state == ("ON" if request.data else "OFF")', "success=True")
-# %% 08.2 wrong: the wanted state | hint: not the wanted state
+# %% 08.2 wrong: the wanted state | hint: The message is the wanted
 replace("message=state", 'message="ON" if request.data else "OFF"')
 # %% 08.2 wrong: success compares with True | hint: The lamp has the wanted state
 replace('state == ("ON" if request.data else "OFF")', "state is request.data")
-# %% 08.2 wrong: the message is a sentence | hint: The message has to be the field
+# %% 08.2 wrong: the message is a sentence | hint: The message is wrong. Return
 replace("message=state", 'message=f"the lamp is {state}"')
-# %% 08.2 wrong: the other number | hint: 1 switches the lamp on
+# %% 08.2 wrong: the other number | hint: The number is wrong. Send
 replace("1 if request.data else 0", "0 if request.data else 1")
-# %% 08.2 wrong: other numbers | hint: The number is neither 1 nor
+# %% 08.2 wrong: other numbers | hint: The number has to be
 replace("1 if request.data else 0", "2 if request.data else 3")
 # %% 08.2 wrong: calls twice | hint: The handler called /on_off more than once
 replace("state = on_off", "on_off(0)\n        state = on_off")
 # %% 08.2 wrong: no call | hint: The handler did not call /on_off
 replace("on_off(1 if request.data else 0).state", '"ON" if request.data else "OFF"')
-# %% 08.2 wrong: a misspelt field | hint: The request has no field of this name
+# %% 08.2 wrong: a misspelt field | hint: The request has no field
 replace("1 if request.data", "1 if request.date")
-# %% 08.2 wrong: an unbound name | hint: Python treats the name as a local variable
+# %% 08.2 wrong: an unbound name | hint: The handler assigns a value
 replace("\n    on_off = rospy … else 0).state", "\n    try:\n        on_off = on_off(1 if request.data else 0).state")
 replace('state == ("ON" if request.data else "OFF"), message=', 'on_off.state == ("ON" if request.data else "OFF"), message=on_off.')
 # %% 08.2 wrong: a name that does not exist | hint: The handler uses a name that does not exist
@@ -191,7 +191,7 @@ class Bridge:
 
 
 lamp_service = rospy.Service("/lamp", SetBool, Bridge().handle)
-# %% 08.2 wrong: calls until the state is right | hint: The handler called /on_off again
+# %% 08.2 wrong: calls until the state is right | hint: The handler repeated the call
 replace("state = on_off(1 if request.data else 0).state", """for _ in range(3):
             state = on_off(1 if request.data else 0).state
             if state == ("ON" if request.data else "OFF"):
@@ -218,12 +218,12 @@ def move(switch, to_open):
         return "was there"
     return "failed"
 
-# %% 08.3 wrong: success False is a failure | hint: success=False does not mean a failure
+# %% 08.3 wrong: success False is a failure | hint: success=False does not always mean
 replace('stands != ("open" if to_open else "closed")', "not answer.success")
 replace('answer.success else "was there"', 'stands == ("open" if to_open else "closed") else "failed"')
-# %% 08.3 wrong: does not read the report | hint: The switch responded with success=False and is in the other
+# %% 08.3 wrong: does not read the report | hint: The switch responded with success=False and is in the wrong
 replace('\n    stands = rospy … return "failed"', "")
-# %% 08.3 wrong: reads the report only if success is False | hint: and use its message
+# %% 08.3 wrong: reads the report only if success is False | hint: The switch responded with success=True
 replace('answer = rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open)', '''if rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).success:
         return "moved"''')
 replace('if stands ! … was there"', 'return "was there" if stands == ("open" if to_open else "closed") else "failed"')
@@ -236,15 +236,15 @@ def move(switch, to_open):
         return "moved"
     return "was there" if "already" in words else "failed"
 
-# %% 08.3 wrong: returns success | hint: A bool has only two values,
+# %% 08.3 wrong: returns success | hint: Your function returned a bool
 replace('answer = rospy … was there"', 'return rospy.ServiceProxy(f"{switch}/set", SetBool)(to_open).success')
-# %% 08.3 wrong: returns the message | hint: This is the message of `set`,
+# %% 08.3 wrong: returns the message | hint: Your function returned the message
 based_on("returns success")
 replace("success", "message")
-# %% 08.3 wrong: moves in the opposite direction | hint: The request had the wrong value
+# %% 08.3 wrong: moves in the opposite direction | hint: The request has the wrong
 replace("SetBool)(to_open)", "SetBool)(not to_open)")
 
-# %% 08.3 wrong: toggles | hint: Call only `set` and `report` of the node
+# %% 08.3 wrong: toggles | hint: Call only the services `set`
 def move(switch, to_open):
     wanted = "open" if to_open else "closed"
     if rospy.ServiceProxy(f"{switch}/report", Trigger)().message == wanted:
@@ -280,10 +280,10 @@ replace('answer = rospy … was there"', """rospy.ServiceProxy(f"{switch}/set", 
 replace('"moved" if answer.success else "was there"', '"was there" if answer.success else "moved"')
 # %% 08.3 wrong: ignores success | hint: it was there before
 replace(' if answer.success else "was there"', "")
-# %% 08.3 wrong: with a capital letter | hint: Return "moved", "was there" or "failed",
+# %% 08.3 wrong: with a capital letter | hint: Write the string exactly as
 replace('"moved"', '"Moved"')
 
-# %% 08.3 wrong: compares two reports | hint: The switch responded with success=True and is in the wanted position. Decide
+# %% 08.3 wrong: compares two reports | hint: Use the field `success`, not
 def move(switch, to_open):
     report = rospy.ServiceProxy(f"{switch}/report", Trigger)
     before = report().message
@@ -308,30 +308,30 @@ def call_line(service, fields):
 replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex.join(["rosservice", "call", service, json.dumps(fields)])')
 # %% 08.4 wrong: no quotes at all | hint: bash has split the fields
 replace("shlex.quote(json.dumps(fields))", "json.dumps(fields)")
-# %% 08.4 wrong: values by position | hint: rosservice regards -5 as an option.
+# %% 08.4 wrong: values by position | hint: rosservice reads -5 as an
 replace("{shlex.quote(json.dumps(fields))}", "{' '.join(map(str, fields.values()))}")
-# %% 08.4 wrong: values by position, after -- | hint: The values are in the wrong fields: without
+# %% 08.4 wrong: values by position, after -- | hint: because rosservice uses the order
 based_on("values by position")
 replace("{service} ", "{service} -- ")
-# %% 08.4 wrong: the dict as Python shows it | hint: bash passed the fields as one
+# %% 08.4 wrong: the dict as Python shows it | hint: YAML cannot read a dict
 replace("json.dumps", "str")
 
-# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value; for example
+# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value.
 def call_line(service, fields):
     text = json.dumps(fields).replace('"', "")
     return f"rosservice call {service} {shlex.quote(text)}"
 
-# %% 08.4 wrong: double quotes by hand | hint: bash passed the fields as one
+# %% 08.4 wrong: double quotes by hand | hint: YAML cannot read a dict
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', "'rosservice call {service} \"{fields}\"'")
 # %% 08.4 wrong: single quotes by hand | hint: bash has split the fields
 replace("{shlex.quote(json.dumps(fields))}", "'{json.dumps(fields)}'")
 # %% 08.4 wrong: writes them as arguments of Python | hint: YAML reads a=5 as a string
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}={value}" for name, value in fields.items())')
-# %% 08.4 wrong: writes them as remappings | hint: Arguments with := are for ROS,
+# %% 08.4 wrong: writes them as remappings | hint: rosservice does not receive arguments
 replace('"rosservice call {service} {shlex.quote(json.dumps(fields))}"', '"rosservice call {service} " + " ".join(f"{name}:={value}" for name, value in fields.items())')
 # %% 08.4 wrong: as in a notebook | hint: The character ! works only in a
 replace("rosservice", "!rosservice")
-# %% 08.4 wrong: quotes the whole line | hint: Quote only the fields
+# %% 08.4 wrong: quotes the whole line | hint: Because of the quotes, bash
 replace('f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', 'shlex.quote(f"rosservice call {service} {json.dumps(fields)}")')
 # %% 08.4 wrong: leaves the fields out | hint: rosservice received no values. Write the
 replace(" {shlex.quote(json.dumps(fields))}", "")
@@ -343,16 +343,16 @@ def call_line(service, fields):
     genpy.message.fill_message_args(request, [fields])
     return rospy.ServiceProxy(service, cls)(request)
 
-# %% 08.4 wrong: a tool that does not exist | hint: The line has to contain
+# %% 08.4 wrong: a tool that does not exist | hint: The command is missing in
 replace("call {service}", "{service}")
-# %% 08.4 wrong: a fixed service | hint: No service has the name that
+# %% 08.4 wrong: a fixed service | hint: The name of the service
 replace("call {service}", "call /sum")
 # %% 08.4 wrong: calls twice | hint: The line calls the service more than once
 replace('return f"rosservice call {service} {shlex.quote(json.dumps(fields))}"', """line = f"rosservice call {service} {shlex.quote(json.dumps(fields))}"
     return line + "; " + line""")
 # %% 08.4 wrong: as a call in Python | hint: without parentheses
 replace(" {service} {shlex.quote(json.dumps(fields))}", "({service}, {fields})")
-# %% 08.4 wrong: a list of words | hint: This is a list of words
+# %% 08.4 wrong: a list of words | hint: Your function returned a list
 based_on("joined")
 replace("shlex.join(", "list(")
 
@@ -363,7 +363,7 @@ import subprocess
 def call_line(service, fields):
     return subprocess.list2cmdline(["rosservice", "call", service, json.dumps(fields)])
 
-# %% 08.4 wrong: leaves inner dicts out | hint: A field in an inner dictionary has no value
+# %% 08.4 wrong: leaves inner dicts out | hint: A field in an inner
 replace("json.dumps(fields)", "json.dumps({name: value for name, value in fields.items() if not isinstance(value, dict)})")
 # %% 08.4 wrong: a program in Python makes the call | hint: A program other than rosservice makes the call.
 def call_line(service, fields):
@@ -387,35 +387,35 @@ def call_any(service, fields):
     genpy.message.fill_message_args(request, [fields])
     return proxy(request)
 
-# %% 08.5 wrong: passes the dict without a list | hint: fill_message_args needs a list of values.
+# %% 08.5 wrong: passes the dict without a list | hint: The second argument of fill_message_args
 replace("[fields]", "fields")
-# %% 08.5 wrong: fills the class of the service | hint: This is the class of the
+# %% 08.5 wrong: fills the class of the service | hint: Your function passed the class
 replace("cls._request_class()", "cls()")
 # %% 08.5 wrong: calls by keywords | hint: The field `camera_info` needs a message,
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, rosservice.get_service_class_by_name(service))(**fields)")
-# %% 08.5 wrong: by position | hint: Fill them by name, not by position
+# %% 08.5 wrong: by position | hint: The values are in the wrong fields.
 based_on("calls by keywords")
 replace("(**fields)", "(*fields.values())")
-# %% 08.5 wrong: passes the dict to the proxy | hint: The request did not get the values
+# %% 08.5 wrong: passes the dict to the proxy | hint: The request does not contain
 based_on("calls by keywords")
 replace("(**fields)", "(fields)")
-# %% 08.5 wrong: the name of the type for the class | hint: This is the name of the
+# %% 08.5 wrong: the name of the type for the class | hint: Your function passed the name
 based_on("calls by keywords")
 replace("get_service_class_by_name", "get_service_type")
 # %% 08.5 wrong: a fixed type | hint: Your proxy has the wrong type for this service.
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, SetBool)(**fields)")
-# %% 08.5 wrong: the function behind the tool | hint: catches the exception of genpy
+# %% 08.5 wrong: the function behind the tool | hint: rosservice.call_service raises its own exception
 replace("cls = rosservice … )(request)", "return rosservice.call_service(service, [fields])[1]")
 # %% 08.5 wrong: forgets to return | hint: without a return line
 replace("return rospy", "rospy")
-# %% 08.5 wrong: returns both halves | hint: This is more than the response
+# %% 08.5 wrong: returns both halves | hint: The function returned more than
 replace("rospy", "request, rospy")
 # %% 08.5 wrong: never fills the request | hint: Fill the request before the call
 replace("request = cls … )(request)", "return rospy.ServiceProxy(service, cls)(cls._request_class())")
 # %% 08.5 wrong: leaves unknown fields out | hint: The function ignored a field name
 replace("()", "()\n    known = {name: fields[name] for name in request.__slots__ if name in fields}")
 replace("[fields]", "[known]")
-# %% 08.5 wrong: as a dict | hint: not a dict of its fields
+# %% 08.5 wrong: as a dict | hint: The function returned a dict
 replace("cls =", "kind =")
 replace("cls._request_class", "kind._request_class")
 replace("return rospy.ServiceProxy(service, cls)(request)", """response = rospy.ServiceProxy(service, kind)(request)
@@ -424,14 +424,14 @@ replace("return rospy.ServiceProxy(service, cls)(request)", """response = rospy.
 replace("cls)(request)", "cls)")
 # %% 08.5 wrong: calls twice | hint: The function called the service more
 replace("return rospy", "rospy.ServiceProxy(service, cls)(request)\n    return rospy")
-# %% 08.5 wrong: one field of the response | hint: Return the whole response, unchanged
+# %% 08.5 wrong: one field of the response | hint: The function did not return
 replace("cls)(request)", "cls)(request).message")
 
 # %% 08.5 wrong: the class of the request | hint: rospy.ServiceProxy got the class of the request
 replace("rospy.ServiceProxy(service, cls)", "rospy.ServiceProxy(service, cls._request_class)")
-# %% 08.5 wrong: sends what the function returns | hint: fill_message_args returns None
+# %% 08.5 wrong: sends what the function returns | hint: Your function sent the return
 replace("    genpy", "    request = genpy")
-# %% 08.5 wrong: lines of text | hint: These are lines of text
+# %% 08.5 wrong: lines of text | hint: The function returned lines of
 replace("return rospy.ServiceProxy(service, cls)(request)", "return str(rospy.ServiceProxy(service, cls)(request)).splitlines()")
 
 # %% 08.6 right: the headers
@@ -461,20 +461,20 @@ def diagnose(service, kind):
             return result
     return "ok"
 
-# %% 08.6 wrong: no test for None | hint: Test for None first
+# %% 08.6 wrong: no test for None | hint: get_service_uri returned None, and your
 replace("    if uri is None:\n        return \"not registered\"\n", "")
 # %% 08.6 wrong: catches nothing | hint: Catch ROSServiceIOException.
 replace("    try:\n        headers", "    if True:\n        headers")
 replace("    except rosservice.ROSServiceIOException:\n        return \"server is gone\"\n", "")
-# %% 08.6 wrong: compares the types only | hint: The names of the types are equal, but
+# %% 08.6 wrong: compares the types only | hint: Compare the MD5 sums, too
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return "ok"')
-# %% 08.6 wrong: compares the sums first | hint: The names of the types are different; sometimes
+# %% 08.6 wrong: compares the sums first | hint: The names of the types are different
 replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5sum:\n        return "ok"\n    return "another definition"')
 # %% 08.6 wrong: treats every error as a missing server | hint: The master has an address for
 replace('"server is gone"', '"not registered"')
-# %% 08.6 wrong: treats a missing service as a dead server | hint: get_service_uri returns None
+# %% 08.6 wrong: treats a missing service as a dead server | hint: so get_service_uri returns None
 replace('"not registered"', '"server is gone"')
-# %% 08.6 wrong: compares with the class | hint: Compare with the whole name of `kind`
+# %% 08.6 wrong: compares with the class | hint: Compare the type with the
 replace('headers["type"] != kind._type', 'headers["type"] != kind')
 # %% 08.6 wrong: a header that does not exist | hint: The headers have no entry with
 replace('headers["md5sum"]', 'headers["md5"]')
@@ -483,13 +483,13 @@ replace('return "ok" if', 'print("ok" if')
 replace('else "another definition"', 'else "another definition")')
 # %% 08.6 wrong: a bool | hint: Return one of the five strings
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return headers["md5sum"] == kind._md5sum')
-# %% 08.6 wrong: calls it | hint: Do not call the service, because
+# %% 08.6 wrong: calls it | hint: Use only get_service_uri and
 replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class())\n    return \"ok\" if")
-# %% 08.6 wrong: the sum of the request | hint: the class of the whole service type
+# %% 08.6 wrong: the sum of the request | hint: The MD5 sums are equal
 replace("kind._md5sum", "kind._request_class._md5sum")
 # %% 08.6 wrong: the test for None the wrong way round | hint: so a client can connect
 replace("uri is None", "uri is not None")
-# %% 08.6 wrong: the last part of the name | hint: The names of the types are different; sometimes
+# %% 08.6 wrong: the last part of the name | hint: The names of the types are different
 replace('headers["type"] != kind._type', 'headers["type"].split("/")[1] != kind._type.split("/")[1]')
-# %% 08.6 wrong: no types if the sums are equal | hint: The names of the types are different; sometimes
+# %% 08.6 wrong: no types if the sums are equal | hint: The names of the types are different
 replace('headers["type"] != kind._type', 'headers["type"] != kind._type and headers["md5sum"] != kind._md5sum')

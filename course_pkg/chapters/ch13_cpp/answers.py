@@ -28,9 +28,9 @@ TARGET_INCLUDE_DIRECTORIES(${PROJECT_NAME}_node PRIVATE ${catkin_INCLUDE_DIRS})
 TARGET_LINK_LIBRARIES(${PROJECT_NAME}_node ${catkin_LIBRARIES})
 """
 
-# %% 13.1 wrong: the file without its folder | hint: Write its path relative to the folder of the package
+# %% 13.1 wrong: the file without its folder | hint: Write the path of the
 replace("src/box_server.cpp", "box_server.cpp")
-# %% 13.1 wrong: a script in the place of the program | hint: has to be built from C++ code that calls functions of roscpp
+# %% 13.1 wrong: a script in the place of the program | hint: The program does not use
 replace("""add_executable(box_server src/box_server.cpp)
 target_link_libraries(box_server ${catkin_LIBRARIES})""", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/box_server "#!/usr/bin/env python3\\nprint()\\n")
 file(COPY ${CMAKE_CURRENT_BINARY_DIR}/box_server DESTINATION ${CATKIN_DEVEL_PREFIX}/lib/cpp_boxes
@@ -39,7 +39,7 @@ file(COPY ${CMAKE_CURRENT_BINARY_DIR}/box_server DESTINATION ${CATKIN_DEVEL_PREF
 replace("add_executable(box_server src/box_server.cpp)", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/other.cpp "#include <ros/ros.h>
 int main(int c, char** v) { ros::init(c, v, \\"x\\"); }")
 add_executable(box_server ${CMAKE_CURRENT_BINARY_DIR}/other.cpp)""")
-# %% 13.1 wrong: linked before it is declared | hint: Write add_executable first, and use the same program name
+# %% 13.1 wrong: linked before it is declared | hint: Write add_executable above this line
 replace("add_executable", "target_link_libraries(box_server ${catkin_LIBRARIES})\nadd_executable")
 replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")
 # %% 13.1 wrong: not linked | hint: Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable

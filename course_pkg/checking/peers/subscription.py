@@ -125,11 +125,19 @@ class Subscription:
 
     def _what_to_do(self, found: str) -> str:
         if found:
-            return f"Publish the topic with the type in the exercise: {self.kind}."
+            return (
+                f"The topic has the wrong type. Publish the topic with the type in the exercise: {self.kind}."
+            )
         others = [name for name in self._node.master.system_state().publishers if name != "/rosout"]
         if alike := difflib.get_close_matches(self.name, others, n=1):
-            return f"There is {alike[0]}: compare the names letter by letter."
-        return "Run the cell that publishes this topic, and run it again after each restart of the kernel."
+            return (
+                f"The graph contains {alike[0]}. Compare this name letter by letter with the name "
+                "in the exercise."
+            )
+        return (
+            "No node publishes this topic. Run the cell that publishes this topic, and run it "
+            "again after each restart of the kernel."
+        )
 
 
 def rate(arrivals: Sequence[Arrival]) -> float:

@@ -40,7 +40,9 @@ def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():
-        return _undecided(check_id, "Call check() in a separate cell, not from another thread.")
+        return _undecided(
+            check_id, "check() was called from another thread. Call check() in a separate cell."
+        )
     printed = PrintedText()
     names = _notebook() if namespace is None else namespace
     cells = _cells()
@@ -84,7 +86,7 @@ def _runner() -> Iterator[Channel]:
 def _started_runner() -> Iterator[Channel]:
     """Start a check runner; it ends with this block, even if this process is killed."""
     if "ROS_MASTER_URI" not in os.environ:
-        raise CheckError("There is no node yet: first run the set-up cell, which calls join().")
+        raise CheckError("The node does not exist yet. First run the set-up cell, which calls join().")
     ours, theirs = socket.socketpair()
     with tempfile.TemporaryFile() as log:
         process = _spawn(theirs, log)
@@ -134,7 +136,7 @@ def _how_it_ended(process: subprocess.Popen[bytes], log: IO[bytes]) -> str:
     _end(process)
     log.seek(0)
     last = log.read()[-2000:].decode("utf-8", errors="replace").strip().splitlines()[-3:]
-    return "\n".join(["The check ended without a result; run this cell again.", *last])
+    return "\n".join(["The check ended without a result. Run this cell again.", *last])
 
 
 def _notebook() -> Mapping[str, Value]:

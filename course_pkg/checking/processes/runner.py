@@ -81,7 +81,7 @@ def _reported(part: Part, context: CheckContext) -> Report:
         shown = (*results.assertions, _too_slow(part, context))
         return _report(part, Verdict.FAILED, shown, goals=results.kept_goals)
     except ChannelError as error:
-        note = f"The kernel sent a reply that is not valid: {error}."
+        note = f"The kernel sent an invalid reply: {error}."
         return _report(part, Verdict.FAILED, results.assertions, note)
     _require_marks(part, results.fulfilled_goals | results.failed_goals)
     if results.failed_goals:
@@ -103,8 +103,8 @@ def _not_attempted(part: Part, channel: Channel) -> str:
         blank = next((name for name, reply in replies.items() if reply.get("kind") == "blank"), "")
         if blank:
             return (
-                f"Replace the ... in {blank.removeprefix('file:')}, run that cell, and then run this cell "
-                "again."
+                f"Write your answer in place of the ... in {blank.removeprefix('file:')}, run "
+                "that cell, and then run this cell again."
             )
         there = [reply for reply in replies.values() if reply.get("kind") != "missing"]
         if not there:
@@ -112,8 +112,8 @@ def _not_attempted(part: Part, channel: Channel) -> str:
             shown = name.removeprefix("file:")
             alike = reply.get("alike")
             names = " and ".join(map(str, alike)) if isinstance(alike, list) else ""
-            found = f" There is {names}: is this the spelling in the exercise?" if names else ""
-            return f"{shown} is not defined: run the cell above first.{found}"
+            found = f" A similar name exists: {names}. Is this the name in the exercise?" if names else ""
+            return f"{shown} is not defined. Run the cell above first.{found}"
         for reply in there:
             require_current(reply)
     return _unchanged(part, channel)
@@ -137,7 +137,7 @@ def _too_slow(part: Part, context: CheckContext) -> Assertion:
         f"it ends within {part.deadline:g} s",
         holds=False,
         actual=f"still {context.doing}" if context.doing else "",
-        hint="The code waits without a time limit, or is in an endless loop. Look for such a wait or loop.",
+        hint="The code is in an endless loop, or waits without a time limit. Look for this loop or wait.",
     )
 
 

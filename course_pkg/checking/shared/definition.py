@@ -23,9 +23,13 @@ def read_definition(context: CheckContext, name: str, text: str) -> ServiceType:
     except BrokenDefinition as error:
         seen = f"line {error.line}: {error.text.strip()}" if error.text.strip() else f"line {error.line}"
         hint = f"{_sentence(error.problem)} {_sentence(error.remedy)}"
-        hint = "Remove the line with the three dots." if error.text.strip() == "..." else hint
+        hint = (
+            "The definition still contains the line with the three dots. Remove this line."
+            if error.text.strip() == "..."
+            else hint
+        )
         if "\t" in error.text.split("#")[0].strip():
-            hint = "There is a tab between type and name. ROS separates them only at spaces, so use a space."
+            hint = "There is a tab between the type and the name of a field. Replace the tab with a space."
         context.fail(assertion, expected="a definition", actual=seen, hint=hint)
     context.require(assertion, holds=True)
     return given

@@ -24,7 +24,10 @@ def require_own_nodes(context: CheckContext, space: str, besides: Collection[str
                 "the node is your own program",
                 expected="a program that does the work itself",
                 actual="a program of the course",
-                hint="Your program starts or imports a program of the course. Write the node yourself.",
+                hint=(
+                    "Your program starts or imports a program of the course. Write the code of the "
+                    "node yourself."
+                ),
             )
 
 
@@ -40,7 +43,7 @@ def require_kernel(context: CheckContext, nodes: Collection[str]) -> None:
             "your own code does the work",
             expected=f"the node {kernel}",
             actual=f"the node {others[0]}",
-            hint="Another program does the work. Use only the code of this cell, and start no program.",
+            hint="Another program does the work. Use only the code in this cell, and do not start a program.",
         )
 
 

@@ -73,7 +73,10 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
             "the program is a compiled C++ program that uses roscpp",
             expected="an ELF file that is linked with libroscpp",
             actual=(seen.out + seen.err).strip().partition("\n")[0] or "a file of another type",
-            hint="The program has to be built from C++ code that calls functions of roscpp.",
+            hint=(
+                "The program does not use roscpp. Build the program from C++ code that calls "
+                "functions of roscpp."
+            ),
         )
     starts = sorted({name for name in CALLED.findall(seen.out) if STARTS.fullmatch(name)})
     hidden = folder.command(
@@ -87,5 +90,5 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
             "the C++ program does the work itself",
             expected="no other program or library that is started or loaded",
             actual=f"calls of {', '.join(starts)}" if starts else "a direct system call",
-            hint="The program can start another program. Solve the exercise with roscpp alone.",
+            hint="The program can start another program. Use only functions of roscpp.",
         )

@@ -27,7 +27,7 @@ def require_served_by_program(context: CheckContext, program: Running, *services
                 "the program itself serves its services",
                 expected="a server in the process of the program",
                 actual=f"{service.name} is served by another process, as the node {service.node}",
-                hint="Another process serves this name. Create the service in the program.",
+                hint="Another process serves the name in the exercise. Create the service in your program.",
             )
 
 
@@ -41,5 +41,8 @@ def require_served_by_notebook(context: CheckContext, *services: str) -> None:
                 "the node of the notebook serves the service",
                 expected="a server in the kernel of the notebook",
                 actual=f"{service.name} is served by another process, as the node {service.node}",
-                hint="Another program serves this name. Stop it, and create the service in your cell.",
+                hint=(
+                    "Another program serves the name in the exercise. Stop that program, and "
+                    "create the service in your cell."
+                ),
             )

@@ -6,10 +6,10 @@ from course_pkg.lab.graph.graph import Graph, Which
 from course_pkg.setup.network import FORWARDER, outgoing_problem
 
 EXPOSED = (
-    "The graph uses the network of this computer: everybody who can log in here can call, replace and stop "
-    "your nodes."
+    "The graph uses the network of this computer. All users who can log in here can call, "
+    "replace and stop your nodes."
 )
-ADVICE = "`./course doctor` says what to do."
+ADVICE = "Run `./course doctor` to see what to do."
 UNREACHABLE = (
     "Programs on this graph, such as `git push` and `pip`, cannot reach other computers ({problem}). "
     f"{ADVICE} With `--shared-graph`, the graph uses the network of this computer."

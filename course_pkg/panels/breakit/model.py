@@ -296,10 +296,10 @@ def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -
     if right and right_remedy:
         return _solution(fault, "right", "Right.")
     if right:
-        words = "The diagnosis is right, but another remedy fits it better."
+        words = "The diagnosis is right, but a different remedy is better for this fault."
         return {"state": "half", "words": words, "reason": ""}
     other = fault_with(diagnosis)
-    reason = f"That fault would look different: {other.reason}" if other else ""
+    reason = f"The fault that you chose would look different: {other.reason}" if other else ""
     return {"state": "wrong", "words": "This is not the fault.", "reason": reason}
 
 

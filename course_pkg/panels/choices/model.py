@@ -145,7 +145,8 @@ class ChoicesModel:
                 )
             if texts.count(case.text) > 1:
                 raise NotAChoice(
-                    f"choose({self.key!r}): the case {case.text!r} is given twice. Remove one of the two."
+                    f"choose({self.key!r}): the case {case.text!r} is given twice. Remove one "
+                    "of the two cases."
                 )
 
 
@@ -153,5 +154,7 @@ def _case(key: str, given: tuple[str, str, str]) -> Case:
     try:
         text, answer, reason = given
     except (TypeError, ValueError) as error:
-        raise NotAChoice(f"choose({key!r}): {given!r} is not a case. Give (case, answer, reason).") from error
+        raise NotAChoice(
+            f"choose({key!r}): {given!r} is not a case. Write each case as (case, answer, reason)."
+        ) from error
     return Case(str(text), str(answer), str(reason))

@@ -203,7 +203,7 @@ class GraphModel:
         layout, trouble, drawing = Layout(), "", ""
         try:
             layout = self._arrange(shown)
-            words = f"{_counts(shown)}. The list after the drawing shows the same as text."
+            words = f"{_counts(shown)}. The list after the drawing contains the same information as text."
             drawing = svg(layout, description=words) if shown.shapes else ""
         except DrawingFailed as error:
             trouble = str(error)

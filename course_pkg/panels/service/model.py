@@ -162,7 +162,7 @@ class ServiceModel:
             form = self._need_form()
             if self._under_way:
                 raise CallInProgress(
-                    f"A call of {self.service} is running: wait for its response, or cancel it."
+                    f"A call of {self.service} is running. Wait for the response, or cancel the call."
                 )
             call = self._begin(form, deadline)
         outcome = self._finish(call)
@@ -223,7 +223,8 @@ class ServiceModel:
         problem = self._problem
         if not found:
             problem = (
-                "No service of this name is on the graph now. The panel follows the graph: start its server."
+                "No service with this name is on the graph now. Start the server of this "
+                "service: then the panel shows the service."
             )
         elif not found.type:
             problem = "The node of this service does not answer, so the type of the service is not known."
@@ -234,7 +235,8 @@ class ServiceModel:
     def _need_form(self) -> RequestForm:
         if not self.service:
             raise NoServiceSelected(
-                "No service is picked. Pick one in the panel or give its name: ServicePanel('/getGeometry')."
+                "No service is selected. Select a service in the panel, or pass its name: "
+                "ServicePanel('/getGeometry')."
             )
         if not self.form:
             raise NoServiceSelected(

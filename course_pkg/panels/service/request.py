@@ -107,7 +107,7 @@ def seconds(text: str) -> float:
         value = -1.0
     if not 0 < value <= LONGEST:
         allowed = f"a number of seconds above 0, at most {LONGEST:g}"
-        raise FieldError(DEADLINE, text, allowed, f"{text!r} is not a time to wait")
+        raise FieldError(DEADLINE, text, allowed, f"{text!r} is not a valid waiting time")
     return value
 
 

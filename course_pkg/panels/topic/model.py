@@ -111,8 +111,9 @@ class TopicModel:
     ) -> None:
         if not re.fullmatch(NAME, topic, re.ASCII):
             raise NotATopic(
-                f"{topic!r} cannot be the name of a topic. Give a full name such as /turtle1/cmd_vel: "
-                "letters, digits and _, each part beginning with a letter."
+                f"{topic!r} cannot be the name of a topic. Use a full name such as "
+                "/turtle1/cmd_vel, with letters, digits and _. Each part has to begin with a "
+                "letter."
             )
         self.topic = topic
         self.kind: MessageType | None = None
@@ -288,8 +289,8 @@ class TopicModel:
         about: About = {"topic": self.topic, "problem": self._problem, "burst": BURST, "listen": listen}
         if self.kind is None:
             unknown = (
-                f"No node publishes {self.topic} yet, so its type is not known. Start a publisher, or give "
-                f"the type: TopicPanel({self.topic!r}, 'std_msgs/Float64')."
+                f"No node publishes {self.topic} yet, so its type is not known. Start a "
+                f"publisher, or pass the type: TopicPanel({self.topic!r}, 'std_msgs/Float64')."
             )
             return {**about, "problem": self._problem or unknown}
         return {**about, "message": schema(self.kind), "numbers": numbers(self.kind)}

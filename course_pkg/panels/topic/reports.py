@@ -94,7 +94,7 @@ def published(report: PublisherReport, own: str) -> str:
     if not count:
         return "Nothing is published yet. The first message creates the publisher."
     if not report["advertised"]:
-        return "The publisher is withdrawn. The next message creates a new one."
+        return "The publisher was stopped. The next message creates a new publisher."
     if report["rate"]:
         return _rate(report)
     peers = [_peer(each["peer"], own) for each in report["deliveries"]]
@@ -105,7 +105,10 @@ def published(report: PublisherReport, own: str) -> str:
         return f"Message {count} reached no subscriber: no subscriber was connected when it was published."
     if peers:
         return f"Message {count} was kept, and went to {_all(peers)} as soon as it was connected."
-    return f"Message {count} has reached no subscriber yet. It is latched, so the next subscriber gets it."
+    return (
+        f"Message {count} has reached no subscriber yet. The message is latched, so the next "
+        "subscriber gets it."
+    )
 
 
 def _rate(report: PublisherReport) -> str:
@@ -139,8 +142,9 @@ def _of_publishers(
         md5 = source["md5"] if source else _md5(name, find)
         if node != own and _differs(kind, name, md5):
             yield (
-                f"{node} publishes {_type(name, md5)}, this panel has {_type(kind.name, kind.md5)}. "
-                "A subscriber with the panel's type gets none of these messages, and no error."
+                f"{node} publishes {_type(name, md5)}, but this panel has "
+                f"{_type(kind.name, kind.md5)}. A subscriber with the panel's type gets none "
+                "of these messages, and no error message."
             )
 
 
@@ -152,8 +156,9 @@ def _of_subscribers(
         md5 = _md5(name, find)
         if node != own and _differs(kind, name, md5):
             yield (
-                f"{node} subscribes to {_type(name, md5)}, this panel has {_type(kind.name, kind.md5)}. "
-                "This node gets no message of the panel's type, and no error."
+                f"{node} subscribes to {_type(name, md5)}, but this panel has "
+                f"{_type(kind.name, kind.md5)}. This node gets none of the panel's messages, "
+                "and no error message."
             )
 
 

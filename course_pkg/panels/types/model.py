@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 Catalogue = tuple[tuple[str, ...], tuple[str, ...]]
 TOOLS = {"srv": "rossrv", "msg": "rosmsg"}
 CHANGED = (
-    "The file has changed since the type was built. The panel shows the built type, which programs "
-    "here still use. Build the type again with catkin_make, and restart the kernel."
+    "The file has changed since the type was built, but programs still use the built type, "
+    "which the panel shows. Build the type again with catkin_make, and restart the kernel."
 )
 UNBUILT = (
     "This type is not built yet. ROS's tools show it from its file, but Python can import it only after "

@@ -240,7 +240,9 @@ class _ConnectionSteps:
 
     def _greeting(self, probe: bool) -> str:
         if probe:
-            return "probe=1 means that no request follows. wait_for_service uses it to find a server."
+            return (
+                "probe=1 means that no request follows. wait_for_service uses such a header to find a server."
+            )
         return (
             f"{len(self._asked)} fields in any order, each with its length before it. The MD5 identifies the "
             "definition that the client was built with."
@@ -267,7 +269,7 @@ class _ConnectionSteps:
         says = (
             f"The first byte says that the call worked. {_of_body(kind.response if kind else None)}"
             if worked
-            else "The first byte is 0, so no response follows, but the reason as text."
+            else "The first byte is 0, which means that the call failed. The reason follows as text."
         )
         pieces = reply_pieces(reply.data, kind.response if kind else None)
         return self._framed(

@@ -18,16 +18,16 @@ _BUILD = re.compile(r"^(?:CMake Error|-- |Base path:|Invoking \"|\[rospack\])", 
 NOTHING = Explanation(
     "There is no error message. A call that waits prints nothing, because rospy has no time limit for calls.",
     (
-        "Find the server's node with `rosservice info`. Then check with `rosnode ping` whether this "
-        "node answers."
+        "Find the node of the server with `rosservice info`. Then check with `rosnode ping` "
+        "whether this node answers."
     ),
     "12",
     known=False,
 )
 UNKNOWN = Explanation(
     "The course has no explanation for this error message.",
-    "Read the last line first: it names the error. In a traceback, begin with the lowest line that names "
-    "your own file.",
+    "Read the last line first, because this line contains the error. In a traceback, begin "
+    "with the lowest line that contains the name of your own file.",
     known=False,
 )
 

@@ -21,16 +21,16 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"Unable to register with master node",
-        f"{NO_MASTER} init_node() keeps trying, and prints this message only once.",
+        f"{NO_MASTER} init_node() tries again and again, and prints this message only once.",
         "Start a master, or correct ROS_MASTER_URI. Ctrl-C ends the wait.",
         "12",
     ),
     (
         r"MasterSilent|accepts connections, but did not answer within|the master at \S+ does not answer",
-        "The master accepts connections, but does not answer: it is stopped, or hangs.",
+        "The master accepts connections, but does not answer. Its process is stopped or blocked.",
         (
-            "Resume the stopped process (`kill -CONT` with its process id), or end it and restart the "
-            "master and all nodes."
+            "Resume the stopped process with `kill -CONT` and its process id. Otherwise, end "
+            "the process, and restart the master and all nodes."
         ),
         "12",
     ),
@@ -50,20 +50,22 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"roscore cannot run as another roscore/master is already running",
-        "A master already runs on this port; each computer needs only one.",
-        "Use the running master. If you really need a second one, use another port: `roscore -p 11312`.",
+        "A master already runs on this port, and each computer needs only one master.",
+        "Use the running master. If you need a second master, use a different port: `roscore -p 11312`.",
         "01",
     ),
     (
         r"\[Errno 98\]|Address already in use|PortBusy",
         "Another program already uses the port. A rosmaster that prints this error does not end by itself.",
-        "End rosmaster with Ctrl-C. Find the other program with `ss -tlnp`, or use another port.",
+        "End rosmaster with Ctrl-C. Find the other program with `ss -tlnp`, or use a different port.",
         "01",
     ),
     (
         r"init_node\(\) has already been called with different arguments",
-        "One program is one node: init_node() was called before with another name or other options.",
-        "Keep the name, or restart the kernel. In the course's notebooks, join() calls init_node().",
+        "The program called init_node() before, with a different name or different options. "
+        "One program can be only one node.",
+        "Use the same name again, or restart the kernel. In the course's notebooks, join() "
+        "calls init_node().",
         "02",
     ),
     (
@@ -77,8 +79,8 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"new node registered with same name|NodeNameTaken",
-        "Two nodes have the same name. The master shuts down the older one when the newer one registers.",
-        "Give each node its own name: `__name:=other`, or init_node(…, anonymous=True).",
+        "Two nodes have the same name. When the newer node registers, the master shuts down the older node.",
+        "Use a different name for each node: `__name:=other`, or init_node(…, anonymous=True).",
         "01",
     ),
     (
@@ -95,14 +97,15 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"topic types do not match",
-        "Publisher and subscriber of one topic have different types. The subscriber gets no error.",
+        "The publisher and the subscriber of a topic use different types. The subscriber gets "
+        "no error message.",
         "Compare the types with `rostopic info` and `rostopic type`, and use the same type in both nodes.",
         "02",
     ),
     (
         r"Name or service not known|Temporary failure in name resolution|Unknown host \[|"
         r"attempted to connect to non-local host",
-        "The server registered under a host name that this machine cannot look up.",
+        "The server is registered with a host name that this machine does not know.",
         "Start the server with ROS_HOSTNAME=localhost.",
         "12",
     ),

@@ -17,19 +17,22 @@ FROM_HANDLERS: tuple[Row, ...] = (
     ),
     (
         r"service cannot process request: .{0,300}is not an attribute of \w+",
-        "The handler names a field that the response does not have. Usually the name is misspelt.",
-        "Compare the names with the part below --- that `rossrv show` prints for the service's type.",
+        "The handler uses a field name that the response does not have. Usually, the name is misspelt.",
+        "Compare the field names with the output of `rossrv show` for the service's type. The "
+        "response is the part below ---.",
         "05",
     ),
     (
         r"handler returned invalid value",
-        "The returned value cannot become a response: it does not have one value for each field.",
+        "rospy cannot create a response from the returned value: the value does not have one "
+        "item for each field.",
         "Return a response object, or a tuple, list or dict with one value for each field of the response.",
         "05",
     ),
     (
         r"handler returned wrong number of values",
-        "The handler returned a list or tuple whose length is not the number of fields in the response.",
+        "The handler returned a list or tuple of the wrong length. The length has to be the "
+        "number of fields in the response.",
         "Return one value for each field. A single array field needs a list inside a list: [[1, 2, 3]].",
         "05",
     ),
@@ -41,14 +44,15 @@ FROM_HANDLERS: tuple[Row, ...] = (
     ),
     (
         r"[Ee]rror processing request: .{0,300}(?:positional argument|argument.{0,300} given)",
-        "The handler has the wrong parameters: it is called with one argument, the request.",
+        "The handler has the wrong parameters: rospy calls the handler with one argument, the request.",
         "Write the handler as a function of one argument: def handle(request).",
         "05",
     ),
     (
         r"[Ee]rror processing request",
         "The handler raised an exception. Its traceback is in the server's terminal, or below its cell.",
-        "Find the line in the traceback and correct it, or refuse the request with rospy.ServiceException.",
+        "Find the line in the traceback and correct this line. To refuse a request, raise "
+        "rospy.ServiceException.",
         "05",
     ),
     (
@@ -63,7 +67,7 @@ FROM_HANDLERS: tuple[Row, ...] = (
     (
         r"service cannot process request",
         "The handler refused this request: it raised ServiceException.",
-        "Read the reason above and send a request that the service accepts.",
+        "Read the reason in the error message, and send a request that the service accepts.",
         "05",
     ),
     (
@@ -80,7 +84,7 @@ FROM_HANDLERS: tuple[Row, ...] = (
     ),
     (
         r"service \[[^\]]{0,300}\] already registered",
-        "This program already provides a service of this name, and the old handler still answers.",
+        "This program already provides a service with this name, and the old handler still answers.",
         "Call shutdown() on the old service before you create it again.",
         "05",
     ),

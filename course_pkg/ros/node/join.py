@@ -273,6 +273,7 @@ def _free_name(full: str, master: MasterClient) -> None:
 def _taken(full: str, uri: str, reach: Reach) -> str:
     silent = ", and does not answer" if reach is Reach.SILENT else ""
     return (
-        f"Another node already has the name {full}, at {uri}{silent}. If it is a second kernel with the same "
-        "notebook, shut that kernel down and run this cell again; otherwise use another name here."
+        f"Another node already has the name {full}, at {uri}{silent}. If this node is a second "
+        "kernel with the same notebook, shut that kernel down. Otherwise, use a different name "
+        "here."
     )

@@ -157,8 +157,9 @@ class Node:
     def _require(self) -> None:
         if os.getpid() != self._pid:
             raise NotJoined(
-                "This process was forked from the node's process, but a fork does not copy the threads that "
-                "a node needs. Use threads, or start a new process and call join() there with another name."
+                "This process was forked from the node's process, but a fork does not copy the "
+                "threads that a node needs. Use threads, or start a new process and call "
+                "join() there with a different name."
             )
         if rospy.core.is_shutdown():
             raise NotJoined(

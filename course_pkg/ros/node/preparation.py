@@ -43,7 +43,7 @@ LONGEST = 65536  # A connection with a longer header (in bytes) is closed.
 # some clients wait 1 s for a TCP retransmission.
 BACKLOG = 128
 STATISTICS = "getBusStats"
-UNSUPPORTED = "the callers of its services: this rospy reports its statistics in another way"
+UNSUPPORTED = "the callers of its services, because this rospy reports its statistics in a different way"
 # This attribute marks a registration manager whose thread wakes up at once during a shutdown.
 HASTENED = "hastened_by_course"
 
@@ -76,7 +76,9 @@ def guard_against_idle_connections() -> bool:
     listener = getattr(server, "tcp_ros_server", None)
     serve = getattr(listener, "inbound_handler", None)
     if listener is None or not callable(serve):
-        text = "idle connections can block this node: this rospy accepts connections in another way"
+        text = (
+            "idle connections can block this node, because this rospy accepts connections in a different way"
+        )
         logging.getLogger("rospy.course").warning(text)
         return False
     if not (isinstance(serve, partial) and serve.func is _accepted):

@@ -43,7 +43,7 @@ def message_class(kind: MessageKind) -> MessageClass:
         kind = message_type(kind)
     cls = getattr(kind, "cls", kind)
     if not _is_message(cls):
-        text = "is not a message type. Give a class such as std_msgs.msg.UInt32."
+        text = "is not a message type. Pass a class such as std_msgs.msg.UInt32."
         raise NotAMessageType(f"{_name(cls)} {text}")
     return cls
 
@@ -61,10 +61,10 @@ def _not_a_service(cls: object) -> str:
     for half in ("Request", "Response"):
         if name.endswith(half) and hasattr(cls, "_type"):
             whole = name.removesuffix(half)
-            return f"{name} is the {half.lower()} of a service type. Give the type itself: {whole}."
+            return f"{name} is the {half.lower()} of a service type. Pass the type itself: {whole}."
     if isinstance(cls, genpy.Message) or hasattr(cls, "_slot_types"):
-        return f"{name} is a message type, for topics. Give a service type, such as std_srvs.srv.Trigger."
-    return f"{name} is not a service type. Give a class such as std_srvs.srv.Trigger."
+        return f"{name} is a message type, for topics. Pass a service type, such as std_srvs.srv.Trigger."
+    return f"{name} is not a service type. Pass a class such as std_srvs.srv.Trigger."
 
 
 def _name(cls: object) -> str:

@@ -156,7 +156,7 @@ def _make_room(run: CellRun, before: ServiceImpl) -> bool:
         _close_service(before)
     if not run.temporary and not ours:
         name = before.resolved_name
-        sys.stdout.write(f"This cell's service {name} replaces the one that another cell created.\n")
+        sys.stdout.write(f"The service {name} of this cell replaces the service that another cell created.\n")
     return True
 
 

@@ -141,5 +141,11 @@ def _require_launch_file(package: str, name: str) -> None:
         return
     others = sorted({path.name for place in places for path in place.glob(f"*{SUFFIX}")})
     alike = difflib.get_close_matches(name, others, n=1)
-    hint = f" Did you mean {alike[0]!r}?" if alike else f" It has: {', '.join(others)}." if others else ""
+    hint = (
+        f" Did you mean {alike[0]!r}?"
+        if alike
+        else f" The package has: {', '.join(others)}."
+        if others
+        else ""
+    )
     raise UnknownExecutable(f"Package {package!r} has no launch file {name!r}.{hint}")

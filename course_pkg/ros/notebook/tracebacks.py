@@ -31,7 +31,7 @@ def readable_traceback(error: BaseException, place_of: PlaceOf = str, header: st
     message = _message(error)
     calls = [_call(frame, place_of) for frame in students_frames(error.__traceback__)]
     if not calls:
-        calls = [["  This error comes from outside of your code."]]
+        calls = [["  This error occurred outside of your code."]]
     room = LINES - 1 - len(before) - _rows(message)
     return [header, *before, *_shortened(calls, room), *message]
 

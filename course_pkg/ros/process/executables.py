@@ -60,6 +60,6 @@ def _missing(package: str, name: str, others: list[str]) -> str:
     message = f"Package {package!r} has no program {name!r}."
     if others:
         alike = difflib.get_close_matches(name, others, n=1)
-        message += f" Did you mean {alike[0]!r}?" if alike else f" It has: {', '.join(others)}."
+        message += f" Did you mean {alike[0]!r}?" if alike else f" The package has: {', '.join(others)}."
     needed = "A script also needs chmod +x and a first line such as #!/usr/bin/env python3."
     return f"{message} {needed}"

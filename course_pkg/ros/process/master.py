@@ -76,7 +76,9 @@ class PrivateMaster:
                 return self
         if self._port_wanted:
             raise _busy(self._port_wanted)
-        raise GraphError(f"Other programs took {ATTEMPTS} ports before the master could. Try again.")
+        raise GraphError(
+            f"The master found no free port, because other programs took {ATTEMPTS} ports. Try again."
+        )
 
     def stop(self) -> None:
         """End the master and delete its log files; a second call has no effect."""
@@ -150,8 +152,9 @@ def _port(asked: int | None) -> int:
 
 def _busy(port: int | None) -> PortBusy:
     return PortBusy(
-        f"Port {port} of 127.0.0.1 is used by another program. Choose another port, or give none to get a "
-        f"free port; if the program is a ROS master, use it with ROS_MASTER_URI=http://localhost:{port}."
+        f"Another program uses port {port} of 127.0.0.1. Choose a different port, or omit the "
+        "port to get a free port. If the program is a ROS master, use it with "
+        f"ROS_MASTER_URI=http://localhost:{port}."
     )
 
 

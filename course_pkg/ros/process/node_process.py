@@ -162,5 +162,5 @@ class NodeProcess:
 
     def _failed(self, what: str) -> NodeFailed:
         tail = self.output()[-TAIL:].strip()
-        printed = f"The end of what it printed:\n{tail}" if tail else "It printed nothing."
+        printed = f"The end of the program's output:\n{tail}" if tail else "The program printed nothing."
         return NodeFailed(f"{self.label} {what}. {printed}", tail, self.returncode)

@@ -61,7 +61,7 @@ class Roscore(PrivateMaster):
             client.set_param(name, value)
         program = prefix / "lib" / "rosout" / "rosout"
         if not program.is_file():
-            raise SetupError(f"There is no {program}. Run `./course doctor` to list what is missing.")
+            raise SetupError(f"{program} does not exist. Run `./course doctor` to list what is missing.")
         environment = {**local_environment(), "ROS_MASTER_URI": self.uri, "ROS_LOG_DIR": str(self.logs)}
         rosout = self._rosout = SupervisedProcess([str(program), "__name:=rosout"], env=environment)
 

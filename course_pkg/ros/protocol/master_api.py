@@ -55,7 +55,8 @@ class MasterClient(XmlRpcClient):
         except TimeoutError as error:
             raise MasterSilent(
                 f"The program at {self.uri} accepts connections, but did not answer within "
-                f"{self.limit(timeout):g} s. If it is the master, continue it (kill -CONT), or restart it."
+                f"{self.limit(timeout):g} s. If this program is the master, resume its process "
+                "(kill -CONT), or restart the master."
             ) from error
         except OSError as error:
             raise MasterUnreachable(

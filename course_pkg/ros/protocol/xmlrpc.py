@@ -118,7 +118,8 @@ def address_of(uri: str) -> tuple[str, int]:
         pass  # The port is not a number, or a closing bracket is missing.
     raise MalformedMasterUri(
         f"ROS_MASTER_URI is {uri!r}, but has to be of the form http://HOST:PORT, such as "
-        "http://localhost:11311. Correct the variable, or unset it to get your own master."
+        "http://localhost:11311. Correct ROS_MASTER_URI, or unset this variable to get your "
+        "own master."
     )
 
 

@@ -105,7 +105,7 @@ class TopicProcess:
     def _tail(self) -> str:
         descriptor = self._output.fileno()
         text = os.pread(descriptor, os.fstat(descriptor).st_size, 0).decode("utf-8", "replace").strip()
-        return f"The end of what it printed:\n{text[-TAIL:]}" if text else "It printed nothing."
+        return f"The end of the node's output:\n{text[-TAIL:]}" if text else "The node printed nothing."
 
 
 def _environment() -> dict[str, str]:

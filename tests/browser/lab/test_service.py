@@ -130,7 +130,7 @@ def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
     picture(form, "service-panel-calling")
     form.get_by_label("length").press("Escape")
     expect(form.get_by_text("Cancelled after")).to_be_visible()
-    expect(form.get_by_text("The server does not know this")).to_be_visible()
+    expect(form.get_by_text("but the server does not know this")).to_be_visible()
     expect(form.get_by_role("button", name="Call")).to_be_enabled()
 
 
@@ -172,7 +172,7 @@ def test_the_picker_follows_the_graph(own_form: Locator, lab_page: Page) -> None
     fill(form, length="7")
     hello = 'from std_srvs.srv import Trigger\nrospy.Service("/hello", Trigger, lambda _: (True, "hi"))'
     run_cell(lab_page, f"{hello}\nserved.shutdown()")
-    expect(form.get_by_text("No service of this name is on the graph now.")).to_be_visible()
+    expect(form.get_by_text("No service with this name is on the graph now.")).to_be_visible()
     expect(form.get_by_label("length")).to_have_value("7")
     picture(form, "service-panel-gone")
     form.get_by_label("Service", exact=True).select_option("/hello")

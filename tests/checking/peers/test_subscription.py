@@ -97,11 +97,14 @@ def test_topic_without_a_publisher(check: Kernel, student: Kernel) -> None:
     assert check.run("result = broken(subscribe('/joint_states'), within=0.1)") == [
         "/joint_states is published as std_msgs/UInt32",
         "no publisher",
-        "Run the cell that publishes this topic, and run it again after each restart of the kernel.",
+        "No node publishes this topic. Run the cell that publishes this topic, and run it again after each "
+        "restart of the kernel.",
     ]
     student.run("p = rospy.Publisher('/joint_state', UInt32, queue_size=1)")
     report = check.run("result = broken(subscribe('/joint_states'), within=0.1)")
-    assert report[2] == "There is /joint_state: compare the names letter by letter."
+    assert report[2] == (
+        "The graph contains /joint_state. Compare this name letter by letter with the name in the exercise."
+    )
 
 
 @pytest.mark.parametrize("publish", ["", "p.publish(1.5)"])
@@ -110,7 +113,10 @@ def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) ->
     student.run(f"p = rospy.Publisher('/level', Float64, queue_size=10, latch=True); {publish}")
     _, seen, hint = check.run("result = broken(subscribe('/level'))")
     assert seen == "std_msgs/Float64"
-    assert hint == "Publish the topic with the type in the exercise: std_msgs/UInt32."
+    assert (
+        hint
+        == "The topic has the wrong type. Publish the topic with the type in the exercise: std_msgs/UInt32."
+    )
     report = check.run("result = broken(subscribe('/level'), hints=[('std_msgs/Float64', 'Whole numbers.')])")
     assert report[2] == "Whole numbers."
 
@@ -174,7 +180,8 @@ def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
         "somebody listens to /few",
         "no subscriber",
-        "Create a rospy.Subscriber for this topic, of type std_msgs/UInt32.",
+        "No node is subscribed to this topic. Create a rospy.Subscriber for this topic, of type "
+        "std_msgs/UInt32.",
     ]
     student.run("subscription = node.subscribe('/few', UInt32)")
     check.run("p.listened()")

@@ -43,8 +43,8 @@ UNABLE = "ServiceException: unable to connect to service: "
 MESSAGES = {
     f"{SERVER_REFUSED}service handler returned None'": "reached its end without a return",
     f"{SERVER_REFUSED}no fuel'": "refused this request",
-    f"{SERVER_REFUSED}handler returned invalid value: Invalid number'": "cannot become a response",
-    f"{SERVER_REFUSED}handler returned wrong number of values'": "length is not the number of fields",
+    f"{SERVER_REFUSED}handler returned invalid value: Invalid number'": "cannot create a response",
+    f"{SERVER_REFUSED}handler returned wrong number of values'": "a list or tuple of the wrong length",
     f"{SERVER_REFUSED}sucess is not an attribute of TriggerResponse'": "is misspelt",
     f"{HANDLER_FAILED}boom'": "raised an exception",
     f"{HANDLER_FAILED}field success is not a bool'": "wrong type for its field",
@@ -66,7 +66,7 @@ PASTED = {
     TRACEBACK.replace("\n", "\r\n"): "still lists a server",
     f"\x1b[31m{REFUSED}\x1b[0m": "still lists a server",
     LOG: "raised an exception",
-    BUILD: "my_services/CMakeLists.txt, line 6: CMake does not know add_service_files here",
+    BUILD: "my_services/CMakeLists.txt, line 6: CMake does not know the command add_service_files",
     "Couldn't find executable named talk.py below /home/me/ws": "has no program talk.py",
     "OSError: [Errno 98] Address already in use": "Another program already uses the port",
     "shutdown request: [/talker] Reason: new node registered with same name": "Two nodes have the same name",
@@ -105,7 +105,7 @@ def test_errors_of_the_course_are_explained() -> None:
     silent = MasterSilent(
         "The program at http://localhost:1 accepts connections, but did not answer within 2 s."
     )
-    assert "it is stopped, or hangs" in explain(silent).cause
+    assert "Its process is stopped" in explain(silent).cause
     assert explain(str(silent)) == explain(silent)
     assert explain(NodeFailed("The node fell over. Stand it up.")).cause == "The node fell over. Stand it up."
 
@@ -155,8 +155,8 @@ def test_an_explanation_in_a_notebook() -> None:
     """
     found = explain("ServiceException: service [/nope] unavailable")
     assert repr(found).splitlines() == [
-        "Cause: No node provides a service of this name: the server never started, has ended, or uses "
-        "another name.",
+        "Cause: No node provides a service with this name: the server never started, has ended, or uses "
+        "a different name.",
         "What to do: Start the server, or compare the name with `rosservice list`. After a restart of the "
         "master, start the servers again.",
         "Taught in: chapter 06, Write a client",

@@ -27,8 +27,8 @@ def joined(kernel: Kernel) -> Kernel:
 @pytest.mark.parametrize(
     ("kind", "told"),
     [
-        ("TriggerRequest", "Give the type itself: Trigger."),
-        ("TriggerResponse", "Give the type itself: Trigger."),
+        ("TriggerRequest", "Pass the type itself: Trigger."),
+        ("TriggerResponse", "Pass the type itself: Trigger."),
         ("int", "int is not a service type"),
         ("__import__('std_msgs.msg').msg.UInt32", "is a message type"),
     ],

@@ -8,7 +8,7 @@ from course_pkg.ros import MasterClient, PrivateMaster
 from tests.notebook_kernel import NotebookKernel, Shown
 from tests.support import eventually
 
-REPLACES = "This cell's service {} replaces the one that another cell created.\n"
+REPLACES = "The service {} of this cell replaces the service that another cell created.\n"
 
 
 def value(notebook: NotebookKernel, code: str) -> str:

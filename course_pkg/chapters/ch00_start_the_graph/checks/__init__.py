@@ -11,19 +11,25 @@ from course_pkg.ros.protocol.json_channel import Json
 NOT_RECEIVED = [
     (
         matches("^ROSException.*timeout|^TimesUp"),
-        "No message arrived, although 33 numbers per second are published. Receive messages of the type "
-        "UInt32 from the topic whose name is in `topic`.",
+        "No message arrived, although the topic gets 33 messages per second. Receive messages "
+        "of the type UInt32 from the topic whose name is in the argument `topic`.",
     )
 ]
-NODE, SERVICE, TYPE = "Name the node.", "Name the service.", "Name the type of the service."
-RECEIVED = "Return a number of the topic, and a number that was published after the pause."
-MISSED = "Return how many numbers were published between the two."
+NODE, SERVICE, TYPE = (
+    "Find the name of the node.",
+    "Find the name of the service.",
+    "Find the type of the service.",
+)
+RECEIVED = "Return a number from the topic, and another number that was published after the pause."
+MISSED = "Return how many numbers were published between these two numbers."
 
 
 @part(
     "00.1",
     points=1,
-    goal="Name the node that measures boxes, the service that it offers, and the type of this service.",
+    goal=(
+        "Find the node that measures boxes, the service that this node offers, and the type of this service."
+    ),
     needs=["name_of_node", "name_of_service", "name_of_type"],
     goals=[NODE, SERVICE, TYPE],
 )
@@ -35,20 +41,35 @@ def read_the_graph(context: CheckContext) -> None:
             expected="/SERVER_NODE",
             actual=context.read("name_of_node"),
             hints=[
-                ("SERVER_NODE", "The name is almost right, but names on the graph start with a slash."),
+                (
+                    "SERVER_NODE",
+                    (
+                        "Your answer is almost right, but every name on the graph starts with a slash. "
+                        "Add the slash."
+                    ),
+                ),
                 (
                     matches("^/?server$"),
-                    "That is the program. The command `rosnode list` shows the names of the nodes.",
+                    (
+                        "Your answer is the name of the program. The command `rosnode list` shows "
+                        "the names of the nodes."
+                    ),
                 ),
                 (
                     matches("^/chapter"),
-                    "That is the node of this notebook, which is the client. The server is another node.",
+                    (
+                        "Your answer is the node of this notebook, which is the client. Find the "
+                        "node of the server."
+                    ),
                 ),
-                (matches("getGeometry"), "That is a service. The node is the program that offers it."),
+                (
+                    matches("getGeometry"),
+                    "Your answer is the name of a service. Find the node that offers this service.",
+                ),
                 (
                     matches("^/server_node/?$"),
-                    "Compare your answer letter by letter with the name on the graph. Capital and small "
-                    "letters are different, and the only slash is at the start.",
+                    "Compare your answer with the name on the graph, letter by letter. Capital "
+                    "and small letters are different, and the only slash is at the start.",
                 ),
             ],
         )
@@ -58,24 +79,33 @@ def read_the_graph(context: CheckContext) -> None:
             expected="/getGeometry",
             actual=context.read("name_of_service"),
             hints=[
-                ("getGeometry", "The name is almost right, but names on the graph start with a slash."),
+                (
+                    "getGeometry",
+                    (
+                        "Your answer is almost right, but every name on the graph starts with a slash. "
+                        "Add the slash."
+                    ),
+                ),
                 (
                     matches("logger"),
-                    "Every node has this service. Find the service that only /SERVER_NODE has.",
+                    "Every node has the service in your answer. Find the service that only /SERVER_NODE has.",
                 ),
                 (
                     matches("^/?SERVER_NODE$"),
-                    "That is the node. The command `rosservice list` shows the names of the services.",
+                    (
+                        "Your answer is the name of the node. The command `rosservice list` shows "
+                        "the names of the services."
+                    ),
                 ),
                 (
                     matches("course_pkg"),
-                    "That is the type. The name of the service is the text that you write after "
-                    "`rosservice call`.",
+                    "Your answer is the type of the service. The name of the service is the "
+                    "text that you write after `rosservice call`.",
                 ),
                 (
                     matches("^/getgeometry/?$"),
-                    "Compare your answer letter by letter with the name on the graph. Capital and small "
-                    "letters are different, and the only slash is at the start.",
+                    "Compare your answer with the name on the graph, letter by letter. Capital "
+                    "and small letters are different, and the only slash is at the start.",
                 ),
             ],
         )
@@ -87,22 +117,28 @@ def read_the_graph(context: CheckContext) -> None:
             hints=[
                 (
                     matches("^geometry$"),
-                    "The name of a type includes the package: it has the form package/type.",
+                    "The name of the package is missing. Write the type in the form package/type.",
                 ),
                 (
                     matches("^/course_pkg"),
-                    "A type does not start with a slash, because it is not a name on the graph.",
+                    "The name of a type does not start with a slash. Remove the slash.",
                 ),
                 (
                     matches(r"object|course_pkg\.srv"),
-                    "That is the Python class of the type. Write the name of the type as a string "
-                    "of the form package/type.",
+                    "Your answer is the Python class of the type. Write the name of the type "
+                    "as a string in the form package/type.",
                 ),
                 (
                     matches("getGeometry"),
-                    "That is the name of the service. The command `rosservice type` shows its type.",
+                    (
+                        "Your answer is the name of the service. The command `rosservice type` "
+                        "shows the type of a service."
+                    ),
                 ),
-                (matches("(?-i:course_pkg/Geometry)"), "This type is written with a small g."),
+                (
+                    matches("(?-i:course_pkg/Geometry)"),
+                    ("The name of this type starts with a small letter. Write `geometry` with a small g."),
+                ),
             ],
         )
 
@@ -133,7 +169,10 @@ def ask_a_question(context: CheckContext) -> None:
             hints=[
                 (
                     ANYTHING,
-                    "The given service was not called. Pass the name in `service` to rospy.ServiceProxy.",
+                    (
+                        "Your function did not call the given service. Pass the argument `service` "
+                        "to rospy.ServiceProxy."
+                    ),
                 )
             ],
         )
@@ -145,7 +184,10 @@ def ask_a_question(context: CheckContext) -> None:
             hints=[
                 (
                     lambda actual: 0.0 in actual.values(),
-                    "One side arrived as 0: a field that the client does not set is 0. Send all three sides.",
+                    (
+                        "The request contains 0 for one side, because a field without a value is "
+                        "0. Set all three sides."
+                    ),
                 ),
                 (
                     ANYTHING,
@@ -169,26 +211,44 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     `area` is the area in the response.
     """
     multiplied = (
-        "You multiplied the sides. This server returns different numbers, so return the volume "
-        "from its response."
+        "Your function multiplied the sides, but this server returns different numbers. Return "
+        "the volume from the response of the server."
     )
     return [
         (None, NO_RETURN),
-        (area, "That is the area. Return the volume."),
+        (area, "Your function returned the area. Return the volume."),
         (area * sides[2], multiplied),
         (prod(sides), multiplied),
-        (int(volume), "That is the volume without the digits after the decimal point. Don't round it."),
-        (lambda actual: "volume" in actual, "That is the whole response. Return only its field `volume`."),
-        (lambda actual: volume in actual, "That is more than the volume. Return only the volume."),
-        (lambda actual: str(volume) in actual, "That is the volume as a string. Return the number."),
-        (ANYTHING, "Return the volume of the response unchanged."),
+        (
+            int(volume),
+            (
+                "Your function returned the volume without the digits after the decimal point. Do not "
+                "round the volume."
+            ),
+        ),
+        (
+            lambda actual: "volume" in actual,
+            ("Your function returned the whole response. Return only the field `volume` of the response."),
+        ),
+        (
+            lambda actual: volume in actual,
+            "Your function returned more than the volume. Return only the volume.",
+        ),
+        (
+            lambda actual: str(volume) in actual,
+            "Your function returned the volume as a string. Return the volume as a number.",
+        ),
+        (ANYTHING, "Return the volume from the response without any change."),
     ]
 
 
 @part(
     "00.3",
     points=2,
-    goal="Return a number, a later number, and how many numbers were published between the two.",
+    goal=(
+        "Return three numbers: a number from the topic, a later number, and how many numbers were "
+        "published between these two."
+    ),
     needs=["count_missed"],
     deadline=25.0,
     goals=[RECEIVED, MISSED],
@@ -210,8 +270,8 @@ def count_what_was_missed(context: CheckContext) -> None:
             expected=f"numbers such as {first + 5}",
             actual=[before, after],
             hints=(
-                "These numbers were not published on the given topic. Receive from the topic whose "
-                "name is in `topic`."
+                "The numbers that your function returned were not published on the given "
+                "topic. Receive messages from the topic whose name is in the argument `topic`."
             ),
         )
         context.require(
@@ -220,23 +280,23 @@ def count_what_was_missed(context: CheckContext) -> None:
             expected=f"{pause} s between the two numbers",
             actual=f"{before} and {after}",
             hints=(
-                "The order is wrong. Return two numbers in this order: the number before the pause, "
-                "and the number after the pause."
+                "The order of the two numbers is wrong. First return the number before the "
+                "pause, and then the number after the pause."
             )
             if before > after
             else (
-                "The time between these two numbers is too short. After the first number, pause "
-                "with time.sleep."
+                "The time between the two numbers is too short. After the first number, pause "
+                "with `time.sleep`."
             ),
         )
         if 0 not in publisher.subscribers[before - first : after - first]:
             context.fail(
                 "the second number is received after the pause",
                 expected="no subscriber during the pause",
-                actual="a subscriber that received all numbers of the pause",
+                actual="a subscriber that received all numbers during the pause",
                 hint=(
-                    "The function received numbers during the pause. Use rospy.wait_for_message, which "
-                    "unsubscribes after one number."
+                    "Your function received numbers during the pause. Use "
+                    "rospy.wait_for_message: this function unsubscribes after one message."
                 ),
             )
         with context.goal(MISSED):
@@ -247,22 +307,22 @@ def count_what_was_missed(context: CheckContext) -> None:
                 hints=[
                     (
                         after - before,
-                        "This count includes a number that you received. Example: between 17 and "
-                        "25, 7 numbers are missed.",
+                        "Your count includes one of the two numbers that you received. "
+                        "Example: between 17 and 25, there are 7 missed numbers.",
                     ),
                     (
                         after - before + 1,
-                        "This count includes both numbers that you received. Example: between 17 "
-                        "and 25, 7 numbers are missed.",
+                        "Your count includes both numbers that you received. Example: between "
+                        "17 and 25, there are 7 missed numbers.",
                     ),
                     (
                         before - after + 1,
-                        "A count cannot be negative. Subtract the first number from the second.",
+                        "Your count is negative. Subtract the first number from the second number.",
                     ),
                     (
                         ANYTHING,
-                        "Calculate the third number from the first two. Example: between 17 and 25, "
-                        "7 numbers are missed.",
+                        "Calculate the third number from the first two numbers. Example: "
+                        "between 17 and 25, there are 7 missed numbers.",
                     ),
                 ],
             )
@@ -280,9 +340,12 @@ def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int
             (None, NO_RETURN),
             (
                 lambda actual: isinstance(actual, int),
-                "That is one number. Return three numbers: before, after, missed.",
+                (
+                    "Your function returned only one number. Return three numbers: `before`, "
+                    "`after` and `missed`."
+                ),
             ),
-            (ANYTHING, "Return the three numbers in one line: return before, after, missed."),
+            (ANYTHING, "Return the three numbers in one line: `return before, after, missed`."),
         ],
     )
     before, after, missed = of_kind(list, returned, "the result")
@@ -292,8 +355,14 @@ def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int
         expected="three values of type int",
         actual=returned,
         hints=[
-            (matches("data"), "That is a whole message. Its number is in the field `data`."),
-            (ANYTHING, "A count is a whole number, of type int."),
+            (
+                matches("data"),
+                (
+                    "Your function returned a whole message. Return only the number in the field "
+                    "`data` of the message."
+                ),
+            ),
+            (ANYTHING, "The three results have to be whole numbers. Return values of type int."),
         ],
     )
     return before, after, missed

@@ -6,7 +6,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 
 NUMBER = "std_msgs/UInt32"
 LOOKS_LIKE_IT = (
-    "You called the wrong service, which has a similar name. Compare the whole text after the last slash."
+    "Your function called the wrong service, because the names are similar. Compare the whole "
+    "text after the last slash with the given text."
 )
 FOUND = "Find the service, call it, and return the volume."
 RUNNING = "Return the sorted names of the running publishers of a topic."
@@ -16,8 +17,8 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
     "01.3",
     points=3,
     goal=(
-        "Find the service whose name has a given last part, call it, and return the volume; return "
-        "None if there is no such service."
+        "Find the service whose name has the given text after the last slash, call this "
+        "service, and return the volume. If there is no such service, return None."
     ),
     needs=["ask_wherever"],
     deadline=25.0,
@@ -53,20 +54,28 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             hints=[
                 (
                     None,
-                    "The service exists, but your function returned None. Look through the names of all "
-                    "services.",
+                    "The service exists, but your function returned None. Search the names of all services.",
                 ),
                 *((other, LOOKS_LIKE_IT) for other in others),
                 (
                     length * width * height,
-                    "You multiplied the sides. The service returns a different number, so call the "
-                    "service and return its volume.",
+                    "Your function multiplied the sides, but the service returns a different "
+                    "number. Call the service, and return the volume in the response.",
                 ),
-                (volume + 1, "That is the area. Return the volume."),
-                (matches("volume"), "That is the whole response. Return only its field `volume`."),
+                (volume + 1, "Your function returned the area. Return the volume."),
+                (
+                    matches("volume"),
+                    (
+                        "Your function returned the whole response. Return only the field `volume` of "
+                        "the response."
+                    ),
+                ),
                 (
                     matches(f"/{last}$"),
-                    "That is the name of the service. Call this service, and return the volume.",
+                    (
+                        "Your function returned the name of the service. Call this service, and "
+                        "return the volume."
+                    ),
                 ),
             ],
         )
@@ -78,8 +87,8 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             hints=[
                 (
                     lambda actual: not any(actual.values()),
-                    "All sides arrived as 0: a field that the client does not set is 0. Send "
-                    "all three sides.",
+                    "The request contains 0 for all sides, because a field without a value is "
+                    "0. Set all three sides.",
                 ),
                 (
                     ANYTHING,
@@ -97,8 +106,8 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
         hints=[
             (
                 None,
-                "This service responds with the volume 0, but the function returned None. 0 is a "
-                "valid volume, so return it.",
+                "This service responds with the volume 0, but your function returned None. "
+                "Return 0, because 0 is a valid volume.",
             ),
             (ANYTHING, "This service responds with the volume 0. Return this value unchanged."),
         ],
@@ -110,7 +119,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
         actual=context.run(
             "ask_wherever", context.random.word(), 1.0, 2.0, 3.0, hints=_LOST + _NOBODY
         ).returned(),
-        hints="There is no service with this name. Return None if the search finds nothing.",
+        hints="No service has the given name. Return None if your search finds no service.",
     )
     _in_a_random_order(context)
 
@@ -132,8 +141,8 @@ def _in_a_random_order(context: CheckContext) -> None:
             actual=context.run("ask_wherever", last, 1.0, 2.0, 3.0, hints=_LOST + _NOBODY).returned(),
             near=1e-6,
             hints=(
-                "The result must depend on the services that exist now, not on earlier calls. Get the "
-                "list of services in each call."
+                "The result has to depend on the services that exist now, not on earlier "
+                "calls. Get the list of services in each call."
             ),
         )
 
@@ -141,12 +150,12 @@ def _in_a_random_order(context: CheckContext) -> None:
 _LOST = [
     (
         matches("unavailable"),
-        "No service has the name that you called. Use the full name from the list of services.",
+        "Your function called a service that does not exist. Use the full name from the list of services.",
     ),
     (
         matches("IndexError|StopIteration|TypeError.*NoneType"),
-        "The search found no service. Test for this case before you use the result of the "
-        "search, and return None.",
+        "Your search found no service, but your function used the result of the search. Return "
+        "None in this case.",
     ),
 ]
 
@@ -154,7 +163,7 @@ _LOST = [
 _NOBODY = [
     (
         matches("^(ServiceException|ROS|LookupError|ValueError|RuntimeError|Exception)"),
-        "A missing service is not an error in this exercise. Return None.",
+        "In this exercise, a missing service is not an error. Do not raise an exception: return None.",
     )
 ]
 
@@ -188,34 +197,50 @@ def who_really_publishes(context: CheckContext) -> None:
             (None, NO_RETURN),
             (
                 lambda actual: sorted(actual) == sorted(living),
-                "These are the right names, but they are not sorted. sorted(...) returns a sorted list.",
+                (
+                    "The names are right, but your list is not sorted. The function sorted(...) "
+                    "returns a sorted list."
+                ),
             ),
             (
                 lambda actual: sorted(actual) == sorted(dead),
-                "These are the nodes that did not answer the ping. Return the nodes that answered.",
+                "Your list contains the nodes that did not answer the ping. Return the nodes that answered.",
             ),
             (
                 lambda actual: set(actual) & set(dead),
-                "One of these nodes was killed, but it is still registered. Ping each node.",
+                (
+                    "Your list contains a node that was killed, but is still registered. Ping each "
+                    "node, and return only the nodes that answer."
+                ),
             ),
             (
                 lambda actual: names[5] in actual or names[7] in actual,
-                "One of these nodes publishes on a different topic. Compare the whole name of the topic.",
+                (
+                    "Your list contains a node that publishes on a different topic. Compare the "
+                    "whole name of the topic."
+                ),
             ),
             (
                 [],
-                "Your list is empty, but the topic has publishers. The list of publishers contains "
-                "pairs: a topic, and the names of its publishers.",
+                "Your list is empty, but the topic has publishers. In the list of publishers, "
+                "each element is a pair: a topic, and the names of the publishers of this "
+                "topic.",
             ),
-            (lambda actual: isinstance(actual, int), "That is the number of publishers. Return their names."),
-            (lambda actual: "object" in actual, "That is not a list. sorted(...) returns a list."),
+            (
+                lambda actual: isinstance(actual, int),
+                ("Your function returned the number of publishers. Return the names of the publishers."),
+            ),
+            (
+                lambda actual: "object" in actual,
+                "Your function did not return a list. The function sorted(...) returns a list.",
+            ),
             (
                 lambda actual: set(actual) < set(living),
                 "Some running nodes are missing. Ping every publisher of the topic.",
             ),
             (
                 ANYTHING,
-                "Return a list of node names. Write each name as a string, as in the list of publishers.",
+                "Return a list of node names. Each name has to be a string, as in the list of publishers.",
             ),
         ],
     )
@@ -236,7 +261,10 @@ def _living(context: CheckContext, topic: str) -> object:
         hints=[
             (
                 matches("TimesUp"),
-                "rosnode_ping does not return, because it pings the node again and again. Pass max_count=1.",
+                (
+                    "rosnode_ping does not return, because it sends one ping after another without "
+                    "end. Pass max_count=1 to rosnode_ping."
+                ),
             ),
             (
                 matches("KeyError"),

@@ -15,19 +15,23 @@ from course_pkg.ros.protocol.snapshot import ServiceSeen, Snapshot
 GEOMETRY = "course_pkg/geometry"
 START = 20.0  # A program may take this many s to start; usually, it takes 0.5 s.
 WHERE = "the service of a room is measure, in the namespace of the room"
-OWN_SERVICE = "Start a server whose service is `measure`, in the namespace of the room."
-OWN_NODE = "Name its node `measurer`, in the namespace of the room."
-VIEWER = "Name the viewer's node ARM_viewer, in the namespace /screen."
-SUBSCRIBES = "Let the viewer subscribe to the joint_states of its arm."
-PUBLISHES = "Let the viewer publish the mirrored_joints of its arm, in /screen."
+OWN_SERVICE = "Start a server that offers the service `measure` in the namespace of the room."
+OWN_NODE = "Give the server's node the name `measurer`, in the namespace of the room."
+VIEWER = (
+    "Give the viewer's node the name ARM_viewer in the namespace /screen, where ARM is the name of the arm."
+)
+SUBSCRIBES = "Let the viewer subscribe to the topic `joint_states` of its arm."
+PUBLISHES = (
+    "Let the viewer publish on the topic /screen/ARM/mirrored_joints, where ARM is the name of the arm."
+)
 
 
 @part(
     "01.1",
     points=2,
     goal=(
-        "Return the command that starts the server of a room: the node `measurer` with the service "
-        "`measure`, both in the namespace of the room."
+        "Return the command that starts the server of a room. The node `measurer` and the "
+        "service `measure` have to be in the namespace of the room."
     ),
     needs=["measurer_command"],
     deadline=60.0,
@@ -86,13 +90,19 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
             (None, NO_RETURN),
             (
                 lambda actual: isinstance(actual, list),
-                "Return one string with spaces between the words, not a list.",
+                "Your function returned a list. Return one string with spaces between the words.",
             ),
             (
                 matches("^[!%]"),
-                "Remove the first character: in a terminal, the command begins with rosrun.",
+                "Remove the first character. In a terminal, the command begins with `rosrun`.",
             ),
-            (matches("object"), "Return the command as a string. The check runs the command."),
+            (
+                matches("object"),
+                (
+                    "Your function has to return the command as a string. Do not run the command "
+                    "yourself, because the check runs it."
+                ),
+            ),
             (
                 ANYTHING,
                 "The command has to begin with `rosrun`, the name of the package and the name of the "
@@ -130,14 +140,14 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
             hints=[
                 (
                     matches("SERVER_NODE"),
-                    "The node still has its default name. Change this name with __name:=….",
+                    "The node still has its default name. Change the name of the node with `__name:=…`.",
                 ),
                 (
                     "/measurer",
-                    "The node is not in the namespace of the room. Use __ns:=…, which sets the "
-                    "namespace of the whole node.",
+                    "The node is not in the namespace of the room. Use `__ns:=…` to set the "
+                    "namespace of the node.",
                 ),
-                (ANYTHING, "The node has to be `measurer` in the namespace of the room."),
+                (ANYTHING, "The name of the node has to be `measurer`, in the namespace of the room."),
             ],
         )
     require_served_by_program(context, server, wanted)
@@ -147,21 +157,24 @@ def _astray(room: str, found: str) -> str:
     """Return the hint for the service `found`; the right name is ROOM/measure."""
     if found == "/measure":
         return (
-            "The service is /measure for every room. Set the namespace of the node, and write "
-            "`measure` without a slash."
+            "The name of the service is /measure for every room. Set the namespace of the "
+            "node, and write `measure` without a slash."
         )
     if found == "/getGeometry":
         return (
-            "The service still has its old name and namespace. Write each remapping as old:=new, "
-            "with := and without spaces."
+            "The service still has its old name and namespace. Write each remapping as "
+            "`old:=new`, without spaces."
         )
     if found == f"/{room}/getGeometry":
         return (
-            "The service is in the namespace of the room, but it has its old name. In old:=new, "
-            "the old name comes first."
+            "The service is in the namespace of the room, but the service has its old name. In "
+            "a remapping `old:=new`, the old name comes first."
         )
     if found == f"/{room}/measurer/measure":
-        return "A name with ~ is private, so the service is in the namespace of the node. Remove the ~."
+        return (
+            "A name that begins with ~ is private, so the service is in the namespace of the node. "
+            "Remove the ~ from the name."
+        )
     return "The name of the service has to be `measure`, in the namespace of the room that the function gets."
 
 
@@ -176,17 +189,17 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             hints=[
                 (
                     matches("simulator$"),
-                    "The node still has its default name. Choose the name of the node with __name:=….",
+                    "The node still has its default name. Choose the name of the node with `__name:=…`.",
                 ),
                 (
                     f"/{arm}_viewer",
-                    "The node is not in the namespace /screen. Use __ns:=/screen, which sets the "
-                    "namespace of the whole node.",
+                    "The node is not in the namespace /screen. Use `__ns:=/screen` to set the "
+                    "namespace of the node.",
                 ),
                 (
                     ANYTHING,
-                    "The node has to be ARM_viewer in the namespace /screen, where ARM is the name of "
-                    "the arm.",
+                    "The name of the node has to be ARM_viewer in the namespace /screen, where "
+                    "ARM is the name of the arm.",
                 ),
             ],
         )
@@ -198,17 +211,17 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             hints=[
                 (
                     ("/screen/joint_states",),
-                    "The viewer subscribes in its own namespace, but no arm publishes there. Remap "
-                    "joint_states with :=.",
+                    "The viewer subscribes to a topic in its own namespace, but no arm "
+                    "publishes there. Remap `joint_states` with `:=`.",
                 ),
                 (
                     (f"/screen/{arm}/joint_states",),
-                    "Your new name is relative, so it is in the namespace /screen. A global name "
-                    "starts with a slash.",
+                    "Your new name is relative, so the topic is in the namespace /screen. Use "
+                    "a global name: it starts with a slash.",
                 ),
                 (
                     ANYTHING,
-                    "The viewer does not subscribe to the topic of its arm. The arm publishes "
+                    "The viewer does not subscribe to the topic of its arm. This topic is "
                     "`joint_states` in the namespace that has the name of the arm.",
                 ),
             ],
@@ -222,16 +235,19 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             hints=[
                 (
                     ("/screen/mirrored_joints",),
-                    "The viewers of all arms would publish on this topic. Also remap `mirrored_joints`.",
+                    "The viewers of all arms would publish on the same topic. Also remap `mirrored_joints`.",
                 ),
                 (
                     (f"/{arm}/mirrored_joints",),
-                    "This topic is outside of /screen. Use a relative name, which stays in the namespace "
-                    "of the node.",
+                    "The topic of the viewer is outside of the namespace /screen. Use a "
+                    "relative name: it stays in the namespace of the node.",
                 ),
                 (
                     ANYTHING,
-                    "The topic has to be /screen/ARM/mirrored_joints, where ARM is the name of the arm.",
+                    (
+                        "The name of the topic has to be /screen/ARM/mirrored_joints, where ARM is "
+                        "the name of the arm."
+                    ),
                 ),
             ],
         )

@@ -13,8 +13,7 @@ from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
 from course_pkg.waiting import wait_until
 
 WAITS_FOR_EVER = (
-    "A topic can have no subscriber. Wait for a subscriber for at most 2 s, and then "
-    "publish even if there is none."
+    "Wait for a subscriber for at most 2 s. Then publish the numbers, even if the topic has no subscriber."
 )
 # These times in s are for a count without a subscriber. The student's function waits 2 s, and then publishes
 # 11 numbers in 1.1 s. The subscriber connects 2.3 s after the publisher.
@@ -27,8 +26,8 @@ TOO_SOON = (
     "is no subscriber, wait for the full 2 s."
 )
 TOO_EARLY = (
-    "The first number was published before the subscriber was connected. After you create the "
-    "publisher, wait for a connection."
+    "The first number was published before a subscriber was connected. Create the publisher, "
+    "and then wait for a connection."
 )
 
 
@@ -44,8 +43,8 @@ def create(kind, topic):
 def set_value(topic, value):
     notices[topic].set(value)
 """
-COUNTS = "Publish all numbers at the given rate, from the moment at which a subscriber is connected."
-LATCHED = "Let a node that subscribes later receive the last value."
+COUNTS = "Begin when a subscriber is connected, and publish all numbers at the given rate."
+LATCHED = "Send the last value to every node that subscribes later."
 
 
 @part(
@@ -57,7 +56,7 @@ LATCHED = "Let a node that subscribes later receive the last value."
     ),
     needs=["count_aloud"],
     deadline=40.0,
-    goals={COUNTS: 3, "Begin after 2 s if there is no subscriber.": 1},
+    goals={COUNTS: 3, "Begin to publish after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
     """Subscribe to two counts with different rates; then start a third count, which has no subscriber."""
@@ -68,9 +67,7 @@ def count_aloud(context: CheckContext) -> None:
         counted.returned()
         arrivals = subscription.wait(count + 1, within=0.5)
         subscription.published(
-            hints=[
-                (matches("no publisher"), "Create a rospy.Publisher for the topic that the function gets.")
-            ],
+            hints=[(matches("no publisher"), "Create a rospy.Publisher for the given topic.")],
             within=0.5,
         )
         _counts(context, arrivals, count)
@@ -78,11 +75,11 @@ def count_aloud(context: CheckContext) -> None:
         context.require(
             "it begins as soon as a subscriber is connected",
             holds=counted.took < count / hertz + 1.2,
-            expected="a count that begins without a pause, because a subscriber is connected",
-            actual=f"a count that ended after {counted.took:.1f} s",
+            expected="the first number immediately after a subscriber is connected",
+            actual=f"the last number after {counted.took:.1f} s",
             hints=(
-                "Check every few milliseconds whether a subscriber is connected, and begin as soon "
-                "as there is one."
+                "Check every few milliseconds whether a subscriber is connected. Begin when "
+                "the first subscriber is connected."
             ),
         )
     context.fulfilled(COUNTS)
@@ -116,15 +113,17 @@ def _counts_alone(context: CheckContext, topic: str) -> None:
     context.require(
         "without a subscriber it begins after 2 s",
         holds=EARLIEST < alone.took < 5.5,
-        expected=f"a wait of 2 s, then {ALONE} numbers at 10 per second; together about 3 s",
-        actual=f"a count that ended after {alone.took:.1f} s",
+        expected=f"a pause of 2 s, and then {ALONE} numbers at 10 per second (about 3 s in total)",
+        actual=f"the last number after {alone.took:.1f} s",
         hints=TOO_SOON if alone.took < NO_WAIT else NO_NUMBERS if alone.took < EARLIEST else WAITS_FOR_EVER,
     )
     numbers = _numbers_until_the_last(late[0]) if late else []
     if not numbers or numbers != list(range(numbers[0], ALONE)) or numbers[0] == 0:
         context.fail(
             "without a subscriber it begins after 2 s",
-            expected=f"a subscriber that comes after {COMES} s receives the last numbers, up to {ALONE - 1}",
+            expected=(
+                f"a subscriber that connects after {COMES} s receives the last numbers, up to {ALONE - 1}"
+            ),
             actual=str(numbers),
             hint=WAITS_FOR_EVER if numbers[:1] == [0] else NO_NUMBERS,
         )
@@ -141,8 +140,8 @@ def _slow(hertz: int) -> Hints:
     return [
         (
             matches("TimesUp"),
-            "The function takes too long. End the wait as soon as a subscriber is connected, and "
-            f"then use rospy.Rate to pause 1/{hertz} s after each number.",
+            "The function takes too long. Wait only until a subscriber is connected, and then "
+            f"publish {hertz} numbers per second with rospy.Rate.",
         ),
         (
             matches("must be unsigned integer"),
@@ -161,24 +160,30 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
             (list(range(1, count)), TOO_EARLY),
             (
                 list(range(count - 1)),
-                "The last number, count - 1, is missing. Publish this number, and wait a moment "
-                "before the function returns, so that rospy can send it.",
+                "The last number, `count - 1`, is missing. Publish this number, and wait a "
+                "moment before the function returns.",
             ),
-            (list(range(count + 1)), "That is one number too many. range(count) ends with count - 1."),
-            (list(range(1, count + 1)), "The count starts with 1. It has to start with 0."),
+            (
+                list(range(count + 1)),
+                "The function published one number too many. The last number has to be `count - 1`.",
+            ),
+            (list(range(1, count + 1)), "The first number is 1. Begin the count with 0."),
             (
                 lambda actual: actual and actual == list(range(len(actual))),
                 "The last numbers are missing. Publish `count` numbers, and return after the last one.",
             ),
-            ([], "Nothing arrived. Publish each number after a subscriber is connected."),
+            ([], "No number arrived. Wait until a subscriber is connected, and then publish each number."),
             (lambda actual: actual == list(range(actual[0], count)), TOO_EARLY),
             (
                 lambda actual: len(set(actual)) < len(actual),
-                "A number was published twice. Publish each number once.",
+                "One number was published twice. Publish each number only once.",
             ),
             (
                 lambda actual: actual == sorted(actual),
-                "Numbers in the middle are missing, because the queue was full. Pause after each number.",
+                (
+                    "Some numbers in the middle are missing, because the queue of the publisher "
+                    "was full. Pause after each number."
+                ),
             ),
         ],
     )
@@ -194,17 +199,17 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
         actual=f"{seen:.3g} per second",
         hints="The rate is too high. Pause after each number."
         if seen > hertz
-        else "The rate is too low. Use rospy.Rate(rate), and sleep only once for each number.",
+        else "The rate is too low. Use rospy.Rate(rate), and call sleep() only once for each number.",
     )
     gaps = sorted(later.at - one.at for one, later in pairwise(arrivals))
     context.require(
         "the numbers are evenly spaced",
         holds=gaps[len(gaps) // 2] > 0.88 / hertz,
-        expected=f"gaps of about {1000 / hertz:.0f} ms",
-        actual=f"half of the gaps shorter than {1000 * gaps[len(gaps) // 2]:.0f} ms",
-        hints="The numbers arrive in groups. Pause after each single number."
+        expected=f"about {1000 / hertz:.0f} ms between two numbers",
+        actual=f"less than {1000 * gaps[len(gaps) // 2]:.0f} ms between most numbers",
+        hints="The numbers arrive in groups. Pause after each number, not after several numbers."
         if gaps[len(gaps) // 2] < 0.5 / hertz
-        else "The pauses are shorter than 1 / rate. Use rospy.Rate(rate).",
+        else "The pauses between the numbers are too short. Use rospy.Rate(rate).",
     )
 
 
@@ -214,7 +219,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
     needs=["Notice"],
     deadline=30.0,
-    goals=[LATCHED, "Publish each change once, and no value that stays the same."],
+    goals=[LATCHED, "Publish each change once. Do not publish a value again if it stays the same."],
 )
 def a_notice(context: CheckContext) -> None:
     """Set values without a subscriber, with a subscriber, and before a late subscriber.
@@ -233,7 +238,10 @@ def a_notice(context: CheckContext) -> None:
         holds=min(took) < AT_ONCE,
         expected=f"a return within {AT_ONCE} s",
         actual=f"a return after {min(took):.1f} s",
-        hints="Don't wait in set(). A latched message is sent to each node that subscribes later.",
+        hints=(
+            "Do not wait in set(). With a latched publisher, each node that subscribes later "
+            "receives the last message."
+        ),
     )
     subscriber = _subscribed(context, topic)
     _receives(context, subscriber, [first], LATE)
@@ -265,8 +273,7 @@ def _set(context: CheckContext, topic: str, value: float) -> float:
     hints = [
         (
             matches("TimesUp"),
-            "set() does not return. Publish only once, without a loop and without a wait: rospy "
-            "sends a latched message to later subscribers.",
+            "set() does not return. Publish the value only once, without a loop and without a pause.",
         )
     ]
     done = context.run("set_value", topic, value, worded="Notice(topic).set(value)", hints=hints)
@@ -277,7 +284,7 @@ def _set(context: CheckContext, topic: str, value: float) -> float:
 def _subscribed(context: CheckContext, topic: str) -> Subscription:
     """Subscribe to `topic`. rospy sends a latched message to each new connection."""
     subscription = context.subscribe(topic, "std_msgs/Float64")
-    hint = "Create a rospy.Publisher for the topic that Notice() gets, and do not unregister it."
+    hint = "Create a rospy.Publisher for the given topic, and do not unregister this publisher."
     subscription.published(hints=[(matches("no publisher"), hint)])
     return subscription
 
@@ -295,37 +302,45 @@ def _receives(context: CheckContext, subscription: Subscription, values: list[fl
         hints=[
             (
                 lambda actual: not actual and values == [0.0],
-                "The first value was not published, because it is 0. Before the first call, store "
-                "None instead of a number, and treat 0 like every other number.",
+                "The first value was 0, and it was not published. Before the first call, store "
+                "None as the last value, not a number.",
             ),
             (
                 [],
-                "Nothing arrived. Create the publisher with latch=True, and store the last value in "
-                "self: if it is stored in the class, all Notice objects share it.",
+                "No value arrived. Create the publisher with `latch=True`, and store the last "
+                "value in `self`, not in the class.",
             ),
             (
                 lambda actual: len(actual) > len(values) + 2,
-                "A value is published again and again. Publish only in set(), and only if the value "
-                "has changed.",
+                "The same value is published again and again. Publish only in set(), and only "
+                "if the value has changed.",
             ),
             (
                 lambda actual: actual == values * 2,
-                "The same value was published again. Store the last value, and compare the new "
-                "value with it before you publish.",
+                "The same value was published again. Publish a new value only if it differs "
+                "from the last value.",
             ),
             (
                 lambda actual: len(actual) > len(values) and set(actual) == set(values),
-                "A value was published twice. Publish once for each change.",
+                "A value was published twice. Publish each change only once.",
             ),
             (
                 lambda actual: len(actual) > len(values),
-                "A late subscriber received an older value. It has to receive only the last value.",
+                (
+                    "A late subscriber received an older value. A late subscriber has to receive "
+                    "only the last value."
+                ),
             ),
             (
                 lambda actual: len(actual) < len(values),
-                "A changed value was not published. Publish each value that differs from the "
-                "value before it.",
+                "A changed value was not published. Publish each value that differs from the last value.",
             ),
-            (ANYTHING, "This is not the value that was set. Publish the argument of set() unchanged."),
+            (
+                ANYTHING,
+                (
+                    "The published value is not the value that was set. Publish the argument of set() "
+                    "without any change."
+                ),
+            ),
         ],
     )

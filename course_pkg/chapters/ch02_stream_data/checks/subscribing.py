@@ -56,13 +56,22 @@ RETURNS = 1.5
 OLDEST = 0.5  # OLDEST is the maximum age in s of an angle when a drawing begins.
 ANGLES, ORDERS = 60, 20
 HEADER = "the header and its time stamp stay the same"
-NO_SUBSCRIBER = "Return the rospy.Subscriber, so that the caller can unregister it."
-OTHER_ORDER = "The two subscribers are in the wrong order. Return the subscriber to `angles` first."
-NO_TWO = "Return a list of two rospy.Subscriber objects, so that the caller can unregister them."
-ONCE = "Some messages arrived more than once. Publish in the callback, once for each message."
+NO_SUBSCRIBER = "Return the rospy.Subscriber object. The check uses this object to unregister the subscriber."
+OTHER_ORDER = (
+    "The two subscribers are in the wrong order. Return the subscriber for `angles` first, and "
+    "then the subscriber for `orders`."
+)
+NO_TWO = (
+    "Return a list of two rospy.Subscriber objects. The check uses these objects to unregister the "
+    "subscribers."
+)
+ONCE = (
+    "Some messages were published more than once. In the callback, publish one message for each "
+    "received message."
+)
 NEVER_RETURNS = (
-    "The function does not return. Return as soon as the subscriber exists: rospy calls "
-    "the callback in another thread."
+    "The function does not return. Return after you create the subscriber: rospy calls the "
+    "callback in another thread."
 )
 
 
@@ -91,17 +100,20 @@ class Work:
             self._busy -= 1
 
 
-MIRRORED = "Publish every message once, with opposite signs and the same header."
-NEWEST, ALL_ORDERS = "Draw only the newest angle.", "Prepare each order once, in order."
+MIRRORED = "Publish every message once, with the same header and with the opposite sign of each number."
+NEWEST, ALL_ORDERS = "Draw only the newest angle.", "Prepare each order once, in the order of arrival."
 
 
 @part(
     "02.2",
     points=2,
-    goal="Publish every message of one topic immediately on another topic, with opposite signs.",
+    goal=(
+        "Receive every message of one topic, and immediately publish it on another topic with the "
+        "opposite sign of each number."
+    ),
     needs=["start_mirror"],
     deadline=30.0,
-    goals={MIRRORED: 3, "Publish it immediately, and do not change the received message.": 1},
+    goals={MIRRORED: 3, "Publish the new message immediately, and do not change the received message.": 1},
 )
 def a_mirror(context: CheckContext) -> None:
     """Publish random joint states, and compare each of them with the mirrored message."""
@@ -114,9 +126,8 @@ def a_mirror(context: CheckContext) -> None:
             hints=[
                 (
                     matches("no publisher"),
-                    "The target has no publisher when start_mirror() has returned. Create the "
-                    "publisher in start_mirror(), not in the callback; otherwise the first "
-                    "messages are lost.",
+                    "The topic `target` has no publisher when start_mirror() returns. Create "
+                    "the publisher in start_mirror(), not in the callback.",
                 )
             ]
         )
@@ -143,8 +154,8 @@ def a_mirror(context: CheckContext) -> None:
             actual=seen,
             near=1e-9,
             hints=(
-                "You changed the received message, so another callback of this program got the "
-                "changed message. Create a new JointState."
+                "Your callback changed the received message, and other callbacks of this "
+                "program get the changed message. Create a new JointState message."
             ),
         )
     before = subscription.count
@@ -231,17 +242,17 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         hints=[
             (
                 matches("nothing arrived"),
-                "Nothing arrived. Subscribe to the source and publish in the callback; if the "
-                "callback raised an error, you see it below the cell.",
+                "No message arrived. Publish in the callback, and look for an error message of "
+                "the callback below the cell.",
             ),
             (
                 matches("'secs': 0, 'nsecs': 0"),
-                "The time stamp is 0, as in a new header. Copy the header of the received message.",
+                "The time stamp is 0, because the header is new. Copy the header of the received message.",
             ),
             (
                 ANYTHING,
-                "The time stamp is different from the time stamp of the received message. Use the "
-                "header of the received message unchanged.",
+                "The time stamp differs from the time stamp of the received message. Copy the "
+                "whole header without any change.",
             ),
         ],
     )
@@ -251,7 +262,7 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
             HEADER,
             expected=message["header"]["frame_id"],
             actual=arrival.fields["header"]["frame_id"],
-            hints="A header also has a frame_id. Copy the whole header.",
+            hints="The `frame_id` in the header is wrong. Copy the whole header of the received message.",
         )
         _is_image(context, message, arrival.fields)
     context.expect(
@@ -270,7 +281,7 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
             ),
             (
                 lambda actual: len(actual) < len(stamps),
-                "Some messages are missing. Don't pause in the callback, and don't limit the "
+                "Some messages are missing. Do not pause in the callback, and do not limit the "
                 "queue to a few messages.",
             ),
         ],
@@ -283,12 +294,21 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
         expected=message["name"],
         actual=image["name"],
         hints=[
-            ((), "The names are missing. Copy them from the message."),
+            ((), "The names of the joints are missing. Copy the names from the received message."),
             (
                 tuple(reversed(message["name"])),
-                "The order of the list was reversed. Change the signs instead.",
+                (
+                    "Your callback reversed the order of the list. Keep the order, and change the "
+                    "sign of each number."
+                ),
             ),
-            (ANYTHING, "Keep the order of the names, because the positions have the same order."),
+            (
+                ANYTHING,
+                (
+                    "The names are wrong, or their order is wrong. Copy the list of names from the "
+                    "received message without any change."
+                ),
+            ),
         ],
     )
     for field, other in (("position", "velocity"), ("velocity", "position")):
@@ -299,18 +319,30 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
             actual=image[field],
             near=1e-9,
             hints=[
-                (values, f"The {field} was not changed. Change the sign of each number."),
-                ([], f"The list of {field} is empty. Fill in this field, too."),
-                (values[::-1], "The order of the list was reversed. Change the signs instead."),
+                (values, f"The field `{field}` was not changed. Change the sign of each number."),
+                ([], f"The list in the field `{field}` is empty. Fill this list, too."),
+                (
+                    values[::-1],
+                    (
+                        "Your callback reversed the order of the list. Keep the order, and change the "
+                        "sign of each number."
+                    ),
+                ),
                 (
                     [abs(value) for value in values],
-                    "A negative number has to become positive, too. Use -value.",
+                    (
+                        "A negative number has to become positive, too. Change the sign of each "
+                        "number with -value."
+                    ),
                 ),
                 (
                     [-value for value in message[other]],
-                    f"These are the numbers of the field {other}. Compare the names of the fields.",
+                    (
+                        f"Your message contains the numbers of the field `{other}` in the wrong "
+                        "field. Compare the names of the fields."
+                    ),
                 ),
-                (ANYTHING, "Change the sign of each number, and nothing else."),
+                (ANYTHING, "Change only the sign of each number."),
             ],
         )
 
@@ -321,8 +353,8 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
         "each message is mirrored without delay",
         holds=statistics.median(delays) < 0.15,
         expected="a mirrored message a few milliseconds after the original",
-        actual=f"half of the mirrored messages with a delay of more than {statistics.median(delays):.2f} s",
-        hints="The messages are late. Publish in the callback, and don't wait in it.",
+        actual=f"a delay of more than {statistics.median(delays):.2f} s for half of the mirrored messages",
+        hints="The mirrored messages are late. Publish in the callback, and do not wait in the callback.",
     )
 
 
@@ -380,7 +412,7 @@ def _drawn(
         expected="numbers that were published",
         actual=angles[:3] or "no call",
         hints=[
-            (matches("no call"), "draw() was not called. Call it in the callback for `angles`."),
+            (matches("no call"), "draw() was not called. Call draw() in the callback for `angles`."),
             (
                 matches("data"),
                 "draw() got the whole message. Pass only the number, which is in the field `data`.",
@@ -396,7 +428,10 @@ def _drawn(
         holds=len(angles) > 2,
         expected="a call after each drawing",
         actual=f"{len(angles)} calls",
-        hints="draw() got only one angle. Do not unregister the subscriber, so that more messages arrive.",
+        hints=(
+            "draw() got only one angle. Do not unregister the subscriber, because it has to "
+            "receive more messages."
+        ),
     )
     overlap = any(later - earlier < 0.9 * DRAWING for (earlier, _), (later, _) in pairwise(drawn))
     _one_at_a_time(context, "draw", max(at_once, 1 + overlap))
@@ -407,8 +442,8 @@ def _drawn(
         expected="a later angle each time",
         actual=angles,
         hints=(
-            "An angle was drawn twice, or an older angle was drawn after a newer one. Wait for a "
-            "new angle before the next call of draw()."
+            "An angle was drawn twice, or after a newer angle. Wait for a new angle before the "
+            "next call of draw()."
         ),
     )
     oldest = max(at - sent[angle] for at, angle in drawn)
@@ -418,7 +453,8 @@ def _drawn(
         expected=f"at most {OLDEST} s between the message and the call of draw()",
         actual=f"up to {oldest:.1f} s",
         hints=(
-            "Too many angles wait in the queue. Limit this queue, because only the newest angle is useful."
+            "Too many angles wait in the queue. Limit the length of this queue, because only "
+            "the newest angle is useful."
         ),
     )
     context.expect(
@@ -426,8 +462,8 @@ def _drawn(
         expected=list(sent)[-1],
         actual=angles[-1],
         hints=(
-            "The last angle was not drawn. Always draw the newest angle: a program that draws, "
-            "for example, only every tenth angle can miss the last one."
+            "The last angle was not drawn. Do not skip a fixed number of angles: always draw "
+            "the newest angle."
         ),
     )
 
@@ -438,24 +474,24 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
         expected=numbers,
         actual=prepared,
         hints=[
-            ([], "prepare() was not called. Call it in the callback for `orders`."),
+            ([], "prepare() was not called. Call prepare() in the callback for `orders`."),
             (
                 matches("data"),
                 "prepare() got the whole message. Pass only the number, which is in the field `data`.",
             ),
             (
                 lambda actual: len(set(actual)) < len(actual),
-                "An order was prepared twice. Call prepare once for each message.",
+                "An order was prepared twice. Call prepare() once for each message.",
             ),
             (
                 lambda actual: set(actual) == set(numbers),
-                "The orders were not prepared in the sequence in which they arrived. Handle "
-                "them one after the other.",
+                "The orders were prepared in the wrong sequence. Prepare them one after the "
+                "other, in the sequence in which they arrive.",
             ),
             (
                 lambda actual: set(actual) < set(numbers),
-                "Some orders were lost. Up to twenty orders wait at the same time, so do not limit "
-                "their queue.",
+                "Some orders were lost. Up to twenty orders wait at the same time, so do not "
+                "limit the queue for orders.",
             ),
             (
                 ANYTHING,
@@ -473,5 +509,5 @@ def _one_at_a_time(context: CheckContext, function: str, at_once: int) -> None:
         f"one call of {function} at a time",
         expected=1,
         actual=at_once,
-        hints="Two calls ran at the same time. Don't start a thread for each message.",
+        hints="Two calls of this function ran at the same time. Do not start a thread for each message.",
     )

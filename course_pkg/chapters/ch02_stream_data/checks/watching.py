@@ -78,7 +78,7 @@ def watch_a_stream(context: CheckContext) -> None:
 def _speaks(context: CheckContext, topic: str) -> Publisher:
     """Publish ten messages per second on the topic that the student's watch observes."""
     publisher = context.publish(topic, "std_msgs/UInt32", [{"data": 7}], every=0.1)
-    publisher.listened(hints="Create a rospy.Subscriber for the topic, of type UInt32, in __init__.")
+    publisher.listened(hints="In `__init__`, create a rospy.Subscriber of type UInt32 for the topic.")
     return publisher
 
 
@@ -150,7 +150,8 @@ def _says(
         expected="an immediate result",
         actual=f"a result after {min(took):.1f} s",
         hints=(
-            "Don't wait for a message in state(). In the callback, store the time at which a message arrives."
+            "Do not wait for a message in state(). In the callback, store the time at which "
+            "each message arrives."
         ),
     )
 
@@ -163,8 +164,8 @@ _NO_WORD: Hints = [
 _RETURNS = [
     (
         matches("TimesUp"),
-        "state() waits for a message. Subscribe with a callback that stores the time at which "
-        "a message arrives.",
+        "state() waits for a message. Use a subscriber with a callback that stores the time at "
+        "which a message arrives.",
     ),
     (
         matches("TypeError.*NoneType"),
@@ -172,41 +173,44 @@ _RETURNS = [
     ),
 ]
 _BEFORE: Hints = [
-    ("running", 'No message has arrived yet, so the state is not "running".'),
-    ("ended", 'The stream has not begun, so it cannot have ended. The state is "waiting".'),
+    ("running", 'No message has arrived yet. Return "waiting", not "running".'),
+    ("ended", 'No message has arrived yet, so the stream cannot have ended. Return "waiting".'),
 ]
 _UNASKED: Hints = [
     (
         ANYTHING,
-        "Messages arrived before the first call of state(). Subscribe in __init__, and store "
-        "in self that a message has arrived.",
+        "Messages arrived before the first call of state(). Subscribe in `__init__`, and store "
+        "in `self` that a message has arrived.",
     ),
 ]
 _APART: Hints = [
     (
         ANYTHING,
-        "Only the other Watch object received messages. Store the data of each Watch object "
-        "in self, not in a global variable.",
+        "Only the other Watch object received messages. Store the data of each Watch object in "
+        "`self`, not in a global variable.",
     ),
 ]
 _WHILE: Hints = [
     (
         "ended",
-        "The last message arrived less than a second ago. Store the time at which each message arrives.",
+        (
+            "The last message arrived less than 1 s ago, so the stream has not ended. Store the "
+            "time of each message."
+        ),
     ),
 ]
 _PAUSE: Hints = [
     (
         "ended",
-        "The last message arrived half a second ago. A stream has ended only after a whole "
-        "second without a message.",
+        'The last message arrived half a second ago. Return "ended" only after a whole second '
+        "without a message.",
     ),
 ]
 _END: Hints = [
     (
         "running",
-        "No message has arrived for more than a second. The publisher is still registered, so "
-        "use the time of the last message.",
+        "No message has arrived for more than 1 s. The publisher is still registered, so use "
+        "the time of the last message.",
     ),
-    ("waiting", 'Messages arrived before, but no message arrives now, so the state is "ended".'),
+    ("waiting", 'Messages arrived before, but no message arrives now. Return "ended", not "waiting".'),
 ]

@@ -24,40 +24,44 @@ WRONG: Mapping[tuple[str, str], str] = {
         "wheel speed",
         "service",
     ): (
-        "A client would make fifty calls per second and wait for each response. You have measured "
-        "how much work this is."
+        "With a service, the client would make fifty calls per second and wait for each "
+        "response. Choose a design in which the receiver makes no calls."
     ),
     (
         "open the gripper",
         "topic",
-    ): "The gripper may be blocked, but a publisher would not get this information.",
+    ): "The gripper can be blocked, but a publisher would not get this information. Choose a "
+    "design with a response.",
     (
         "obstacle seen",
         "service",
     ): (
-        "The node of the bumper would have to call the motors, the lamp and the log one after the "
-        "other, and wait for each response."
+        "With a service, the bumper's node would have to call the motors, the lamp and the log "
+        "one after the other. Choose a design with many receivers."
     ),
     (
         "tidy the room",
         "service",
-    ): "The client would wait for half an hour, without progress messages and without a way to cancel.",
+    ): "With a service, the client would wait for half an hour without progress messages. Choose "
+    "a design that the client can cancel.",
     (
         "tidy the room",
         "topic",
-    ): "With a topic, the sender gets no result of its job, and no progress messages.",
+    ): "With a topic, the sender gets no result of its job, and no progress messages. Choose a "
+    "design that has both.",
     (
         "free space on disk",
         "topic",
-    ): "The number would be published all day, but only one program needs it, and only once.",
+    ): "With a topic, the number would be published all day, but only one program needs the "
+    "number, and only once. Choose a design with a single call.",
 }
 HOLLOW: Mapping[str, str] = {
-    "answer": "This reason does not fit: here, the node that sends or calls does not need an answer.",
-    "many": "This reason does not fit: here, only one node needs the data.",
-    "newest": "This reason does not fit: here, new values do not come all the time.",
-    "seldom": "This reason does not fit: here, either the data is needed often, or a message is small.",
-    "latched": "This reason does not fit: an old value would not help a node that starts later.",
-    "long": "This reason does not fit: the work does not take long here.",
+    "answer": "This reason does not fit: in this job, the node that sends the data does not need an answer.",
+    "many": "This reason does not fit: in this job, only one node needs the data.",
+    "newest": "This reason does not fit: in this job, new values are not produced all the time.",
+    "seldom": "This reason does not fit: in this job, the data is needed often, or the messages are small.",
+    "latched": "This reason does not fit: in this job, a node that starts later does not need an old value.",
+    "long": "This reason does not fit: in this job, the work takes only a short time.",
 }
 
 
@@ -78,9 +82,12 @@ def decide_and_defend(context: CheckContext) -> None:
         hints=[
             (
                 lambda actual: isinstance(actual, list),
-                "This is a list. Write a dict, which has braces: {job: (design, reason), ...}.",
+                "Your answer is a list. Write a dict, which has braces: {job: (design, reason), ...}.",
             ),
-            (ANYTHING, "The keys are the names of the jobs in the table. Compare them letter by letter."),
+            (
+                ANYTHING,
+                "The keys have to be the names of the jobs in the table. Compare the names letter by letter.",
+            ),
         ],
     )
     decided = of_kind(dict, decisions, "decisions")
@@ -96,7 +103,7 @@ def decide_and_defend(context: CheckContext) -> None:
             ),
             (
                 lambda actual: tuple(actual[::-1]) and actual[0] in REASONS and actual[1] in DESIGNS,
-                "The order is wrong. Write the design first, and then the reason.",
+                "The order in the pair is wrong. Write the design first, and then the reason.",
             ),
             (ANYTHING, f"The designs are {', '.join(DESIGNS)}; the reasons are {', '.join(REASONS)}."),
         ],
@@ -106,7 +113,7 @@ def decide_and_defend(context: CheckContext) -> None:
         context.require(
             f"{job}: the design",
             holds=chosen in designs,
-            expected="another design",
+            expected="a different design",
             actual=chosen,
             hints=_why_not(job, chosen),
         )
@@ -124,5 +131,5 @@ def _is_decision(value: object) -> bool:
 
 
 def _why_not(job: str, chosen: str) -> str:
-    action = "This job takes only a moment. An action is for work that takes time and that can be cancelled."
+    action = "This job takes only a moment. Choose an action only for long work that can be cancelled."
     return WRONG.get((job, chosen), action)

@@ -40,14 +40,17 @@ def end():
     for name, names in ear.names.items():
         names[name] = ear.say
 """  # The kernel code reports the calls, because the topic may not show that two calls run at the same time.
-MIXED_UP = "The function publishes on `customers`. Subscribe to `customers`, and publish on `greetings`."
+MIXED_UP = (
+    "Your function publishes on `customers`, which is the wrong topic. Subscribe to `customers`, "
+    "and publish on `greetings`."
+)
 TOO_LATE = (
-    "There is no publisher before the first customer comes, so the first greeting is lost. "
-    "Create the publisher in start_greeting(), outside of the callback."
+    "The first greeting is lost, because no publisher exists before the first customer comes. "
+    "Create the publisher in start_greeting(), not in the callback."
 )
 LOST = (
-    "Messages that came during a greeting were dropped. Leave out the queue_size of the "
-    "subscriber, because a subscriber with a small queue_size drops messages."
+    "Some messages arrived during a greeting and were lost. Create the subscriber without "
+    "queue_size: a small queue_size drops messages."
 )
 
 
@@ -76,7 +79,7 @@ class Greetings:
             self._busy -= 1
 
 
-GREETED = "Greet five customers once and in order, and publish each number after the greeting."
+GREETED = "Greet each of five customers once, in order. Publish the number of a customer after the greeting."
 
 
 @part(
@@ -85,7 +88,10 @@ GREETED = "Greet five customers once and in order, and publish each number after
     goal="Greet each customer of a topic once, in the order of the messages.",
     needs=["start_greeting"],
     deadline=30.0,
-    goals={GREETED: 3, "Greet later customers, and customers after a second start_greeting().": 1},
+    goals={
+        GREETED: 3,
+        "Also greet customers who come later, and customers after a second call of start_greeting().": 1,
+    },
 )
 def greet_everyone(context: CheckContext) -> None:
     """Publish five customers quickly, two of them twice.
@@ -129,7 +135,10 @@ def _greets(
         holds=subscription.arrivals[0].at - sent > 0.75 * GREETING,
         expected=f"a message about {GREETING:g} s after the customer, because say_good_day() takes that time",
         actual="an earlier message",
-        hints="The number was published before the greeting had ended. Call say_good_day(number) first.",
+        hints=(
+            "The number was published before the greeting had ended. First call "
+            "say_good_day(number), and then publish the number."
+        ),
     )
     context.fulfilled(GREETED)
     _told(context, customers, [later[0], first[3], later[1]])
@@ -139,7 +148,10 @@ def _greets(
         holds=set(map(str, numbers)) <= set(map(str, said.said)),
         expected=f"a call of say_good_day() for each of {numbers}",
         actual=f"calls for {said.said}",
-        hints="The number was published, but the customer was not greeted. Call say_good_day(number).",
+        hints=(
+            "The number was published, but the customer was not greeted. Call say_good_day(number) "
+            "for every customer."
+        ),
     )
     _starts_again(context, first[0])
 
@@ -163,8 +175,8 @@ def _starts_again(context: CheckContext, number: int) -> None:
         expected=f"a greeting for {number} after a second start_greeting()",
         actual="none",
         hints=(
-            "After a second call of start_greeting(), no customer was greeted, because the set "
-            "still contains the numbers of the first call. Create the set in start_greeting()."
+            "After a second call of start_greeting(), a customer was not greeted. Create the "
+            "set of greeted numbers in start_greeting(), so that each call has a new set."
         ),
     )
 
@@ -183,7 +195,7 @@ def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
         expected=f"a subscriber of {topic}",
         actual="no subscriber",
         hints="No node is subscribed to the topic in `customers`. Create the subscriber, and do not "
-        "unregister it.",
+        "unregister the subscriber.",
     )
     publisher.finish(5.0)
     publisher.stop()
@@ -204,8 +216,8 @@ def _greeted(
         expected=f"numbers such as {numbers[:3]}",
         actual=seen,
         hints=(
-            "Your function published a number that is not the number of a customer. Publish the "
-            "field `data` of the message unchanged."
+            "Your function published a number that is not the number of a customer. Publish "
+            "the field `data` of the message without any change."
         ),
     )
     context.require(
@@ -216,13 +228,12 @@ def _greeted(
         hints=[
             (
                 [],
-                "No greeting was published. Look for an error in the callback: rospy prints "
-                "the error and continues.",
+                "No greeting was published. Look below the cell for an error message of the callback.",
             ),
             (
                 [number for place, number in enumerate(numbers) if number == max(numbers[: place + 1])],
-                "A customer whose number is smaller than an earlier number was not greeted. The "
-                "numbers come in any order: store all greeted numbers, not only the largest.",
+                "A customer was not greeted, because an earlier customer had a larger number. "
+                "Store all greeted numbers, not only the largest number.",
             ),
             (ANYTHING, LOST),
         ],
@@ -240,7 +251,7 @@ def _greeted(
         expected=f"each of {numbers} once",
         actual=seen if len(seen) > len(set(seen)) else f"say_good_day() for {', '.join(map(str, said))}",
         hints=(
-            "A customer was greeted again, because the number came a second time. Store the "
+            "A customer was greeted twice, because the number arrived a second time. Store the "
             "greeted numbers in a set."
         ),
     )
@@ -249,22 +260,25 @@ def _greeted(
         context.fail(
             assertion,
             expected="one greeting after the other",
-            actual="two at the same time",
-            hint="Two greetings ran at the same time. Do not start a thread for each customer: greet in "
-            "the callback.",
+            actual="two greetings at the same time",
+            hint="Two greetings ran at the same time. Do not start a thread for each customer: "
+            "greet the customer in the callback.",
         )
     context.expect(
         assertion,
         expected=numbers,
         actual=seen,
-        hints="The order is wrong. Greet one customer after the other, in the order of the messages.",
+        hints=(
+            "The order of the greetings is wrong. Greet one customer after the other, in the order "
+            "of the messages."
+        ),
     )
 
 
 _NO_RETURN = [
     (
         matches("^(TimesUp|NothingHeard)"),
-        "start_greeting() does not return. Subscribe with a callback, which rospy calls in "
-        "another thread for each message, and do not wait.",
+        "start_greeting() does not return. Create a subscriber with a callback, and return "
+        "without a wait: rospy calls the callback in another thread.",
     )
 ]

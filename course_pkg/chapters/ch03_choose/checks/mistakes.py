@@ -16,29 +16,29 @@ RIGHT = {
 }
 DECISIVE = {
     "A": "The delay is as long as the pause between two calls.",
-    "B": "Nearly all of the calls return nothing new.",
+    "B": "Nearly all calls return no new data.",
     "C": "The message was published before the tablet subscribed.",
-    "D": "The subscriber cannot distinguish a broken sensor from a free road.",
-    "E": "The thread that steers the robot cannot do anything else until the response comes.",
-    "F": "Nearly all of the messages are received but not used.",
+    "D": "The subscriber sees no difference between a broken sensor and a free road.",
+    "E": "While the robot's control thread waits for the response, this thread cannot do anything else.",
+    "F": "The node receives many messages, but it uses almost none of them.",
 }
 ENTRIES = {
-    "polls too rarely": "A client that polls too rarely gets late responses, but it makes few calls.",
+    "polls too rarely": "A client that polls too rarely makes few calls, but it notices changes late.",
     "polls too often": "A client that polls too often makes a very large number of calls.",
-    "topic without latch": "A missing latch affects a subscriber that starts after the last message.",
-    "no regular messages": "Regular messages show a subscriber that the publisher still works.",
-    "waits in the control loop": "A wait in a control loop blocks a program that has other work to do.",
+    "topic without latch": "Without a latch, a subscriber that starts late does not get the last message.",
+    "no regular messages": "With regular messages, a subscriber can see that the publisher still works.",
+    "waits in the control loop": "A program that waits in its control loop cannot do its other work.",
     "stream for one value": (
-        "If a node needs only one value, a stream sends many large messages that the node does not need."
+        "If a node needs only one value, it does not need a stream of many large messages."
     ),
 }
 CASES = Cases(
     RIGHT,
     DECISIVE,
     ENTRIES,
-    missing="A case is missing. The dict needs each letter from A to F as a key.",
-    keys="The keys are the letters A to F, as strings with capital letters.",
-    spelling="Copy the names exactly from the list of mistakes. Compare them letter by letter.",
+    missing="A case is missing in your dict. Write each letter from A to F as a key.",
+    keys="Some keys are wrong. Use the letters A to F as keys: strings with capital letters.",
+    spelling="The name of a mistake is wrong. Copy each name exactly from the list of mistakes.",
     entry="mistake",
 )
 

@@ -15,16 +15,15 @@ from course_pkg.ros.protocol.json_channel import Json
 DETECT = "course_pkg/DetectCustomer"
 SLACK = 0.7  # On a busy machine, a poll may take this many s longer.
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
-NO_PAUSE = "Pause 1 / rate seconds between two calls."
+NO_PAUSE = "Pause for 1 / rate seconds between two calls."
 NO_END = (
-    "poll() continues after the time is over. Before the first call, compute the end "
-    "(time.monotonic() + seconds), and compare the current time with this end before each "
-    "call."
+    "poll() continues after the end of its time. Before each call, compare the current time "
+    "with the end: the start time plus `seconds`."
 )
 
 COUNTED = (
-    "Each call also takes time, so do not count calls. Before each call, compare the "
-    "current time with the end."
+    "Each call also takes time, so do not count the calls. Before each call, compare the "
+    "current time with the end of the time."
 )
 
 
@@ -55,10 +54,10 @@ FOUND = "Return the number of a customer who is there, or who comes later."
 @part(
     "03.1",
     points=2,
-    goal="Poll until a customer is there, with a limit for the rate and a limit for the time.",
+    goal="Poll until a customer is there. The rate of the calls and the total time are limited.",
     needs=["poll"],
     deadline=30.0,
-    goals=[FOUND, "Return None when the time is over, and make no more calls than the rate allows."],
+    goals=[FOUND, "Return None when the time is over. Make no more calls than the rate allows."],
 )
 def poll_with_a_deadline(context: CheckContext) -> None:
     """Try a customer who is present and a customer who comes later.
@@ -87,8 +86,8 @@ def _one_who_is_there(context: CheckContext) -> None:
         expected=1,
         actual=len(counter.asked),
         hints=(
-            "poll() called again, although the first response contained a customer. Store the "
-            "response, and return the number from it."
+            "poll() made another call, although the first response contained a customer. Store "
+            "the response, and return the number from the response."
         ),
     )
     context.require(
@@ -97,8 +96,8 @@ def _one_who_is_there(context: CheckContext) -> None:
         expected="an immediate return if a customer is there",
         actual=f"a return after {result.took:.1f} s",
         hints=(
-            "A customer was there, but poll() paused first. Call first, and pause only after a "
-            "response without a customer."
+            "A customer was there, but poll() paused before the first call. Call the service "
+            "first, and pause only after a response without a customer."
         ),
     )
 
@@ -113,7 +112,7 @@ def _one_who_comes(context: CheckContext) -> None:
         hints=[
             (
                 None,
-                "poll() stopped after the first response, before the time was over. Call again."
+                "poll() stopped after the first response, before the time was over. Call the service again."
                 if len(counter.asked) == 1 and result.took < 4.5
                 else NO_PAUSE,
             ),
@@ -125,7 +124,7 @@ def _one_who_comes(context: CheckContext) -> None:
         holds=result.took < 0.7 + 0.2 + SLACK,
         expected="a return about 0.2 s after the customer came",
         actual=f"a return {result.took - 0.7:.1f} s after the customer came",
-        hints=f"poll() made too few calls. {NO_PAUSE}",
+        hints=f"poll() called the service too rarely. {NO_PAUSE}",
     )
 
 
@@ -138,8 +137,8 @@ def _nobody(context: CheckContext) -> None:
         expected=None,
         actual=result.returned(),
         hints=[
-            (0, "Without a customer, the field `number` is 0. Return None in this case."),
-            (ANYTHING, "No customer came, so the result has to be None when the time is over."),
+            (0, "If no customer is there, the field `number` is 0. Return None in this case."),
+            (ANYTHING, "No customer came. Return None when the time is over."),
         ],
     )
     context.require(
@@ -147,21 +146,24 @@ def _nobody(context: CheckContext) -> None:
         holds=len(counter.asked) <= seconds * rate + 2,
         expected=f"at most {seconds * rate + 1:g} calls in {seconds:g} s, at {rate:g} per second",
         actual=f"{len(counter.asked)} calls",
-        hints=f"There were too many calls, so two programs are busier than necessary. {NO_PAUSE}",
+        hints=f"poll() made too many calls, which cost processor time. {NO_PAUSE}",
     )
     context.require(
         "it does not give up early",
         holds=result.took > seconds - 1 / rate - 0.2,
         expected=f"calls for {seconds:g} s",
-        actual=f"an end after {result.took:.1f} s",
-        hints="poll() stopped before `seconds` were over. Continue until then.",
+        actual=f"a return after {result.took:.1f} s",
+        hints=(
+            "poll() returned before the time in `seconds` was over. Continue to poll until the end "
+            "of this time."
+        ),
     )
     context.require(
         "it makes about as many calls as the rate allows",
         holds=len(counter.asked) >= seconds * rate / 3,
         expected=f"up to {seconds * rate + 1:g} calls in {seconds:g} s",
         actual=f"{len(counter.asked)} calls",
-        hints=f"There were too few calls, so customers wait longer. {NO_PAUSE}",
+        hints=f"poll() made too few calls, so customers have to wait longer. {NO_PAUSE}",
     )
     counted = len(counter.asked) <= seconds * rate + 1
     _ends_in_time(context, result, seconds + 1 / rate, COUNTED if counted else NO_END)
@@ -183,8 +185,8 @@ def _ends_in_time(context: CheckContext, result: Result, latest: float, hint: st
     context.require(
         "it ends when the time is over",
         holds=result.took < latest + SLACK,
-        expected=f"an end after about {latest:.1f} s",
-        actual=f"an end after {result.took:.1f} s",
+        expected=f"a return after about {latest:.1f} s",
+        actual=f"a return after {result.took:.1f} s",
         hints=hint,
     )
 
@@ -197,16 +199,16 @@ def _polled(
     hints = [
         (
             matches("unavailable"),
-            "poll() did not call the given service. Create the proxy with the name in `service`.",
+            "poll() did not call the given service. Pass the name in `service` to rospy.ServiceProxy.",
         ),
         (matches("^TimesUp"), NO_END),
         (
             matches("^(TimeoutError|ROSException)"),
-            "No customer came, but poll() raised an error. Return None in this case.",
+            "No customer came, but poll() raised an exception. Return None in this case.",
         ),
         (
             matches("is not an attribute of DetectCustomerRequest"),
-            "The request has no such field. Its fields are `after` and `patience`.",
+            "The request has no field with this name. The fields of the request are `after` and `patience`.",
         ),
     ]
     result = context.run("poll", name, seconds, rate, within=8.0, hints=hints)
@@ -225,10 +227,7 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
         "`patience` is 0 in the request",
         expected=0.0,
         actual=server.requests[0]["patience"],
-        hints=(
-            "With this value of `patience`, the detector waits for a customer, which is the third "
-            "design. Use patience=0."
-        ),
+        hints=("With this value of `patience`, the detector itself waits for a customer. Use patience=0."),
     )
     context.expect(
         "`after` is 0 in the request",
@@ -240,10 +239,14 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
 
 _NUMBER = [
     (None, NO_NUMBER),
-    (True, "This is the value of the field `detected`. Return the value of the field `number`."),
-    (lambda actual: "number" in actual, "This is the whole response. Return only its field `number`."),
+    (True, "poll() returned the value of the field `detected`. Return the value of the field `number`."),
+    (
+        lambda actual: "number" in actual,
+        "poll() returned the whole response. Return only the field `number` of the response.",
+    ),
     (
         ANYTHING,
-        "This is not the number from the response. Return the field `number` of the response unchanged.",
+        "poll() returned a different number from the number in the response. Return the field "
+        "`number` without any change.",
     ),
 ]

@@ -11,7 +11,10 @@ from course_pkg.checking import ANYTHING, CheckContext, part
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.types import compile_service
 
-TYPES = "The types of the fields, with their brackets, are also part of the MD5 sum."
+TYPES = (
+    "The MD5 sum depends on the types of the fields, too, and the brackets are part of a type. "
+    "Compare the MD5 sums of both texts."
+)
 NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
 
 
@@ -28,7 +31,10 @@ class Pair:
 @part(
     "04.2",
     points=2,
-    goal="Return whether a server built from one text accepts calls of a client built from another text.",
+    goal=(
+        "Return True if a client that is built from one text can call a server that is built from "
+        "the other text. Otherwise, return False."
+    ),
     needs=["will_talk"],
     deadline=40.0,
 )
@@ -47,7 +53,10 @@ def who_talks_to_whom(context: CheckContext) -> None:
                 actual=context.run("will_talk", server, client).returned(),
                 hints=[
                     (None, NO_RETURN),
-                    (lambda actual: not isinstance(actual, bool), "Return True or False: compare with ==."),
+                    (
+                        lambda actual: not isinstance(actual, bool),
+                        "Return True or False. Compare the two MD5 sums with ==.",
+                    ),
                     (ANYTHING, pair.hint),
                 ],
             )
@@ -66,12 +75,15 @@ def _pairs(context: CheckContext) -> list[Pair]:
         return Pair(f"not compatible: {assertion}", text, other, hint)
 
     def agrees(assertion: str, other: str) -> Pair:
-        hint = "ROS ignores comments, blank lines and extra spaces: they are not part of the MD5 sum."
+        hint = (
+            "ROS ignores comments, blank lines and extra spaces, so these two texts are "
+            "compatible. Compare the MD5 sums, not the texts."
+        )
         return Pair(f"compatible: {assertion}", text, other, hint)
 
     letter = (
-        "One letter of a name is different. Compute the MD5 sums of both texts: they depend on "
-        "the names of all fields."
+        "One letter of a field's name is different, so the texts are not compatible. Compare "
+        "the MD5 sums of both texts."
     )
     return [
         Pair(
@@ -94,18 +106,24 @@ def _pairs(context: CheckContext) -> list[Pair]:
         differs(
             "two fields in another order",
             _text(top, [above[1], above[0], above[2]], below),
-            "The order of the fields is the order of the bytes, so it is part of the MD5 sum.",
+            (
+                "The order of the fields is different, so the texts are not compatible. The MD5 "
+                "sum depends on the order, because ROS sends the fields in this order."
+            ),
         ),
         differs(
             "a field moved from request to response",
             _text(top, above[:2], [above[2], *below]),
-            "The line --- is important: it separates the fields of the request from the fields "
-            "of the response.",
+            "One field has moved to the other side of the line ---, so the texts are not "
+            "compatible. This line separates the request from the response.",
         ),
         differs(
             "another value of a constant",
             text.replace(f"={value}", f"={value + 1}"),
-            "The name and the value of a constant are also part of the MD5 sum.",
+            (
+                "The value of a constant is different, so the texts are not compatible. The names "
+                "and the values of constants are part of the MD5 sum."
+            ),
         ),
         differs(
             "an array for one value",
@@ -115,7 +133,10 @@ def _pairs(context: CheckContext) -> list[Pair]:
         differs(
             "one field fewer",
             _text(top, above, below[:1]),
-            "Every field is part of the MD5 sum, in the request and in the response.",
+            (
+                "One field is missing, so the texts are not compatible. Each field of the request "
+                "and of the response is part of the MD5 sum."
+            ),
         ),
     ]
 

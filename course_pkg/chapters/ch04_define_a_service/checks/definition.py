@@ -68,7 +68,9 @@ def _names(
 def _in_other_half(found: list[str], elsewhere: Collection[str], text: str) -> str:
     stray = next((name for name in found if name in elsewhere), "")
     return (
-        f"{_line(text, stray)}{stray} belongs to the response: write it below the line ---." if stray else ""
+        f"{_line(text, stray)}the field {stray} belongs to the response. Write this field below the line ---."
+        if stray
+        else ""
     )
 
 
@@ -76,24 +78,22 @@ def _about_names(half: str, wanted: list[str], found: list[str], text: str) -> s
     missing = [name for name in wanted if name not in found]
     extra = [name for name in found if name not in wanted]
     if not missing and not extra:
-        return (
-            "All fields are there, but in the wrong order. The order is important: use the order "
-            "of the description."
-        )
+        return "All fields are there, but they are in the wrong order. Use the order of the description."
     if missing and (near := difflib.get_close_matches(missing[0], extra, n=1, cutoff=0.5)):
-        return f"{_line(text, near[0])}{near[0]} should be {missing[0]}: names are compared letter by letter."
+        return f"{_line(text, near[0])}{near[0]} should be {missing[0]}. Compare the names letter by letter."
     if missing and _line(text, missing[0]):
         where = f"{_line(text, missing[0])}{missing[0]}"
-        return f"{where} is on the wrong side of the line ---: it belongs to the {half}."
+        return f"{where} is on the wrong side of the line ---. Move this field to the {half}."
     if missing:
-        return f"There is no field {missing[0]}. Add this field to the {half}."
+        return f"The field {missing[0]} is missing. Add this field to the {half}."
     if extra[0].upper() in ("OFF", "ON", "BLINK"):
         return (
-            f"{_line(text, extra[0])}a constant needs a value. Write uint8 {extra[0].upper()}=… "
-            "with its value."
+            f"{_line(text, extra[0])}a constant needs a value. Write uint8 "
+            f"{extra[0].upper()}=… with the value of the constant."
         )
     return (
-        f"{_line(text, extra[0])}{extra[0]} is not part of the {half} in the description. Remove this field."
+        f"{_line(text, extra[0])}the field {extra[0]} is not part of the {half} in the "
+        "description. Remove this field."
     )
 
 
@@ -115,19 +115,27 @@ def _about_type(name: str, wanted: str, found: str, text: str) -> str:
     where = f"{_line(text, name)}{name} "
     base = found.partition("[")[0]
     if "[" in wanted and "[" not in found:
-        return f"{where}is one value here. An array has brackets after its type: {wanted}."
+        return (
+            f"{where}is a single value in your file, but it has to be an array. Write brackets "
+            f"after the type: {wanted}."
+        )
     if wanted.endswith("[]") and "[" in found and not found.endswith("[]"):
-        return f"{where}has a fixed length here. For any length, the brackets are empty: {wanted}."
+        return (
+            f"{where}has a fixed length in your file. For an array of any length, the brackets are "
+            f"empty: {wanted}."
+        )
     if "[" in wanted and not wanted.endswith("[]") and found.endswith("[]"):
-        return f"{where}can have any length here. For exactly three values, write {wanted}."
+        return (
+            f"{where}can have any length in your file. For an array of exactly three values, write {wanted}."
+        )
     if "[" in found and "[" not in wanted:
-        return f"{where}is an array here, but the exercise needs one value: {wanted}."
+        return f"{where}is an array in your file, but the exercise needs a single value: {wanted}."
     if base == "float64":
         return (
-            f"{where}has the type {found} here, which has twice as many bits. Use the type of the "
-            f"exercise, because ROS treats the two types as different: {wanted}."
+            f"{where}has the type {found} in your file, which has twice as many bits. Use the "
+            f"type of the exercise: {wanted}."
         )
-    return f"{where}has the wrong type here. Write the type of the description: {wanted}."
+    return f"{where}has the wrong type in your file. Write the type of the description: {wanted}."
 
 
 def _constants(context: CheckContext, asked: ServiceType, given: ServiceType, text: str) -> None:
@@ -145,17 +153,21 @@ def _constants(context: CheckContext, asked: ServiceType, given: ServiceType, te
 
 def _about_constants(wanted: list[str], found: list[str], below: list[str], text: str) -> str:
     if below:
-        return f"{_line(text, below[0])}{below[0]} belongs to the request: write it above the line ---."
+        return (
+            f"{_line(text, below[0])}the constant {below[0]} belongs to the request. Write this "
+            "constant above the line ---."
+        )
     if sorted(wanted) == sorted(found):
-        return "All constants are there, but in the wrong order. Use the order of the description."
+        return "All constants are there, but they are in the wrong order. Use the order of the description."
     wrong = [each for each in found if each not in wanted]
     if wrong:
         name = wrong[0].partition(" ")[2].partition("=")[0]
         right = next((each for each in wanted if f" {name}=" in each), "")
         return (
-            f"{_line(text, name)}{wrong[0]} differs from the description: {right}."
+            f"{_line(text, name)}{wrong[0]} is different from the description. Write {right}."
             if right
-            else f"{_line(text, name)}{name} is not a constant of the description: compare the letters."
+            else f"{_line(text, name)}the description has no constant with the name {name}. Compare "
+            "the names letter by letter."
         )
     missing = [each for each in wanted if each not in found]
     return f"Write each constant on a separate line, such as {missing[0]}." if missing else ""

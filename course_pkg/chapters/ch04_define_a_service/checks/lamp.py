@@ -24,7 +24,7 @@ BUILD = 40.0
 
 GENERATION = re.compile("catkin_package lists message_generation")
 RUNTIME = (
-    "Only the build needs message_generation, but programs need message_runtime. Write "
+    "The build needs message_generation, but programs need message_runtime. Write "
     "message_runtime in catkin_package."
 )
 
@@ -131,5 +131,5 @@ def _fails_to_build(context: CheckContext, fault: Fault) -> None:
 def _unexplained(printed: str) -> Fault:
     lines = [line for line in printed.strip().splitlines() if line.strip()]
     return Fault(
-        "catkin_make failed", f"The end of the output may show the reason: {' / '.join(lines[-3:])}."
+        "catkin_make failed", f"Look for the reason at the end of the output: {' / '.join(lines[-3:])}."
     )

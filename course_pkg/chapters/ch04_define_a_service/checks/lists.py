@@ -20,17 +20,17 @@ catkin_package(CATKIN_DEPENDS message_runtime std_msgs)
 add_service_files(FILES lamp.srv)
 # generate_messages()
 """
-GENERATED = "Let the build pass, and generate the type Lamp."
+GENERATED = "Make the build pass, and generate the type Lamp."
 
 
 @part(
     "04.4",
     points=2,
-    goal="Repair CMakeLists.txt, so that the build passes and Python can import the type.",
+    goal="Repair CMakeLists.txt, so that the build passes and Python can import the type Lamp.",
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
-    goals={GENERATED: 3, "Let other packages find this package.": 1},
+    goals={GENERATED: 3, "Make sure that other packages can find this package.": 1},
 )
 def the_list_file(context: CheckContext) -> None:
     """Build the package with the student's file and the check's other files; then import the type."""
@@ -56,7 +56,9 @@ def the_list_file(context: CheckContext) -> None:
         holds=folder.command("test", "-f", CONFIGURATION).status == 0,
         expected="a file that catkin_package writes for other packages",
         actual="no such file",
-        hints=_about(text, "catkin_package", "This command lets other packages find this package."),
+        hints=_about(
+            text, "catkin_package", "Without this command, other packages cannot find this package."
+        ),
     )
 
 
@@ -65,8 +67,8 @@ def _why_no_type(text: str) -> str:
         if not any(each.name == name and not each.is_comment for each in cmake_commands(text)):
             return _about(text, name, "Without this command, the build passes but generates no type.")
     return (
-        "add_service_files and generate_messages are in the file, but they generated nothing. "
-        "Look for a comment between #[[ and ]], and for an if() whose condition is false."
+        "The file contains add_service_files and generate_messages, but they generated no "
+        "type. Look for a comment between #[[ and ]], and for an if() with a false condition."
     )
 
 
@@ -74,5 +76,5 @@ def _about(text: str, name: str, reason: str) -> str:
     """Return a hint that the command is missing, or occurs only in a comment."""
     for each in cmake_commands(text):
         if each.name == name and each.is_comment:
-            return f"Line {each.line}: {name} is only a comment. Remove the #. {reason}"
+            return f"In line {each.line}, {name} is only a comment. Remove the #. {reason}"
     return f"The command {name} is missing. {reason}"

@@ -23,13 +23,19 @@ START = f"""%%writefile {FILE}
 </package>
 """
 ACCEPTED = "Write a package.xml that catkin accepts."
-LISTED = {"built": "List what is needed to build.", "run": "List what is needed to run."}
+LISTED = {
+    "built": "List the packages that are needed to build.",
+    "run": "List the packages that are needed to run.",
+}
 
 
 @part(
     "04.3",
     points=2,
-    goal="Repair package.xml, so that catkin accepts it and it lists all packages that are needed.",
+    goal=(
+        "Repair package.xml: catkin has to accept the file, and the file has to list all packages "
+        "that are needed."
+    ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
@@ -63,14 +69,14 @@ def _hint(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if elsewhere:
         return (
-            f"Line {elsewhere[0].line} has {elsewhere[0].name} for {package}. Add {_an(tag)} for "
-            "the same package."
+            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add "
+            f"{_an(tag)} for this package."
         )
     if package == "rospy":
         return "The program lamp_server.py imports rospy. Add <exec_depend>rospy</exec_depend>."
     return (
-        "message_generation generates classes from a .srv file. These classes need "
-        "message_runtime, so list this package, too."
+        "message_generation generates classes from a .srv file, and these classes need "
+        "message_runtime. List the package message_runtime, too."
     )
 
 

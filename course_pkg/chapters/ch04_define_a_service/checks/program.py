@@ -21,20 +21,24 @@ STARTING = 20.0
 LOOK = 0.1  # LOOK is the time in s between two snapshots of the graph.
 
 ENDINGS = (  # Each entry contains a pattern for the program's output, and a hint.
-    (r"rospy\.init_node\(\) first", "A service belongs to a node: call rospy.init_node first."),
+    (
+        r"rospy\.init_node\(\) first",
+        "A service needs a node. Call rospy.init_node before you create the service.",
+    ),
     (
         r"no attribute '_request_class'",
-        "That is the class of the request or of the response. rospy.Service needs the class of the "
-        "type: Lamp.",
+        "Your program passed the class of the request or of the response to rospy.Service. "
+        "Pass the class of the type: Lamp.",
     ),
     (
         r"(?s)(\w+)\.srv import.*No module named '\1'",
-        "Your workspace has the type: import it from lamp_services.srv.",
+        "Your program imports the type from a package that does not exist. Import the type "
+        "from lamp_services.srv.",
     ),
     (
         r"required file not found|bad interpreter",
-        "The first line of the script names a program that does not exist on this machine. "
-        "Write a shebang that names python3.",
+        "The first line of the script names a program that is not installed. Write a shebang "
+        "that names python3.",
     ),
     (
         r"cannot import name '\w+' from 'lamp_services' ",
@@ -45,11 +49,11 @@ ENDINGS = (  # Each entry contains a pattern for the program's output, and a hin
 FAULTS = [
     (
         matches("expected 3 items|exactly 3|rgb must be"),
-        "The field `rgb` needs three numbers in a list: r, g and b.",
+        "The field `rgb` needs a list of three numbers. Set `rgb` to a list of r, g and b.",
     ),
     (
         matches("process request: (?!service handler)"),
-        "The handler refused an unknown mode. Return a response with success=False instead.",
+        "The handler refused a request with an unknown mode. Return a response with success=False instead.",
     ),
 ]
 
@@ -61,11 +65,14 @@ STARTED = "Write a program that rosrun can start, and that serves /lamp with the
 @part(
     "04.5",
     points=3,
-    goal="Write lamp_server.py: rosrun can start it, and it serves /lamp with the type lamp_services/Lamp.",
+    goal=(
+        "Write lamp_server.py, a program that rosrun can start. The program serves /lamp with the "
+        "type lamp_services/Lamp."
+    ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
-    goals=[STARTED, "Return the response of the exercise for each mode."],
+    goals=[STARTED, "For each mode, return the response that the exercise describes."],
 )
 def the_program(context: CheckContext) -> None:
     """Build a copy, run its program with other names for the node and the service, and call the service."""
@@ -73,11 +80,11 @@ def the_program(context: CheckContext) -> None:
         context,
         FILE,
         missing=(
-            "Without a shebang, Linux runs the script as a shell script. The shell has another "
-            "command with the name `import`."
+            "Without a shebang, Linux runs the script with the shell, not with Python. Write a "
+            "shebang in line 1."
         ),
-        elsewhere="Linux finds the shebang only in the first column of line 1. Move it there.",
-        another="This shebang names the wrong program: write python3.",
+        elsewhere="The shebang is in the wrong place. Write the shebang in the first column of line 1.",
+        another="The shebang names the wrong program. Write a shebang that names python3.",
         windows="The file has Windows line endings (CRLF). Save it with Linux line endings (LF).",
         mark=(
             "The file begins with an invisible character, the byte order mark (BOM), which "
@@ -105,7 +112,7 @@ def _run_bit(context: CheckContext, folder: Folder) -> None:
         "the script is executable",
         holds=folder.command("test", "-x", FILE).status == 0,
         expected="an executable file",
-        actual="a file that can only be read",
+        actual="a file without the permission to execute it",
         hints=(
             "The script is not executable, so rosrun prints: Couldn't find executable named "
             f"{NAME}. Type `chmod +x {FILE}` in a terminal."
@@ -140,10 +147,13 @@ def _seen(status: int | None, printed: str) -> str:
 def _why_not(status: int | None, printed: str, others: list[str]) -> str:
     mine = [other for other in others if not other.endswith(("/get_loggers", "/set_logger_level"))]
     if mine:
-        return f"The program serves {', '.join(mine)}, but the exercise needs the name /lamp."
+        return (
+            f"The program serves {', '.join(mine)}, but not /lamp. Change the name of the service to /lamp."
+        )
     if status is None:
         return (
-            'The program runs, but it serves nothing. Does it reach the line rospy.Service("/lamp", Lamp, …)?'
+            "The program runs, but it offers no service. Check that the program reaches the "
+            'line rospy.Service("/lamp", Lamp, …).'
         )
     for pattern, hint in ENDINGS:
         if found := re.search(pattern, printed):
@@ -152,8 +162,8 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
         fault = explain(printed)
         return f"{fault.problem} {fault.remedy}" if fault else _own_line(printed)
     return (
-        "The program ended, so its service ended, too. Check that the program reaches "
-        "rospy.spin(), which waits until the node is stopped."
+        "The program ended, so its service does not exist any more. Check that the program "
+        "reaches rospy.spin(), which waits until the node is stopped."
     )
 
 
@@ -184,8 +194,8 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
             ),
             (
                 False,
-                "This is one of the three modes, so success has to be True. Note that OFF is 0, which "
-                "a Python condition treats as false.",
+                "This mode is one of the three constants, so success has to be True. Note that "
+                "OFF is 0, and that a Python condition treats 0 as false.",
             ),
         ],
     )
@@ -197,15 +207,21 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
         hints=[
             (
                 lambda actual: mode == 2 and not any(actual),
-                "The mode is BLINK, but rgb is 0. The lamp also shows its colour for BLINK: set rgb "
-                "to the colour of the request.",
+                "The mode is BLINK, but rgb is 0. Set rgb to the colour of the request for this mode, too.",
             ),
-            ([0.0, 0.0, 0.0], "A field without a value is 0. Set rgb to r, g and b of request.colour."),
+            (
+                [0.0, 0.0, 0.0],
+                "rgb is 0, because a field without a value is 0. Set rgb to the values r, g and b "
+                "of request.colour.",
+            ),
             (
                 [red, green, blue],
-                "For OFF and for an unknown mode, the lamp shows no light. Set rgb to three zeros.",
+                "For OFF and for an unknown mode, the lamp is dark. Set rgb to three zeros.",
             ),
-            (ANYTHING, "Return red, green and blue in this order, with the values of the request."),
+            (
+                ANYTHING,
+                "The values in rgb are wrong. Return red, green and blue of the request, in this order.",
+            ),
         ],
     )
     context.expect(
@@ -216,10 +232,14 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
         hints=[
             (
                 lambda actual: mode != 1 and not actual,
-                "The total is 0 for this mode. For each mode, it has to be the sum of the seconds.",
+                "The total is 0 for this mode. Set total to the sum of the seconds for each mode.",
             ),
-            (0.0, "A field without a value is 0. Add up request.seconds."),
-            (float(len(seconds)), "That is the number of values. Add them up instead."),
-            (ANYTHING, "Add up all values: sum(request.seconds)."),
+            (
+                0.0,
+                "The total is 0, because a field without a value is 0. Set total to the sum of all "
+                "values in request.seconds.",
+            ),
+            (float(len(seconds)), "total is the number of values. Add up the values instead."),
+            (ANYTHING, "total is wrong. Add up all values: sum(request.seconds)."),
         ],
     )

@@ -24,27 +24,30 @@ START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
 ..."""
 MOVES = "Serve /move_arm and /maintenance, and count the moves."
-CLOSES = "Shut /move_arm down, and return the state and whether it changed."
+CLOSES = "Shut /move_arm down. Return the state after the call, and return whether the state changed."
 
 
 @part(
     "05.5",
     points=3,
     goal=(
-        "Write arm.py, a node that serves /move_arm and /maintenance; a call of /maintenance shuts "
-        "/move_arm down or serves it again."
+        "Write arm.py, a node that serves /move_arm and /maintenance. A call of /maintenance "
+        "shuts /move_arm down, or serves /move_arm again."
     ),
     needs=[f"file:{FILE}"],
     deadline=30.0,
     start=START,
-    goals=[MOVES, CLOSES, "Serve /move_arm again, and continue the count."],
+    goals=[MOVES, CLOSES, "After the maintenance, serve /move_arm again, and continue to count."],
 )
 def close_for_maintenance(context: CheckContext) -> None:
     """Start the program; call /move_arm, close it twice, open it twice, and call it again."""
     require_shebang(
         context,
         FILE,
-        missing="Linux reads in line 1 which program runs the file. Begin with #!/usr/bin/env python3.",
+        missing=(
+            "The shebang is missing, which names the program that runs the file. Begin line 1 with "
+            "#!/usr/bin/env python3."
+        ),
     )
     folder = context.folder(files=[FILE])
     _can_be_imported(context, folder.command("python", "-c", IMPORT, within=4.0, worded="import arm"))
@@ -80,18 +83,19 @@ def _serves(context: CheckContext, program: Running) -> None:
 def _about_start(ended: bool, output: str) -> str:
     if not ended:
         return (
-            "The program runs, but a service is missing. Compare the names, and create both "
-            "services at the start."
+            "The program runs, but a service is missing. Compare the names of the services, "
+            "and create both services at the start."
         )
     if "rospy.init_node() first" in output:
-        return "A service belongs to a node. Call rospy.init_node before you create the first service."
+        return "A service needs a node. Call rospy.init_node before you create the first service."
     if "Traceback" in output:
         return (
-            "An exception has ended the program. Start it in a terminal, and read the last line of "
-            "its output."
+            "An exception has ended the program. Start the program in a terminal, and read the "
+            "last line of the output."
         )
     return (
-        "The program has ended. Its last line has to be rospy.spin(), which waits until the node is stopped."
+        "The program has ended, because it does not wait. Write rospy.spin() in the last line: "
+        "this function waits until the node is stopped."
     )
 
 
@@ -144,9 +148,13 @@ def _counts(context: CheckContext, messages: list[str], first: int) -> None:
                 "After the maintenance, the count starts from 1 again. Create the counter only "
                 "once, at the start.",
             ),
-            (["0", "1"], "The first move returned 0. Add 1 before you return the message."),
-            (["1", "1"], "The count stays 1. Store it in an object or in a global variable."),
-            (ANYTHING, "Each call of /move_arm has to add 1, and no other call may change the number."),
+            (["0", "1"], "The first move returned 0. Add 1 to the count before you return the message."),
+            (["1", "1"], "The count stays 1. Store the count in an object or in a global variable."),
+            (
+                ANYTHING,
+                "The count is wrong. Add 1 in each call of /move_arm, and do not change the number "
+                "in any other call.",
+            ),
         ],
     )
 
@@ -165,10 +173,10 @@ def _switches(context: CheckContext, response: Message, *, closed: bool, changed
         hints=[
             (
                 True,
-                "The state did not change, but success is True. Compare `data` with the state "
-                "before the call.",
+                "The state did not change, but success is True. Compare the field `data` with "
+                "the state before the call.",
             ),
-            (False, "The call changed the state, but success is False. Return True in this case."),
+            (False, "The call changed the state, but success is False. Return success=True in this case."),
         ],
     )
 
@@ -189,7 +197,7 @@ def _is_closed(context: CheckContext, address: ServiceSeen | None) -> None:
         expected="no answer",
         actual="an answer",
         hints=(
-            "You only removed the entry in the master, so the server still answers. Call "
+            "The service is no longer registered, but the server still answers. Call "
             "shutdown() of the rospy.Service object."
         ),
     )
@@ -202,25 +210,27 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
         expected="an import that ends",
         actual="an import that does not end" if done.status is None else telling_line(done.out + done.err),
         hints=(
-            "An import of the file starts the node. Move the start below the line if __name__ == '__main__':."
+            "An import of the file starts the node. Move the start of the node below the line "
+            "`if __name__ == '__main__':`."
         )
         if done.status is None
-        else "The file has a mistake. Start it in a terminal, and read the last line of its output.",
+        else "Python cannot import the file. Start the file in a terminal, and read the last line "
+        "of the output.",
     )
 
 
 SWITCHES: Hints = [
     (
         matches("already registered|NoneType|shutdown"),
-        "A second call of /maintenance with the same value failed. Compare `data` with the "
-        "present state first.",
+        "A second call of /maintenance with the same value failed. First compare `data` with "
+        "the current state.",
     ),
     (
         matches("unavailable|transport error|refused|reset|closed"),
-        "The program ended during the calls. Shut down only /move_arm, and not the node.",
+        "The program ended during the calls. Shut down only the service /move_arm, not the node.",
     ),
     (
         matches("returned None"),
-        "The handler of /maintenance returned None. It has to return a response in every case.",
+        "The handler of /maintenance returned None. Return a response in every case.",
     ),
 ]

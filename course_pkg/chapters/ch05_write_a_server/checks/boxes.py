@@ -18,7 +18,7 @@ OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
 AREA, VOLUME = "Return the area of the floor.", "Return the volume."
 MEASURED = "Measure a box without a negative side."
 REFUSED = "Refuse a negative side with a rospy.ServiceException."
-NAMED = "Name the side and its value in the error message."
+NAMED = "Write the name and the value of the side in the error message."
 
 
 @part(
@@ -51,8 +51,11 @@ def area_and_volume(context: CheckContext) -> None:
                 near=1e-3,
                 hints=[
                     (0.0, "The volume is 0: a field without a value is 0. Set the field `volume`."),
-                    (width * length + height, "This is area + height. Multiply for a volume; do not add."),
-                    (ANYTHING, "Multiply all three sides: width, length and height."),
+                    (
+                        width * length + height,
+                        "Your volume is area + height. Multiply by the height; do not add the height.",
+                    ),
+                    (ANYTHING, "The volume is wrong. Multiply all three sides: width, length and height."),
                 ],
             )
 
@@ -60,19 +63,23 @@ def area_and_volume(context: CheckContext) -> None:
 def _about_area(width: float, length: float, height: float) -> Hints:
     return [
         (0.0, "The area is 0: a field without a value is 0. Set the field `area`."),
-        (width + length, "This is width + length. Multiply for an area; do not add."),
-        (width * height, "This is the area of the front, width times height. Return the area of the floor."),
+        (width + length, "Your area is width + length. Multiply the two sides; do not add them."),
+        (
+            width * height,
+            "Your area is width times height, which is the area of the front. Return the area of the floor.",
+        ),
         (
             width * length * height,
-            "This is the volume. In the response, the area comes first, and then the volume.",
+            "The field `area` contains the volume. In the response, the area comes first, and "
+            "then the volume.",
         ),
         (
             lambda actual: abs(actual - width * length) <= 1,
-            "The area is rounded. Return it without rounding.",
+            "The area is rounded. Return the area without rounding.",
         ),
         (
             ANYTHING,
-            "Return the area of the floor of the box: the sides of the floor are the width and the length.",
+            "The area is wrong. Return the area of the floor, which has the sides width and length.",
         ),
     ]
 
@@ -81,8 +88,8 @@ def _about_area(width: float, length: float, height: float) -> Hints:
     "05.3",
     points=2,
     goal=(
-        "Serve /getGeometryChecked; refuse a negative side with an error message that contains the "
-        "name of the side and its value."
+        "Serve /getGeometryChecked. Refuse a negative side with an error message that contains "
+        "the name and the value of the side."
     ),
     needs=["handle_checked_geometry|checked_service"],
     goals={MEASURED: 1, REFUSED: 2, NAMED: 1},
@@ -95,7 +102,8 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
         hints=[
             (
                 matches(OWN_TEXT),
-                "This box has no negative side. Refuse only values below zero, but not zero itself.",
+                "This box has no negative side, but the handler refused it. Refuse only values "
+                "below zero, and not zero itself.",
             )
         ],
     )
@@ -136,8 +144,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
         hints=[
             (
                 lambda actual: isinstance(actual, dict),
-                "The server measured a box with a negative side, but it has to refuse this box. "
-                "Compare each side with zero first; for example, -0.5 is negative, too.",
+                "The server measured a box with a negative side. Compare each side with zero "
+                "first, and refuse each negative value, for example -0.5.",
             )
         ],
         **_box(context, negative),
@@ -160,8 +168,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
             ),
             (
                 matches("handler returned"),
-                "The handler returned a value that is not a response. Do not return the exception or "
-                "its message; raise the exception: raise rospy.ServiceException(...).",
+                "The handler returned a value that is not a response. Do not return the "
+                "exception: write raise rospy.ServiceException(...).",
             ),
         ],
     )
@@ -184,11 +192,11 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 def _unclear(named: list[str], side: str, reason: str) -> str:
     """Return the hint for a message with the names `named`; the right message contains only `side`."""
     if len(re.findall(NUMBER, reason)) > MANY:
-        return "The message contains many numbers. Write only the value of the negative side."
+        return "The message contains too many numbers. Write only the value of the negative side."
     if "{" in reason:
         return (
-            "The message contains braces. Write f before the string, so that Python replaces the "
-            "braces by values."
+            "The message contains braces. Write f before the string, so that Python writes the "
+            "values in place of the braces."
         )
     if len(named) > 1 and side in named:
         return (

@@ -16,11 +16,15 @@ def a_new_switch(kind, data):
 """
 NEW_AND_OFF = "handle_switch(data=False) of a new Switch()"
 MESSAGE: list[tuple[Condition, str]] = [
-    ("", 'The message is empty: a string field without a value is empty. Set it to "on" or "off".'),
-    (matches("True|False"), 'The message is True or False. Convert it to "on" or "off".'),
+    (
+        "",
+        "The message is empty, because a string field without a value is empty. Set the message to "
+        '"on" or "off".',
+    ),
+    (matches("True|False"), 'The message is "True" or "False". Convert this value to "on" or "off".'),
     (
         matches("on|off"),
-        'The message contains more than "on" or "off" in small letters. Return only this word.',
+        'The message contains more than "on" or "off" in small letters. Return only one of these two words.',
     ),
 ]
 A_NEW_COUNTER = """
@@ -39,25 +43,28 @@ from std_srvs.srv import Trigger
 def another_client():
     return rospy.ServiceProxy("/count", Trigger)().message
 """
-NO_REFUSAL = "A request for the present position is not an error. Return success=False and the position."
+NO_REFUSAL = (
+    "A request for the current position is not an error. Return success=False and the position in "
+    "the response."
+)
 STARTS_ON = "A new switch was not off. Set its position to False in __init__."
 SHARES = (
-    "The switch at /switch was on, and a new Switch() was on, too, because they share one "
-    "variable. Store the position in self, not in the class or in a global variable."
+    "A new Switch() was on, because it shares a variable with the switch at /switch. Store the "
+    "position in `self`, not in the class or in a global variable."
 )
 ELSEWHERE = {
     True: (
-        "The switch was already in this position, but it moved to the other one. The field `data` "
-        "is the wanted position."
+        "The switch was already in the wanted position, but the handler moved it. The field "
+        "`data` is the wanted position."
     ),
     False: (
         "The message is the position before the call. Change the position first, and then set the message."
     ),
 }
-COUNTED = "Count the calls after each reset in the message."
+COUNTED = "Return in the message how many calls have arrived since the last reset."
 SUCCESS = "Return success=True."
-POSITION = "Return the position after the call in the message."
-MOVED = "Return in success whether the switch moved."
+POSITION = "Return in the message the position after the call."
+MOVED = "Return in the field success whether the switch moved."
 
 
 @part(
@@ -73,7 +80,10 @@ def a_counter_that_resets(context: CheckContext) -> None:
         "/count",
         "std_srvs/Trigger",
         hints=[
-            (matches("field message"), "The message is a string. Convert the count: str(self.count)."),
+            (
+                matches("field message"),
+                "The message has to be a string. Convert the count to a string: str(self.count).",
+            ),
             (
                 matches(r"args are\(,\)"),
                 "The handler of /count returned an empty response. Check whether you exchanged the "
@@ -87,7 +97,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
         hints=[
             (
                 matches("returned None"),
-                "The handler returned None. Return a response, even if it is empty: EmptyResponse().",
+                "The handler returned None. Return a response, even if the response is empty: "
+                "EmptyResponse().",
             )
         ],
     )
@@ -104,7 +115,11 @@ def a_counter_that_resets(context: CheckContext) -> None:
                     expected=True,
                     actual=response.success,
                     hints=[
-                        (False, "success is False: a bool field without a value is False. Set it to True.")
+                        (
+                            False,
+                            "success is False, because a bool field without a value is False. Set "
+                            "success to True.",
+                        )
                     ],
                 )
             context.expect(
@@ -114,7 +129,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
                 hints=[
                     (
                         "",
-                        "The message is empty: a string field without a value is empty. Set it to the count.",
+                        "The message is empty, because a string field without a value is "
+                        "empty. Set the message to the count.",
                     ),
                     (matches(r"^0\d"), "The number begins with a zero. Use str(self.count)."),
                     (
@@ -127,17 +143,17 @@ def a_counter_that_resets(context: CheckContext) -> None:
                     ),
                     (
                         _follows(before),
-                        "The count continued after the reset. Set self.count to zero in handle_reset.",
+                        "The count continued after the reset. In handle_reset, set self.count to zero.",
                     ),
                     (
                         _is_two(number),
-                        "The first call after a reset returned 2. Set the count to zero, not to 1.",
+                        "The first call after a reset returned 2. Set the count to 0 in the reset, not to 1.",
                     ),
-                    ("0", "The message is 0 after a call. Add one before you return the message."),
+                    ("0", "The message is 0 after a call. Add 1 to the count before you return the message."),
                     (
                         "1",
-                        "The message is 1 again. Store the count in self, so that it still "
-                        "exists in the next call.",
+                        "The message is 1 again. Store the count in `self`, so that the next "
+                        "call can use this count.",
                     ),
                 ],
             )
@@ -147,7 +163,10 @@ def a_counter_that_resets(context: CheckContext) -> None:
         "after each reset, the message counts 1, 2, 3",
         expected=str(int(before) + 1),
         actual=context.run("another_client", worded="a call from another client").value,
-        hints="The calls of all clients have to change the same count. Store one number in self.",
+        hints=(
+            "Each client got a different count. Store one number in `self`, which the calls of all "
+            "clients change."
+        ),
     )
     _starts_from_zero(context)
     context.fulfilled(COUNTED)
@@ -167,8 +186,8 @@ def _starts_from_zero(context: CheckContext) -> None:
             "after each reset, the message counts 1, 2, 3",
             expected="'1'",
             actual=repr(new.value),
-            hint="A new counter did not start from zero. Set its count to zero in __init__, and store it in "
-            "self.",
+            hint="A new counter did not start from zero. Set the count to zero in `__init__`, and "
+            "store this count in `self`.",
         )
 
 
@@ -188,10 +207,11 @@ def _follows(before: str) -> Callable[[str], bool]:
     "05.4",
     points=2,
     goal=(
-        "Serve /switch: move to the wanted position; return whether the switch moved, and the new position."
+        "Serve /switch. Move the switch to the wanted position; return the new position, and "
+        "whether the switch moved."
     ),
     needs=["Switch|switch_service"],
-    goals={POSITION: 2, MOVED: 2, "Let each new Switch() be off.": 1},
+    goals={POSITION: 2, MOVED: 2, "Make sure that each new Switch() is off.": 1},
 )
 def a_switch_that_tells(context: CheckContext) -> None:
     """Call /switch with data=False, and then ten more times.
@@ -211,8 +231,8 @@ def a_switch_that_tells(context: CheckContext) -> None:
             hints=[
                 (
                     "on",
-                    'The field `data` is False, but the message is "on". True means "on", and False means '
-                    '"off".',
+                    'The field `data` is False, but the message is "on". Return "on" for True, '
+                    'and "off" for False.',
                 ),
                 *MESSAGE,
             ],
@@ -235,13 +255,13 @@ def a_switch_that_tells(context: CheckContext) -> None:
                 hints=[
                     (
                         True,
-                        "The switch did not move, but success is True. Store the position, and compare it "
-                        "with `data`: success is True only if the switch moved.",
+                        "The switch did not move, but success is True. Set success to True "
+                        "only if the old position differs from `data`.",
                     ),
                     (
                         False,
-                        "The switch moved, but success is False. Compare `data` with the position "
-                        "before you change it.",
+                        "The switch moved, but success is False. Compare `data` with the "
+                        "position before you change the position.",
                     ),
                 ],
             )

@@ -6,14 +6,17 @@ IS_LIST = """
 def is_list(function, *args):
     return isinstance(function(*args), list)
 """  # A check receives a tuple as a list, so only code in the kernel sees the difference.
-FOR_ROS = "An argument with := is for ROS. Use rospy.myargv(argv), which returns the other arguments."
-NUMBERS = "Return the three numbers, and ignore arguments for ROS."
+FOR_ROS = "Arguments with := are for ROS. Use rospy.myargv(argv), which returns all other arguments."
+NUMBERS = "Return the three numbers as a list, and ignore arguments for ROS."
 
 
 @part(
     "06.5",
     points=2,
-    goal="Return the three numbers in the list of arguments, or None if there are not exactly three.",
+    goal=(
+        "Return the three numbers in the list of arguments. Return None if there are not exactly "
+        "three numbers."
+    ),
     needs=["read_sides"],
     goals=[NUMBERS, "Return None if there are not exactly three numbers."],
 )
@@ -23,7 +26,7 @@ def read_the_arguments(context: CheckContext) -> None:
     Then try too few arguments, too many arguments, and a word.
     """
     name_first = (
-        "The first item of the list is the name of the program. The sides begin with the second item."
+        "The first item of the list is the name of the program. Read the sides from the second item on."
     )
     sides = context.random.numbers(3, 0.5, 9.0)
     texts = [str(side) for side in sides]
@@ -41,15 +44,15 @@ def read_the_arguments(context: CheckContext) -> None:
             (
                 None,
                 "The function returned None. Read the numbers from `argv`, after the name of "
-                "the program; 1.5 is a number, too.",
+                "the program. Note that 1.5 is a number, too.",
             ),
             (
                 lambda actual: all(isinstance(item, str) for item in actual),
-                "These are strings. Convert each string to float.",
+                "The function returned strings. Convert each string to float.",
             ),
             (
                 lambda actual: all(isinstance(item, int) for item in actual),
-                "A side may be a number such as 1.5. Convert it to float, not to int.",
+                "A side can be a number such as 1.5. Convert each side to float, not to int.",
             ),
             (ANYTHING, name_first),
         ],
@@ -60,8 +63,8 @@ def read_the_arguments(context: CheckContext) -> None:
         actual=context.run("read_sides", [program, f"-{texts[0]}", texts[1], f"-{texts[2]}"]).returned(),
         near=1e-9,
         hints=(
-            "-1.5 is a number, too, so return it unchanged. Use float(text): it raises ValueError "
-            "only if the text is not a number."
+            "-1.5 is a number, too, so return it unchanged. Use float(text), which raises "
+            "ValueError only if the text is not a number."
         ),
     )
     remapped = [
@@ -93,13 +96,13 @@ def read_the_arguments(context: CheckContext) -> None:
         "None when there are too few",
         expected=None,
         actual=context.run("read_sides", [program, *texts[:2]], hints=_ENDS).returned(),
-        hints="Two numbers are not enough. Return None.",
+        hints="Two numbers are not enough. Return None in this case.",
     )
     context.expect(
         "None when there are too many",
         expected=None,
         actual=context.run("read_sides", [program, *texts, "1.0"], hints=_ENDS).returned(),
-        hints="Four numbers are too many. Return None; do not ignore one of them.",
+        hints="Four numbers are too many. Return None, and do not ignore the fourth number.",
     )
     for others in (
         [texts[0], "wide", texts[2]],
@@ -115,11 +118,11 @@ def read_the_arguments(context: CheckContext) -> None:
                 hints=[
                     (
                         matches("could not convert"),
-                        "float('wide') raises ValueError. Catch it, and return None.",
+                        "float('wide') raises ValueError. Catch this exception, and return None.",
                     )
                 ],
             ).returned(),
-            hints="One argument is a word. Return None; do not ignore the word.",
+            hints="One argument is a word. Return None, and do not ignore the word.",
         )
     _in_a_random_order(context, program)
     context.prepare(IS_LIST)
@@ -146,11 +149,17 @@ def _in_a_random_order(context: CheckContext, program: str) -> None:
             expected=numbers if count == 3 else None,
             actual=context.run("read_sides", [program, *map(str, numbers)], hints=_ENDS).returned(),
             near=1e-9,
-            hints="The result must depend on the arguments of this call, not on earlier calls.",
+            hints=(
+                "The result has to depend on the arguments of this call, not on earlier calls. "
+                "Read the numbers from `argv` in each call."
+            ),
         )
 
 
 _ENDS = [
-    (matches("^SystemExit"), "The function ends the program. Return None, so that the caller can decide."),
-    (matches("."), "A wrong number of arguments raised an exception. Return None in this case."),
+    (matches("^SystemExit"), "The function ends the program. Return None instead of the call of sys.exit."),
+    (
+        matches("."),
+        "The function raised an exception for a wrong number of arguments. Return None in this case.",
+    ),
 ]

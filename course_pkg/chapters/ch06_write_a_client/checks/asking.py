@@ -5,13 +5,13 @@ from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
 CALLED = "Call the given service once, with length, width and height."
-RETURNED = "Return the area and the volume of the response."
+RETURNED = "Return the area and the volume from the response."
 
 
 @part(
     "06.1",
     points=2,
-    goal="Call the given service, and return the area and the volume of its response.",
+    goal="Call the given service, and return the area and the volume from its response.",
     needs=["measure"],
     goals=[CALLED, RETURNED],
 )
@@ -29,8 +29,8 @@ def the_geometry_client(context: CheckContext) -> None:
             expected=f"a call of {name}",
             actual="no call",
             hints=(
-                "The given service was not called. Create the proxy with the name in `service`, "
-                "and call it with the three sides."
+                "The given service was not called. Create the proxy with the name in "
+                "`service`, and call the proxy with the three sides."
             ),
         )
         context.expect(
@@ -38,8 +38,8 @@ def the_geometry_client(context: CheckContext) -> None:
             expected=1,
             actual=len(server.requests),
             hints=(
-                "Each call makes the server do the work again. Call the service once, and store "
-                "the response in a variable."
+                "The function called the service more than once, so the server did the work "
+                "again. Call the service once, and store the response in a variable."
             ),
         )
         context.expect(
@@ -50,11 +50,12 @@ def the_geometry_client(context: CheckContext) -> None:
             hints=[
                 (
                     lambda actual: 0.0 in actual.values(),
-                    "A field was 0: a field that the client does not set is 0. Send all three sides.",
+                    "The request contains 0 for a side, because a field without a value is 0. "
+                    "Set all three sides.",
                 ),
                 (
                     ANYTHING,
-                    "The server received the sides in the wrong order. Send them by name.",
+                    "The server received the sides in the wrong order. Pass the sides as keyword arguments.",
                 ),
             ],
         )
@@ -68,21 +69,27 @@ def the_geometry_client(context: CheckContext) -> None:
                     (None, NO_RETURN),
                     (
                         {"area": area, "volume": volume},
-                        "This is the whole response. Return only its fields `area` and `volume`.",
+                        "The function returned the whole response. Return only the fields "
+                        "`area` and `volume` of the response.",
                     ),
-                    ([volume, area], "The order is wrong. Return the area first, and then the volume."),
+                    (
+                        [volume, area],
+                        "The order of the results is wrong. Return the area first, and then the volume.",
+                    ),
                     (
                         lambda actual: not isinstance(actual, list),
-                        "Return the area and the volume, with a comma between them.",
+                        "The function returned only one number. Return the area and the "
+                        "volume, with a comma between them.",
                     ),
                     (
                         [length, width],
-                        "These are fields of the request. Read `area` and `volume` from the response.",
+                        "The function returned fields of the request. Read `area` and `volume` "
+                        "from the response.",
                     ),
                     (
                         ANYTHING,
-                        "Return the area and the volume of the response unchanged. Do not compute or "
-                        "round them.",
+                        "Return the area and the volume of the response. Do not compute or "
+                        "round these numbers.",
                     ),
                 ],
             )

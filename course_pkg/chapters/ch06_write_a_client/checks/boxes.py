@@ -46,10 +46,10 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
         context.fail(
             f"an interrupt ends {function}()",
             expected="the function ends, as it does after you press the Stop button",
-            actual="the function caught the KeyboardInterrupt, and continued",
+            actual="the function caught the KeyboardInterrupt, and did not end",
             hint=(
-                "A bare `except:` catches the KeyboardInterrupt, too. Catch only the exceptions that "
-                f"you expect: {catch}."
+                "The function catches the KeyboardInterrupt, too. Catch only the exceptions "
+                f"that you expect: {catch}."
             ),
         )
 

@@ -8,7 +8,7 @@ from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Result
 
 HIDDEN = (
-    "The function hides the mistake. Catch only rospy.ServiceException, not a more "
+    "The function hides a wrong argument. Catch only rospy.ServiceException, not a more "
     "general class of exceptions."
 )
 NO_NAMES = """
@@ -26,7 +26,10 @@ class no_name:
     TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
 """  # Each use of this object raises the same error as a service name of a wrong type.
 
-DEPENDS = "The result must depend on the response of this call, not on earlier calls."
+DEPENDS = (
+    "The result has to depend on the response of this call, not on earlier calls. Read the volume "
+    "from the new response."
+)
 VOLUME = "Return the volume of the response."
 CAUGHT = "Return None if the call failed."
 
@@ -35,7 +38,7 @@ CAUGHT = "Return None if the call failed."
     "06.3",
     points=2,
     goal=(
-        "Return the volume, or None if the call failed; do not catch exceptions that are "
+        "Return the volume, or None if the call failed. Do not catch exceptions that are "
         "caused by wrong arguments."
     ),
     needs=["volume_or_none"],
@@ -58,12 +61,13 @@ def catch_what_can_happen(context: CheckContext) -> None:
             hints=[
                 (
                     None,
-                    "The server responded, but the function returned None. A volume of 0.0 is valid, too.",
+                    "The server responded, but the function returned None. Note that 0.0 is a "
+                    "valid volume, too.",
                 ),
                 (
                     math.prod(sides),
-                    "This is the product of the sides. Call the service, and return the volume of its "
-                    "response.",
+                    "The function returned the product of the sides. Call the service, and "
+                    "return the volume from the response.",
                 ),
                 (ANYTHING, "Return the field `volume` of the response."),
             ],
@@ -79,8 +83,8 @@ def catch_what_can_happen(context: CheckContext) -> None:
         _comes_out(context, context.run("volume_or_none", good, slip, *sides[1:]), repr(slip))
     text = str(sides[0])
     converted = (
-        "The function accepted a string as a number, but the call has to raise an exception "
-        "for a string. Do not convert the arguments."
+        "The function accepted a string as a number, but a string has to cause an exception. "
+        "Do not convert the arguments."
     )
     _comes_out(context, context.run("volume_or_none", good, text, *sides[1:]), repr(text), converted)
     context.prepare(NO_NAMES)
@@ -113,7 +117,7 @@ def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
                     "it returns the volume of the response",
                     expected="one call of the service",
                     actual=f"{len(server.requests)} calls",
-                    hint="The function called the service more than once. Call it once.",
+                    hint="The function called the service more than once. Call the service only once.",
                 )
 
 
@@ -126,7 +130,8 @@ def _is_called_once(context: CheckContext, server: ScriptedServer) -> None:
             (0, DEPENDS),
             (
                 ANYTHING,
-                "Do not repeat a failed call. It is possible that the server has already done the work.",
+                "The function repeated a failed call. Call the service only once, because the "
+                "server can do the work even if the call fails.",
             ),
         ],
     )
@@ -155,18 +160,18 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
         hints=[
             (
                 matches("^ServiceException.*(responded with|transport)"),
-                "This failure raises rospy.ServiceException, too. Return None for each "
-                "rospy.ServiceException; its message is not important.",
+                "This failed call raised rospy.ServiceException, too. Return None for each "
+                "rospy.ServiceException, with any error message.",
             ),
             (
                 matches("^ServiceException"),
-                "A call that fails raises rospy.ServiceException, not rospy.ROSException. "
-                "Catch rospy.ServiceException.",
+                "A failed call raises rospy.ServiceException, not rospy.ROSException. Catch "
+                "rospy.ServiceException.",
             ),
             (
                 matches("^ROSException.*waiting for service"),
                 "wait_for_service raises rospy.ROSException when the timeout is over. Catch "
-                "it, and return None.",
+                "this exception, and return None.",
             ),
         ],
     )
@@ -174,7 +179,10 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
         f"None from a server that {failure}",
         expected=None,
         actual=result.returned(),
-        hints="The call failed, so return None, which cannot be confused with a volume.",
+        hints=(
+            "The call failed, but the function returned a value. Return None, because None is "
+            "different from every volume."
+        ),
     )
 
 

@@ -22,8 +22,8 @@ IMPORTED = 77  # An import has this exit status if it ends without sys.exit or o
 IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"
 USAGE = "usage"
 ENDED_WITH_TEXT = (
-    "The exit status is 1, because sys.exit with a text always ends the program with 1. "
-    "Print the text, and then end the program with exit status 3."
+    "The exit status is 1, because sys.exit with a text always ends the program with 1. First "
+    "print the text, and then call sys.exit(3)."
 )
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -48,15 +48,15 @@ class Case:
 
 
 COMPARED = "Call getGeometry, and print whether the volume is at most LIMIT."
-USED = "Print a usage line, and end with 2, if the arguments are wrong."
+USED = "If the arguments are wrong, print a usage line, and end with exit status 2."
 
 
 @part(
     "06.6",
     points=3,
     goal=(
-        "Write fits.py: it calls getGeometry, prints whether the volume is at most LIMIT, and ends "
-        "with the exit status 0, 1, 2 or 3."
+        "Write fits.py, a program that calls getGeometry and prints whether the volume is at "
+        "most LIMIT. The program ends with the exit status 0, 1, 2 or 3."
     ),
     needs=[f"file:{FILE}"],
     deadline=30.0,
@@ -64,7 +64,7 @@ USED = "Print a usage line, and end with 2, if the arguments are wrong."
     goals={
         COMPARED: 2,
         USED: 1,
-        "Wait for a service that starts late. If the call fails, end the program with exit status 3.": 1,
+        "Wait for a service that starts late. If the call fails, end with exit status 3.": 1,
     },
 )
 def does_it_fit(context: CheckContext) -> None:
@@ -73,7 +73,8 @@ def does_it_fit(context: CheckContext) -> None:
         context,
         FILE,
         missing=(
-            "Linux reads in line 1 which program runs the file. Begin the file with #!/usr/bin/env python3."
+            "The shebang is missing, which names the program that runs the file. Begin line 1 "
+            "with #!/usr/bin/env python3."
         ),
     )
     folder = context.folder(files=[FILE])
@@ -114,8 +115,8 @@ def _cases(context: CheckContext) -> list[Case]:
     def answer(_: object) -> dict[str, float]:
         return {"area": volume * 3, "volume": volume}
 
-    done = 'The volume in the response is at most LIMIT: print "fits", and end with the exit status 0.'
-    usage = "The arguments are not four numbers: print a usage line, and end with the exit status 2."
+    done = 'The volume in the response is at most LIMIT. Print "fits", and end with exit status 0.'
+    usage = "The arguments are not four numbers. Print a usage line, and end with exit status 2."
     return [
         Case("a volume below LIMIT", fits, answer, 0, "fits", hint=done),
         Case(
@@ -125,8 +126,8 @@ def _cases(context: CheckContext) -> list[Case]:
             0,
             "fits",
             hint=(
-                'The volume is equal to LIMIT, and "at most LIMIT" includes LIMIT itself. Print '
-                '"fits", and end with the exit status 0.'
+                'The volume is equal to LIMIT, and "at most LIMIT" includes LIMIT itself. '
+                'Print "fits", and end with exit status 0.'
             ),
             remapped=True,
         ),
@@ -137,8 +138,8 @@ def _cases(context: CheckContext) -> list[Case]:
             1,
             "too large",
             hint=(
-                'The volume in the response is larger than LIMIT: print "too large", and end with the '
-                "exit status 1."
+                'The volume in the response is larger than LIMIT. Print "too large", and end '
+                "with exit status 1."
             ),
             ends=COMPARED,
         ),
@@ -150,7 +151,10 @@ def _cases(context: CheckContext) -> list[Case]:
             2,
             USAGE,
             calls=0,
-            hint="float() raises ValueError for a word. Catch it, print the usage line, and end with 2.",
+            hint=(
+                "float() raises ValueError for a word. Catch this exception, print the usage line, "
+                "and end with exit status 2."
+            ),
             ends=USED,
         ),
         Case(
@@ -159,7 +163,10 @@ def _cases(context: CheckContext) -> list[Case]:
             lambda _: Refuse("no such box"),
             3,
             "no such box",
-            hint="A call that fails raises rospy.ServiceException. Print its message, and end with 3.",
+            hint=(
+                "A failed call raises rospy.ServiceException. Print the message of the exception, "
+                "and end with exit status 3."
+            ),
         ),
         Case(
             "no service",
@@ -168,7 +175,10 @@ def _cases(context: CheckContext) -> list[Case]:
             3,
             "",
             calls=0,
-            hint="wait_for_service raises rospy.ROSException after 2 s. Print its message, and end with 3.",
+            hint=(
+                "wait_for_service raises rospy.ROSException after 2 s. Print the message of this "
+                "exception, and end with exit status 3."
+            ),
         ),
         Case("a volume below LIMIT", fits, answer, 0, "fits", hint=done, late=True),
     ]
@@ -213,8 +223,8 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
         expected="no output",
         actual=telling_line(done.out),
         hints=(
-            "The file cannot be imported without an error. Correct the mistake in the file, or "
-            "move the lines that an import must not run below the line with __name__."
+            "Python cannot import the file without an error. Correct the mistake, or move the "
+            "lines that start the program below the line with `__name__`."
         ),
     )
 
@@ -228,7 +238,7 @@ def _examine(
     context.require(
         f"{case.title}: {'one request' if case.calls else 'no request'}",
         holds=calls == case.calls,
-        expected=f"{case.calls} request(s) to the service that the command line names",
+        expected=f"{case.calls} request(s) to the service that is named in the command line",
         actual=f"{calls} request(s); {outcome}",
         hints=_about_calls(calls, case, done, elsewhere),
     )
@@ -254,7 +264,7 @@ def _examine(
         else case.prints or "the error message",
         actual=telling_line(done.out),
         hints=(
-            "The exit status is right, but the output is wrong. Print exactly the text of the "
+            "The exit status is right, but the output is wrong. Print exactly the text in the "
             "table, on a separate line."
         ),
     )
@@ -275,27 +285,30 @@ def _prints(case: Case, out: str) -> bool:
 
 def _about_calls(calls: int, case: Case, done: Finished, elsewhere: bool) -> str:
     if calls > case.calls > 0:
-        return "The program called the service more than once. Call it once, and store the response."
+        return "The program called the service more than once. Call the service once, and store the response."
     if calls:
         return "The arguments were wrong, but the program sent a request. Check the arguments first."
     if case.late and done.status == 3:
         return (
-            "The service started while the program ran, but the program did not call it. Before "
-            "the call, wait up to 2 s for the service."
+            "The service started while the program ran, but the program did not call the "
+            "service. Before the call, wait up to 2 s for the service."
         )
     if elsewhere and case.remapped:
         return (
-            "The program called /getGeometry although the command line remaps getGeometry. Call "
-            "rospy.init_node first, because rospy applies a remapping only after it."
+            "The program ignored the remapping of getGeometry. Call rospy.init_node before the "
+            "first use of a name."
         )
     if elsewhere:
         return (
-            "The program called /getGeometry although it ran in another namespace. Remove the "
-            "slash from the name."
+            "The program called /getGeometry, although the program ran in a namespace. Remove "
+            "the slash from the name of the service."
         )
     if done.status == 2:
-        return "Arguments with := are for ROS. Remove them with rospy.myargv(sys.argv)."
-    return "The program ended before its call. Run it in a terminal, and read the last line of its output."
+        return "Arguments with := are for ROS. Remove these arguments with rospy.myargv(sys.argv)."
+    return (
+        "The program ended before the call. Run the program in a terminal, and read the last line "
+        "of the output."
+    )
 
 
 def _ending(done: Finished) -> str:

@@ -9,20 +9,20 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
-FIRST = "Return the volume of the first service if it responds."
-NEXT = "Return the volume of the next service if a service does not exist or refuses."
+FIRST = "If the first service responds, return its volume."
+NEXT = "If a service does not exist or refuses the request, call the next service, and return its volume."
 
 
 @part(
     "06.4",
     points=3,
     goal=(
-        "Return the volume of the first service that responds within one second, or None if no "
-        "service responds."
+        "Return the volume of the first service that responds within one second. Return None "
+        "if no service responds."
     ),
     needs=["first_answer"],
     deadline=30.0,
-    goals=[FIRST, NEXT, "Wait one second for a response, and return None if no service responds."],
+    goals=[FIRST, NEXT, "Wait one second for a response. Return None if no service responds."],
 )
 def ask_the_next_one(context: CheckContext) -> None:
     """Try a working server, first alone and then after each kind of failing server.
@@ -48,12 +48,16 @@ def ask_the_next_one(context: CheckContext) -> None:
         near=1e-6,
         hints=[
             (None, NO_RETURN),
-            (second, "This is the response of the second service. Stop at the first service that responds."),
+            (
+                second,
+                "The function returned the volume of the second service. Stop at the first service "
+                "that responds.",
+            ),
             (
                 lambda actual: "volume" in actual,
-                "This is the whole response. Return only its field `volume`.",
+                "The function returned the whole response. Return only the field `volume` of the response.",
             ),
-            (ANYTHING, "Return the volume of the response."),
+            (ANYTHING, "Return the volume from the response of the service."),
         ],
     )
     context.expect(
@@ -61,15 +65,18 @@ def ask_the_next_one(context: CheckContext) -> None:
         expected=[dict(zip(("length", "width", "height"), sides, strict=True))],
         actual=primary.requests,
         near=1e-4,
-        hints="Call a service once, and send the three sides unchanged.",
+        hints=(
+            "The request was repeated or changed. Call a service once, and send the three sides "
+            "without any change."
+        ),
     )
     context.expect(
         "then no other service is called",
         expected=0,
         actual=len(reserve.requests),
         hints=(
-            "The first service responded, but the second service was called, too. Return as soon "
-            "as you have a volume."
+            "The first service responded, but the function also called the second service. "
+            "Return as soon as you have a volume."
         ),
     )
     context.expect(
@@ -77,8 +84,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         expected=0.0,
         actual=_first_of(context, names, "flat", "second").returned(),
         hints=(
-            "The first service responded with the volume 0.0. In a condition, 0.0 is false, so "
-            "test for an empty list or for None."
+            "The first service responded with the volume 0.0, which is false in a condition. "
+            "Test for an empty list or for None instead."
         ),
     )
     context.fulfilled(FIRST)
@@ -92,8 +99,8 @@ def ask_the_next_one(context: CheckContext) -> None:
             hints=[
                 (
                     None,
-                    "The last service would respond, but it was not called. Catch the error "
-                    "inside the loop, and try all services.",
+                    "The last service would respond, but the function did not call it. Catch "
+                    "the exception inside the loop, and try all services.",
                 )
             ],
         )
@@ -106,7 +113,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         hints=[
             (
                 second,
-                "The first service responds after 0.6 s, and it may take up to 1 s. Wait for its response.",
+                "The first service responds after 0.6 s, and this is fast enough. Wait up to 1 "
+                "s for a response.",
             )
         ],
     )
@@ -119,8 +127,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         hints=[
             (
                 None,
-                "The first service is frozen, but the second service would respond. Call the "
-                "second service when one second is over.",
+                "The first service does not respond, but the second service would respond. "
+                "Call the second service after one second.",
             )
         ],
     )
@@ -130,7 +138,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         holds=frozen.took - working.took < 1.75,
         expected="at most 1 s for the frozen service",
         actual=f"a result after {frozen.took:.1f} s",
-        hints="The function waits too long for one service. The time limit is one second for each service.",
+        hints="The function waits too long for one service. Wait at most one second for each service.",
     )
     context.expect(
         "the client waits for a response that comes after 0.6 s",
@@ -140,8 +148,8 @@ def ask_the_next_one(context: CheckContext) -> None:
         hints=[
             (
                 tardy,
-                "The response of the first service came after 1.3 s, and your function used it as the "
-                "response of the second service. Wait for 1 s, and use a new list for each call.",
+                "The late response of the first service was used as the response of the second "
+                "service. Store the response of each call in a new list.",
             )
         ],
     )
@@ -164,26 +172,29 @@ def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: M
             expected=works.get(working),
             actual=_first_of(context, names, *failing, *filter(None, [working])).returned(),
             near=1e-6,
-            hints="The result must depend on the services in the list, not on earlier calls.",
+            hints=(
+                "The result has to depend on the services in the list, not on earlier calls. Call "
+                "the services of the list each time."
+            ),
         )
 
 
 _NO_RESPONSE = [
     (
         matches("."),
-        "No service responded, and an exception ended the function. Catch it inside the loop, and "
-        "return None after the loop.",
+        "No service responded, and an exception ended the function. Catch this exception "
+        "inside the loop, and return None after the loop.",
     )
 ]
 _ERRORS: Hints = [
     (
         matches("^(ServiceException|ROSException)"),
-        "A failed call must not end the function. Catch its exception inside the loop.",
+        "A failed call ended the function. Catch the exception of the call inside the loop.",
     ),
     (
         matches("^TimesUp"),
-        "The function waits for a server that never responds. Call the service in a thread, "
-        "and join this thread with timeout=1.",
+        "The function waits forever for a server that does not respond. Call the service in a "
+        "thread, and join this thread with timeout=1.",
     ),
 ]
 

@@ -15,8 +15,8 @@ THERE = "Return True for a service that exists, and False for a service that doe
     "06.2",
     points=2,
     goal=(
-        "Return True if a service exists, or starts within the given number of seconds; otherwise "
-        "return False."
+        "Return True if a service exists or starts within the given number of seconds. "
+        "Otherwise, return False."
     ),
     needs=["is_there"],
     deadline=30.0,
@@ -39,12 +39,12 @@ def is_anybody_there(context: CheckContext) -> None:
             (None, NO_RETURN),
             (
                 False,
-                "The service was there, but the result was False. wait_for_service does not return "
-                "True: it returns None, or it raises an exception when the time is up.",
+                "The service exists, but the result was False. wait_for_service returns None "
+                "if the service exists, so do not test its return value.",
             ),
             (
                 lambda actual: isinstance(actual, str),
-                "This is a string. Write True and False without quotes.",
+                "The function returned a string. Write True and False without quotes.",
             ),
         ],
     )
@@ -54,8 +54,8 @@ def is_anybody_there(context: CheckContext) -> None:
         expected="an immediate result",
         actual=f"a result after {there.took:.1f} s",
         hints=(
-            "The function waits although the service is there. Use wait_for_service, which "
-            "returns as soon as the service is there."
+            "The function waits although the service exists. Use wait_for_service, which "
+            "returns immediately in this case."
         ),
     )
     context.expect(
@@ -67,7 +67,7 @@ def is_anybody_there(context: CheckContext) -> None:
         hints=[
             (
                 False,
-                "The service was there, and 0.5 s is enough to connect to it. Wait for it with "
+                "The service exists, and 0.5 s is enough to connect. Wait for the service with "
                 "wait_for_service.",
             )
         ],
@@ -78,20 +78,20 @@ def is_anybody_there(context: CheckContext) -> None:
             expected="no request",
             actual=f"{len(server.requests)} request(s)",
             hint=(
-                "The function called the service, but a call makes the server do its work. Wait "
-                "for the service without a call."
+                "The function called the service, so the server had to do its work. Wait for "
+                "the service without a call."
             ),
         )
     _never_there(
         context,
         nowhere,
-        "The function returned True for a service that no node provides. Return False when the time is up.",
+        "The function returned True for a service that does not exist. Return False when the time is over.",
     )
     _never_there(
         context,
         killed,
-        "The master still lists this service, but its process has ended. Use wait_for_service, "
-        "which connects to the server itself.",
+        "The service is still registered with the master, but its process has ended. Use "
+        "wait_for_service, which connects to the server itself.",
     )
     context.fulfilled(THERE)
     Timer(1.3, context.serve, [later, GEOMETRY, lambda _: {}]).start()
@@ -102,7 +102,8 @@ def is_anybody_there(context: CheckContext) -> None:
         hints=[
             (
                 False,
-                "The service started after 1.3 s, and `seconds` was 4. Wait up to `seconds` for the service.",
+                "The service started after 1.3 s, and `seconds` was 4. Wait for the service up "
+                "to `seconds` seconds.",
             )
         ],
     )
@@ -113,7 +114,7 @@ def is_anybody_there(context: CheckContext) -> None:
 def _in_a_random_order(context: CheckContext) -> None:
     """Try new names, so that a function that only counts its calls fails."""
     fixed = (
-        "The result was wrong for a second service. Your result must depend on the given "
+        "The result was wrong for a second service. The result has to depend on the given "
         "service, not on earlier calls."
     )
     there = [True] * context.random.integer(3, 5) + [False] * context.random.integer(2, 3)
@@ -135,7 +136,7 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
     A result after 1.4 s is too late.
     """
     too_long = (
-        "The function waited longer than `seconds`. Call wait_for_service once, with "
+        "The function waited longer than `seconds`. Call wait_for_service only once, and pass "
         "`seconds` as the timeout."
     )
     missing = context.run(
@@ -147,7 +148,7 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
             (matches("TimesUp"), too_long),
             (
                 matches("ROSException"),
-                "wait_for_service raises rospy.ROSException when the time is up. Catch this exception.",
+                "wait_for_service raises rospy.ROSException when the time is over. Catch this exception.",
             ),
         ],
     )
@@ -156,7 +157,7 @@ def _never_there(context: CheckContext, name: str, hint: str) -> None:
         expected=False,
         actual=missing.returned(),
         hints=[
-            (None, "When the time was up, the function returned None. Return False in this case."),
+            (None, "When the time was over, the function returned None. Return False in this case."),
             (True, hint),
         ],
     )

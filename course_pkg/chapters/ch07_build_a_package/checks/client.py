@@ -27,21 +27,21 @@ WITHIN = 16.0
 
 START = f"""%%writefile {FILE}
 ..."""
-PRINTED = "Call the service, and print the area and the volume."
-EXPLAINED = "End with 2 if the arguments are wrong."
+PRINTED = "Call the service once, and print the area and the volume."
+EXPLAINED = "If the arguments are wrong, end with exit status 2."
 
 
 @part(
     "07.5",
     points=3,
     goal=(
-        "Write client.py: it takes three numbers and prints area and volume; its exit status is 0, "
-        "or 1 without a response, or 2 for wrong arguments."
+        "Write client.py, which takes three numbers and prints the area and the volume. The "
+        "exit status is 0, or 1 without a response, or 2 for wrong arguments."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
-    goals=[PRINTED, EXPLAINED, "End with 1 if there is no response."],
+    goals=[PRINTED, EXPLAINED, "If there is no response, end with exit status 1."],
 )
 def the_client(context: CheckContext) -> None:
     """Run the client with a server that responds or refuses, with wrong arguments, and without a server."""
@@ -91,8 +91,8 @@ def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
             )
             if shown is None
             else (
-                f"The client prints a number that is not the {name} of the response. Do not compute "
-                f"the {name} in the client."
+                f"The client prints a number that is not the {name} in the response. Do not "
+                f"compute the {name} in the client."
             ),
         )
     context.require(
@@ -101,8 +101,8 @@ def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
         expected="exit status 0",
         actual=_outcome(done),
         hints=(
-            "A program that reaches its end has the exit status 0. Remove the sys.exit that sets "
-            "another status."
+            "The exit status has to be 0 after a successful call. Remove the sys.exit that "
+            "sets a different status."
         )
         if done.status is not None
         else "The client does not end. Remove rospy.spin(): the client has to end after the call.",
@@ -111,13 +111,19 @@ def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
 
 def _why_not_sent(sent: list[float], sides: list[float], done: Finished) -> str:
     if sent and sorted(sent) == sorted(sides):
-        return "The numbers arrive in the wrong order. The order of the arguments is LENGTH WIDTH HEIGHT."
+        return (
+            "The request contains the numbers in the wrong order. The order of the arguments is "
+            "LENGTH WIDTH HEIGHT."
+        )
     if sent:
-        return "Convert the three arguments to float, and send them unchanged."
+        return (
+            "The request contains the wrong numbers. Convert the three arguments to float, and "
+            "send these numbers unchanged."
+        )
     if done.status is None:
-        return f"The client waits, but it sends no request. Wait for {SERVICE}, and call it once."
+        return f"The client waits, but it sends no request. Wait for {SERVICE}, and call this service once."
     if done.status == 2:
-        return "Arguments with := are for ROS. Remove them with rospy.myargv(sys.argv)."
+        return "Arguments with := are for ROS. Remove these arguments with rospy.myargv(sys.argv)."
     return _about_error(done)
 
 
@@ -138,19 +144,25 @@ def _explains_its_usage(context: CheckContext, package: BuiltPackage) -> None:
         holds=not server.requests,
         expected="no request",
         actual=f"{len(server.requests)} requests",
-        hints="Check the arguments before you call the service.",
+        hints=(
+            "The client sent a request, although the arguments were wrong. Check the arguments "
+            "before the call."
+        ),
     )
     server.leave()
 
 
 def _why_no_usage(printed: str, arguments: list[str]) -> str:
     if USAGE.search(printed):
-        return "Write sys.exit(2) after the usage message, so that the exit status is 2."
+        return (
+            "The exit status has to be 2 if the arguments are wrong. Call sys.exit(2) after the "
+            "usage message."
+        )
     if "wide" in arguments and len(arguments) == 3:
         return "float() raises ValueError for a text that is not a number. Catch this exception."
     if len(arguments) > 3:
-        return "Four arguments are an error, too. Test whether there are exactly three arguments."
-    return 'Print a line that begins with "usage:" and shows the three arguments.'
+        return "The client accepted four arguments. Test whether there are exactly three arguments."
+    return 'The usage line is missing. Print a line that begins with "usage:" and shows the three arguments.'
 
 
 def _ends_with_one_after_a_refusal(context: CheckContext, package: BuiltPackage) -> None:
@@ -162,9 +174,9 @@ def _ends_with_one_after_a_refusal(context: CheckContext, package: BuiltPackage)
         holds=done.status == 1 and "no box" in done.out + done.err and "Traceback" not in done.err,
         expected="the error message, and exit status 1",
         actual=_outcome(done),
-        hints="A user should not see a traceback. Catch rospy.ServiceException, and print its message."
+        hints="The client printed a traceback. Catch rospy.ServiceException, and print only its message."
         if "Traceback" in done.err
-        else "Print the message of the exception, and then call sys.exit(1).",
+        else "Print the message of the exception. Then call sys.exit(1).",
     )
 
 
@@ -176,20 +188,20 @@ def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage) -> 
         holds=done.status == 1 and "Traceback" not in done.err and done.took < WITHIN - 2,
         expected="an error message, and exit status 1",
         actual=_outcome(done),
-        hints="The client waits without a limit. Call wait_for_service with a timeout."
+        hints="The client waits for the service without a limit. Call wait_for_service with a timeout."
         if done.status is None
         else "wait_for_service raises rospy.ROSException after its timeout. Catch this exception, too."
         if "Traceback" in done.err
-        else "Without a response, the exit status has to be 1.",
+        else "The exit status has to be 1 if there is no response. Call sys.exit(1) in this case.",
     )
     context.require(
         "no server: after at most 5 s it ends with 1",
         holds="unavailable" not in done.out + done.err,
-        expected="an end after 5 s",
+        expected="the end of the program after 5 s",
         actual=_outcome(done),
         hints=(
-            "The client did not wait. The service can start later than the client, so wait up to "
-            "5 s for the service."
+            "The client did not wait, but the service can start later than the client. Wait up "
+            "to 5 s for the service."
         ),
     )
 

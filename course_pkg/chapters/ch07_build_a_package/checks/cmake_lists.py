@@ -27,21 +27,21 @@ find_package(catkin REQUIRED COMPONENTS
 catkin_package()
 """
 GENERATED = "Generate the type my_geometry/geometry."
-WAITS = "Let the target my_geometry_programs wait for the type."
+WAITS = "Make the target my_geometry_programs depend on the generated type."
 
 
 @part(
     "07.3",
     points=3,
     goal=(
-        "Complete CMakeLists.txt: 1. Generate the type my_geometry/geometry. 2. Add a target "
-        "my_geometry_programs that is built after this type. 3. Name message_runtime for the "
-        "packages that use this package."
+        "Complete CMakeLists.txt: generate the type my_geometry/geometry, and build the target "
+        "my_geometry_programs after this type. Pass message_runtime to the packages that use "
+        "this package."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
-    goals=[GENERATED, WAITS, "Name message_runtime for other packages."],
+    goals=[GENERATED, WAITS, "Pass message_runtime to the packages that use this package."],
 )
 def the_build(context: CheckContext) -> None:
     """Build the package; then remove the generated classes, and build only the student's target."""
@@ -70,17 +70,19 @@ def _has_type(context: CheckContext, package: BuiltPackage, text: str, wanted: s
         "its MD5 sum is the one of geometry.srv",
         holds=md5 == wanted,
         expected="the MD5 sum of the file in srv",
-        actual="another MD5 sum",
+        actual="a different MD5 sum",
     )
 
 
 def _why_no_type(text: str) -> str:
     for name in ("add_service_files", "generate_messages"):
         if not _has(text, name):
-            return f"There is no command {name}, so the build passes but generates no type. Add this command."
+            return (
+                f"The command {name} is missing, so the build passes but generates no type. Add this command."
+            )
     return (
-        "add_service_files and generate_messages are in the file, but no type was generated. "
-        "Look for an if() whose condition is false."
+        "The file contains add_service_files and generate_messages, but no type was generated. "
+        "Look for an if() with a false condition."
     )
 
 
@@ -101,23 +103,20 @@ def _target_waits(context: CheckContext, package: BuiltPackage, text: str, wante
 def _why_not_waiting(text: str, *, unknown: bool) -> str:
     if unknown and _has(text, "add_custom_target"):
         return (
-            "The name of the target is wrong. Use my_geometry_programs; ${PROJECT_NAME} is the "
-            "name of the package."
+            "The name of the target is wrong. Use my_geometry_programs, because "
+            "${PROJECT_NAME} is the name of the package."
         )
     if unknown:
         return (
-            "Create the target with add_custom_target: pass the name of the target as the first "
-            "argument, and ALL as the second."
+            "The target does not exist. Create the target with add_custom_target: write the "
+            "name of the target first, and then ALL."
         )
     if _has(text, "add_dependencies"):
         return (
             "Your add_dependencies contains only targets of other packages. Add the targets of "
-            "${PROJECT_NAME}."
+            "${PROJECT_NAME}, which generate the type."
         )
-    return (
-        "The target has no dependencies yet. Use add_dependencies: it determines what is built "
-        "before the target."
-    )
+    return "The target does not depend on the generated classes. Add this dependency with add_dependencies."
 
 
 def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: str) -> None:
@@ -125,11 +124,13 @@ def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: st
     context.require(
         "a package that uses this package gets message_runtime, too",
         holds=done.status == 0,
-        expected="message_runtime in what catkin_package exports",
+        expected="message_runtime in CATKIN_DEPENDS of catkin_package",
         actual="no message_runtime",
-        hints="In catkin_package, write CATKIN_DEPENDS and the packages that are needed to run."
+        hints="In catkin_package, message_runtime is missing. Write CATKIN_DEPENDS, and then the "
+        "packages that are needed to run."
         if _has(text, "catkin_package")
-        else "Without catkin_package, other packages cannot find this package. Add this command.",
+        else "Without catkin_package, other packages cannot find this package. Add the command "
+        "catkin_package.",
     )
 
 

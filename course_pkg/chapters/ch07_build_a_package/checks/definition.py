@@ -23,8 +23,8 @@ EXAMPLE_FILE = "srv/ServiceExample.srv"
     "07.2",
     points=1,
     goal=(
-        "Write geometry.srv: the request has the fields length, width and height, and the response "
-        "has area and volume; all are float32."
+        "Write geometry.srv, in which all fields are float32. The request has the fields "
+        "length, width and height, and the response has the fields area and volume."
     ),
     needs=[f"file:{MY_GEOMETRY.path(GEOMETRY_FILE)}"],
     deadline=60.0,
@@ -38,8 +38,8 @@ def the_definition(context: CheckContext) -> None:
     "07.8",
     points=1,
     goal=(
-        "Write ServiceExample.srv in the package service_example: the request has the field number "
-        "(int32), and the response has the field state (string)."
+        "Write ServiceExample.srv in the package service_example. The request has the field "
+        "number (int32), and the response has the field state (string)."
     ),
     needs=[f"file:{SERVICE_EXAMPLE_PACKAGE.path(EXAMPLE_FILE)}"],
     deadline=60.0,
@@ -62,8 +62,8 @@ def _examine(context: CheckContext, package: Package, file: str, name: str, text
         expected=asked.md5,
         actual=md5 or printed.rpartition("\n")[2],
         hints=(
-            "A constant is part of the MD5 sum, too. Write only the fields of the exercise, "
-            "without constants."
+            "The MD5 sum is wrong, because constants are part of it, too. Write only the "
+            "fields of the exercise, without constants."
         ),
     )
 
@@ -89,16 +89,21 @@ def _hint(half: str, asked: MessageType, given: MessageType, other: MessageType)
     extra = [name for name in found if name not in wanted]
     if stray := next((field.name for field in other.fields if field.name in extra), ""):
         return (
-            f"{stray} is on the wrong side of the line ---: the request is above it, and the "
-            "response is below it."
+            f"The field {stray} is on the wrong side of the line ---. Write the request above "
+            "this line, and the response below this line."
         )
     if missing and (near := difflib.get_close_matches(missing[0], extra, n=1, cutoff=0.5)):
         return f"Compare the name {near[0]} with the name in the exercise, letter by letter."
     if missing:
-        return f"The {half} has no field {missing[0]}."
+        return f"The {half} has no field {missing[0]}. Add this field."
     if extra:
-        return f"The exercise does not ask for a field {extra[0]} in the {half}."
+        return f"The {half} contains the field {extra[0]}, which is not in the exercise. Remove this field."
     wrong = next((name for name in wanted if wanted[name] != found[name]), "")
     if wrong:
-        return f"{wrong} has the type {found[wrong]}. Use the type of the exercise, {wanted[wrong]}."
-    return f"The order of the fields is part of the MD5 sum. Begin with {next(iter(wanted))}."
+        return (
+            f"The field {wrong} has the type {found[wrong]}. Use the type of the exercise, {wanted[wrong]}."
+        )
+    return (
+        "The order of the fields is wrong, and the MD5 sum depends on the order. Begin with "
+        f"{next(iter(wanted))}."
+    )

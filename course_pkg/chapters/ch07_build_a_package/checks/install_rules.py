@@ -15,19 +15,19 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 SCRIPTS = ("server.py", "client.py")
 PLACE = "lib/my_geometry"
 INSTALLING = 20.0  # The installation may take this many s; it takes 1 s on an idle machine.
-INSTALLED = "Install server.py and client.py in the folder in which rosrun finds them."
+INSTALLED = "Install server.py and client.py in the folder that rosrun searches."
 
 
 @part(
     "07.6",
     points=2,
     goal=(
-        "Extend CMakeLists.txt, so that catkin_make install puts server.py and client.py into the "
-        "folder in which rosrun finds them."
+        "Extend CMakeLists.txt, so that catkin_make install puts server.py and client.py into "
+        "the folder that rosrun searches."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
-    goals={INSTALLED: 3, "Install all that the server needs to run.": 1},
+    goals={INSTALLED: 3, "Install all files that the server needs to run.": 1},
 )
 def the_install_rules(context: CheckContext) -> None:
     """Install a copy, hide the other folders, and start the installed server."""
@@ -62,7 +62,10 @@ def _installs(context: CheckContext, package: BuiltPackage) -> None:
         holds=done.status == 0,
         expected="exit status 0",
         actual=f"there is no {problem[1]}" if problem else f"exit status {done.status}",
-        hints="Compare each path in the rule with the files of the package.",
+        hints=(
+            "A path in the install rule is wrong. Compare each path in the rule with the files of "
+            "the package."
+        ),
     )
 
 
@@ -83,7 +86,7 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
         context.fail(
             f"{script} is installed in {PLACE}, as an executable file",
             expected=f"the same lines as in scripts/{script}",
-            actual="another file",
+            actual="a different file",
             hint=f"The installed file is not the script of the package. Install scripts/{script}.",
         )
 
@@ -92,17 +95,17 @@ def _why_not_there(text: str, script: str, places: list[str], *, there: bool) ->
     rules = [each.name for each in cmake_commands(text) if not each.is_comment]
     if there:
         return (
-            "The installed file is not executable. install(FILES …) installs files that are not executable, "
-            "so use catkin_install_python for scripts."
+            "The installed file is not executable, because install(FILES …) does not keep this "
+            "permission. Use catkin_install_python for scripts."
         )
     if places:
         return (
-            "rosrun does not search this folder. Write exactly "
+            "rosrun does not search the folder that you chose. Write exactly "
             "${CATKIN_PACKAGE_BIN_DESTINATION} after DESTINATION."
         )
     if "catkin_install_python" not in rules and "install" not in rules:
         return (
-            "There is no install rule yet. The generated file has an example in a comment: look "
-            "for catkin_install_python."
+            "The install rule is missing. Look for catkin_install_python in the generated "
+            "file: a comment shows an example."
         )
-    return f"The rule does not contain {script}. List both scripts after PROGRAMS."
+    return f"The install rule does not contain {script}. List both scripts after PROGRAMS."

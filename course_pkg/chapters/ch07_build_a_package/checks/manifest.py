@@ -46,8 +46,8 @@ COMPLETE = "List all packages that are needed, in a package.xml that catkin acce
     "07.1",
     points=2,
     goal=(
-        "Complete package.xml: write your own description, address and licence, and add "
-        "message_runtime as an exec_depend."
+        "Complete package.xml. Write your own description, address and licence, and add an "
+        "exec_depend for message_runtime."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
@@ -84,14 +84,19 @@ def the_manifest(context: CheckContext) -> None:
         holds="@todo.todo" not in without_comments(text),
         expected="an address such as name@example.com",
         actual="the generated address",
-        hints="Replace the address in the maintainer tag with your own, or with you@example.com.",
+        hints=(
+            "The address in the maintainer tag was not changed. Write your own address, or you@example.com."
+        ),
     )
 
 
 def _about_dependency(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if elsewhere:
-        return f"Line {elsewhere[0].line} has {elsewhere[0].name} for {package}. Add a line with {tag}."
+        return (
+            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add a line "
+            f"with {tag} for this package."
+        )
     if package == "message_runtime":
-        return "A package is missing. Look for its name in the warning of catkin_create_pkg."
+        return "The name of a package is missing. Look for this name in the warning of catkin_create_pkg."
     return f"The package uses {package}, but package.xml has no tag for it. Add this tag."

@@ -43,13 +43,13 @@ CALLED = "Call /onOff COUNT times, each time with a random number, 0 or 1."
     "07.9",
     points=3,
     goal=(
-        "Write on_off_server.py: the node ON_OFF_SERVER serves /onOff; the state is OFF for 0 and "
-        "ON for 1, and any other number is refused."
+        "Write on_off_server.py: the node ON_OFF_SERVER serves /onOff. The state is OFF for 0 "
+        "and ON for 1, and the server refuses all other numbers."
     ),
     needs=[f"file:{SERVER_FILE}"],
     deadline=120.0,
     start=SERVER_START,
-    goals={ANSWERED: 2, "Refuse any other number.": 1},
+    goals={ANSWERED: 2, "Refuse all other numbers.": 1},
 )
 def the_on_off_server(context: CheckContext) -> None:
     """Start the server in a separate namespace; call it with 0, 1 and other numbers."""
@@ -62,7 +62,10 @@ def the_on_off_server(context: CheckContext) -> None:
     line = f"rosrun service_example {SERVER.name} __ns:={space} {SERVER.service}:={name}"
     with package.start(line, worded=f"rosrun service_example {SERVER.name}") as running:
         serves(context, running, package, SERVER, name, f"{space}/{SERVER.node}")
-        refused = (REFUSED_BY_HANDLER, "0 and 1 are valid numbers. Refuse only other numbers.")
+        refused = (
+            REFUSED_BY_HANDLER,
+            "The server refused 0 or 1, but these numbers are valid. Refuse only other numbers.",
+        )
         service = context.service(name, service_example_class(), timeout=5.0, hints=[refused])
         for number, state in context.random.shuffled([(0, "OFF"), (1, "ON"), (0, "OFF")]):
             context.expect(
@@ -72,12 +75,18 @@ def the_on_off_server(context: CheckContext) -> None:
                 hints=[
                     (
                         "",
-                        "The response still has the default state, an empty string. Set the state "
-                        "to ON or OFF.",
+                        "The state is an empty string, because the server did not set it. Set "
+                        "the state to ON or OFF.",
                     ),
-                    (state.lower(), "Compare the letters: ON and OFF have capital letters."),
-                    (lambda text: text in ("ON", "OFF"), "The two states are exchanged: 0 means OFF."),
-                    (ANYTHING, "This state is not in the exercise. The only states are ON and OFF."),
+                    (
+                        state.lower(),
+                        "The letters of the state are wrong. Write ON and OFF in capital letters.",
+                    ),
+                    (
+                        lambda text: text in ("ON", "OFF"),
+                        "The two states are exchanged. Return OFF for 0, and ON for 1.",
+                    ),
+                    (ANYTHING, "The exercise does not have this state. Return only ON or OFF."),
                 ],
             )
         context.fulfilled(ANSWERED)
@@ -89,17 +98,23 @@ def the_on_off_server(context: CheckContext) -> None:
                 hints=[
                     (
                         matches("returned (None|invalid)"),
-                        "The handler returned no response. Raise rospy.ServiceException in this case.",
+                        "The handler returned no response. Raise rospy.ServiceException for an "
+                        "invalid number.",
                     ),
-                    (REFUSED_BY_HANDLER, "The message of the exception has to contain the number."),
+                    (
+                        REFUSED_BY_HANDLER,
+                        "The message of the exception does not contain the number. Write the "
+                        "number in the message.",
+                    ),
                     (
                         matches("error processing"),
-                        "Raise rospy.ServiceException: the client regards any other exception as a "
-                        "bug of the server.",
+                        "The exception has the wrong type, so the client thinks that the "
+                        "server has a bug. Raise rospy.ServiceException.",
                     ),
                     (
                         ANYTHING,
-                        "The server has to refuse this number, which is neither 0 nor 1. Raise an exception.",
+                        "The server accepted a number that is neither 0 nor 1. Raise an "
+                        "exception for this number.",
                     ),
                 ],
             )
@@ -109,13 +124,13 @@ def the_on_off_server(context: CheckContext) -> None:
     "07.10",
     points=2,
     goal=(
-        "Write on_off_client.py: it calls /onOff COUNT times with a random number, 0 or 1, and "
-        "prints a line `NUMBER: STATE` for each call."
+        "Write on_off_client.py, which calls /onOff COUNT times with a random number, 0 or 1. "
+        "For each call, the client prints a line `NUMBER: STATE`."
     ),
     needs=[f"file:{CLIENT_FILE}"],
     deadline=120.0,
     start=CLIENT_START,
-    goals=[CALLED, "Print a line for each call."],
+    goals=[CALLED, "Print one line for each call."],
 )
 def the_on_off_client(context: CheckContext) -> None:
     """Run the client with a server that returns random words as states."""
@@ -142,10 +157,7 @@ def the_on_off_client(context: CheckContext) -> None:
         holds=set(sent) == {0, 1} and sent not in ([0, 1] * (CALLS // 2), [1, 0] * (CALLS // 2)),
         expected="both numbers, in a random order",
         actual=" ".join(map(str, sent)),
-        hints=(
-            "The numbers are not random. random.randint(0, 1) returns 0 or 1; call it again for "
-            "each call of the service."
-        ),
+        hints=("The numbers are not random. Call random.randint(0, 1) again for each call of the service."),
     )
     context.fulfilled(CALLED)
     wanted = [f"{number}: {states[number % 2]}" for number in sent]
@@ -155,14 +167,17 @@ def the_on_off_client(context: CheckContext) -> None:
         holds=printed == wanted,
         expected="one line for each call, such as 1: ON",
         actual=" / ".join(done.out.splitlines()[:3]) or "no output",
-        hints="Print the number that you sent, a colon, a space, and the state of the response.",
+        hints=(
+            "The output is wrong. For each call, print the number that you sent, a colon, a space, "
+            "and the state in the response."
+        ),
     )
     context.require(
         "it ends with the status 0",
         holds=done.status == 0,
         expected="exit status 0",
         actual=_ending(done),
-        hints="After the last call, let the program reach its end without sys.exit.",
+        hints="The exit status is not 0. After the last call, do not call sys.exit.",
     )
 
 
@@ -173,16 +188,16 @@ def _why_not_sent(count: int, done: Finished) -> str:
         return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT, printed)
     if done.status is None:
         return (
-            "The client does not end. Check the name of the service for which it waits, and the "
-            "end of its loop."
+            "The client does not end. Check the name of the service in wait_for_service, and "
+            "the end of the loop."
         )
     if count == 1:
         return (
-            "The client called the service only once. The first argument is the number of calls: "
-            "int(sys.argv[1])."
+            "The client called the service only once. Read the number of calls from the first "
+            "argument: int(sys.argv[1])."
         )
-    return "Call the service exactly as many times as the first argument says."
+    return "The number of calls is wrong. Make exactly as many calls as the first argument says."
 
 
 def _ending(done: Finished) -> str:
-    return "it is still running" if done.status is None else f"exit status {done.status}"
+    return "the client is still running" if done.status is None else f"exit status {done.status}"

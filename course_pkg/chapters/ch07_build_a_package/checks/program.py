@@ -40,16 +40,18 @@ ENDINGS = (  # Each entry contains a pattern for the program's output, and a hin
     (r"rospy\.init_node\(\) first", "A service needs a node. Call rospy.init_node before rospy.Service."),
     (
         r"no attribute '_request_class'",
-        "Pass the class of the type to rospy.Service, not the class of its request or response.",
+        "Your program passed the class of the request or of the response. Pass the class of "
+        "the type to rospy.Service.",
     ),
     (
         r"(?s)(\w+)\.srv import.*No module named '\1'",
-        "Import the type from your own package: from {own}.srv.",
+        "Your program imports the type from a package that does not exist. Import the type "
+        "from your own package: from {own}.srv.",
     ),
     (
         r"required file not found|bad interpreter",
-        "The first line of the script names a program that does not exist on this machine. "
-        "Write a shebang that names python3.",
+        "The first line of the script names a program that is not installed. Write a shebang "
+        "that names python3.",
     ),
 )
 
@@ -73,10 +75,13 @@ def is_a_script(context: CheckContext, path: str) -> None:
     require_shebang(
         context,
         path,
-        missing="Without a shebang, Linux runs the script as a shell script. Write a shebang as line 1.",
-        elsewhere="Linux reads a shebang only in the first column of line 1. Move it there.",
-        another="This shebang names the wrong program. The script needs python3.",
-        windows="The lines end with \\r\\n, as on Windows. Save the file with the line endings of Linux.",
+        missing=(
+            "Without a shebang, Linux runs the script with the shell, not with Python. Write a "
+            "shebang in line 1."
+        ),
+        elsewhere="The shebang is in the wrong place. Write the shebang in the first column of line 1.",
+        another="The shebang names the wrong program. Write a shebang that names python3.",
+        windows="The file has Windows line endings. Save the file with Linux line endings.",
     )
 
 
@@ -86,10 +91,10 @@ def is_executable(context: CheckContext, path: str) -> None:
         "the script is executable",
         holds=context.command("test", "-x", path, files=[path]).status == 0,
         expected="an executable file",
-        actual="a file that can only be read",
+        actual="a file without the permission to execute it",
         hints=(
-            f"The script is not executable. Type chmod +x {path} in the terminal, in the folder of "
-            "your workspace."
+            "The script is not executable. In a terminal, go to the folder of your workspace, "
+            f"and type: chmod +x {path}"
         ),
     )
 
@@ -112,8 +117,8 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
         expected="a script that only defines functions and classes",
         actual="a script that starts its work" if began else printed.strip().rpartition("\n")[2],
         hints=(
-            "An import of the script starts the node. Move init_node and all lines after it below "
-            'the line if __name__ == "__main__":.'
+            "An import of the script starts the node. Move rospy.init_node and all lines after "
+            'it below the line `if __name__ == "__main__":`.'
         )
         if began
         else why_not(package, program, done.status, printed, []),
@@ -156,7 +161,9 @@ def serves(
         holds=found.node == node,
         expected=program.node,
         actual=found.node.rpartition("/")[2],
-        hints=f'Call rospy.init_node("{program.node}"), without anonymous=True.',
+        hints=(
+            f'The name of the node is wrong. Call rospy.init_node("{program.node}"), without anonymous=True.'
+        ),
     )
     require_served_by_program(context, running, name)
 
@@ -173,11 +180,14 @@ def why_not(
 ) -> str:
     """Return the hint for a program that has ended, or that does not serve the right service."""
     if others:
-        return f"The program serves {', '.join(others)}, but the exercise needs {program.service}."
+        return (
+            f"The program serves {', '.join(others)}, but not {program.service}. Change the name "
+            "of the service."
+        )
     if status is None:
         return (
-            f"The program runs, but it serves nothing. Call rospy.Service with {program.service} "
-            "before rospy.spin()."
+            "The program runs, but it offers no service. Call rospy.Service with "
+            f"{program.service} before rospy.spin()."
         )
     for pattern, hint in ENDINGS:
         if re.search(pattern, printed):
@@ -185,7 +195,10 @@ def why_not(
     if "Traceback" in printed or "Error" in printed:
         fault = explain(printed)
         return f"{fault.problem} {fault.remedy}" if fault else own_line(program, printed)
-    return "The program ended, so its service ended, too. At the end, call rospy.spin(), which waits."
+    return (
+        "The program ended, so its service does not exist any more. Write rospy.spin() at the end: "
+        "this function waits until the node is stopped."
+    )
 
 
 def own_line(program: Program, printed: str) -> str:

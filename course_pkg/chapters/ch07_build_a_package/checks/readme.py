@@ -23,17 +23,17 @@ COMMANDS = (  # Each command has a pattern, a name, and a hint.
     (
         r"catkin_make\b",
         "catkin_make",
-        "The command that builds the package is missing. Write catkin_make on a line of a code block.",
+        "The command that builds the package is missing. Write catkin_make in a code block.",
     ),
     (
         r"(?:source|\.) +(?:\S*/)?(?:devel|install)/setup\.(?:ba|z)?sh",
         "source devel/setup.bash",
-        "The command `source devel/setup.bash` is missing. You need it in each new terminal.",
+        "The command `source devel/setup.bash` is missing. Write this command in a code block.",
     ),
     (
         r"rosrun +my_geometry +server\.py|(?:python3 +|\./)(?:\S*/)?server\.py",
         "rosrun my_geometry server.py",
-        "The command that starts the server is missing. Write the whole command, from rosrun "
+        "The command that starts the server is missing. Write the whole command, from `rosrun` "
         "to the name of the file.",
     ),
 )
@@ -43,7 +43,7 @@ COMMANDS = (  # Each command has a pattern, a name, and a hint.
     "07.7",
     points=1,
     goal=(
-        "Write README.md: a title, and code blocks with the commands to build the package, source "
+        "Write README.md with a title and code blocks. The commands build the package, source "
         "the workspace, start the server and call the service."
     ),
     needs=[f"file:{FILE}"],
@@ -57,7 +57,7 @@ def the_readme(context: CheckContext) -> None:
         holds=bool(re.match(r"# \S", first)),
         expected="# and a title",
         actual=first,
-        hints="In Markdown, a title is a line that begins with one # and a space.",
+        hints="The title is missing. Write a line that begins with # and a space.",
     )
     lines = [line.strip().removeprefix("$ ") for block in BLOCK.findall(text) for line in block.splitlines()]
     commands = "\n".join(lines)
@@ -66,7 +66,9 @@ def the_readme(context: CheckContext) -> None:
         holds=bool(commands),
         expected="lines between ``` and ```",
         actual="no code block",
-        hints="Write a line ``` above the commands, and another line ``` below them.",
+        hints=(
+            "The code block is missing. Write a line ``` above the commands, and another line ``` below them."
+        ),
     )
     places = [_place(context, commands, *command) for command in COMMANDS]
     places.append(_place_of_call(context, commands))
@@ -75,7 +77,10 @@ def the_readme(context: CheckContext) -> None:
         holds=places == sorted(places),
         expected="build, source, start, call",
         actual=" / ".join(commands[place:].partition("\n")[0] for place in sorted(places)),
-        hints="Imagine a new terminal: first build, then source, then start the server, and then call it.",
+        hints=(
+            "The order of the commands is wrong. First build, then source the workspace, then "
+            "start the server, and then call the service."
+        ),
     )
 
 
@@ -100,8 +105,9 @@ def _place_of_call(context: CheckContext, commands: str) -> int:
         holds=found is not None,
         expected="rosservice call /getGeometry and three numbers",
         actual=" / ".join(others) or "no rosservice call",
-        hints="The call needs the name /getGeometry, and one number for each of the three sides."
+        hints="The call of the service is not complete. Write the name /getGeometry, and one number "
+        "for each of the three sides."
         if others
-        else "Show a call with rosservice, as in step 8.",
+        else "The call of the service is missing. Write the command with rosservice from step 8.",
     )
     return found.start() if found else 0

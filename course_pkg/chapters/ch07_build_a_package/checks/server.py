@@ -27,13 +27,13 @@ STARTED = "Start the node SERVER_NODE with the service /getGeometry."
     "07.4",
     points=3,
     goal=(
-        "Write server.py: the node SERVER_NODE serves /getGeometry; area = width times length, and "
-        "volume = area times height."
+        "Write server.py: the node SERVER_NODE serves /getGeometry. The area is width times "
+        "length, and the volume is area times height."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
-    goals={STARTED: 1, "Return the area and the volume.": 2},
+    goals={STARTED: 1, "Return the area and the volume in the response.": 2},
 )
 def the_server(context: CheckContext) -> None:
     """Build a copy of the package, start its program in another namespace, and call the service."""
@@ -62,14 +62,25 @@ def _answers(context: CheckContext, measure: Service, length: float, width: floa
         width * length,
         height,
         area=[
-            (0.0, "The response still has the default area, 0.0. Set it to width times length."),
-            (width + length, "That is the sum of width and length. Multiply for an area; do not add."),
-            (2 * (width + length), "That is the perimeter. The area is width times length."),
-            (width * height, "That is width times height. Return the area of the floor."),
-            (ANYTHING, "Compute the area from request.width and request.length."),
+            (
+                0.0,
+                "The area is 0.0, because the server did not set the field. Set the area to width "
+                "times length.",
+            ),
+            (
+                width + length,
+                "Your area is the sum of width and length. Multiply the two sides; do not add them.",
+            ),
+            (2 * (width + length), "Your area is the perimeter. Return width times length."),
+            (width * height, "Your area is width times height. Return the area of the floor."),
+            (ANYTHING, "The area is wrong. Compute the area from request.width and request.length."),
         ],
         volume=[
-            (0.0, "The response still has the default volume, 0.0. Set it to area times height."),
-            (ANYTHING, "Compute the volume from the area and request.height."),
+            (
+                0.0,
+                "The volume is 0.0, because the server did not set the field. Set the volume to "
+                "area times height.",
+            ),
+            (ANYTHING, "The volume is wrong. Compute the volume from the area and request.height."),
         ],
     )

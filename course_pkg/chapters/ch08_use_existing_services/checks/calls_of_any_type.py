@@ -14,36 +14,38 @@ def is_message(function, *args):
 ERRORS = [
     (
         matches("'str' object has no attribute '_request_class'"),
-        "This is the name of the type, which is a string. Get the class with get_service_class_by_name.",
+        "Your function passed the name of the type, which is a string. Get the class with "
+        "get_service_class_by_name.",
     ),
     (
         matches("must be a Message"),
-        "This is the class of the service type. Create an object of its _request_class, and "
-        "fill this object.",
+        "Your function passed the class of the service type. Create an object of its "
+        "`_request_class`, and fill this object.",
     ),
     (
         matches(r"type object '\w+' has no attribute '_request_class'"),
-        "rospy.ServiceProxy got the class of the request. Pass the class of the service type.",
+        "rospy.ServiceProxy got the class of the request. Pass the class of the service type "
+        "to rospy.ServiceProxy.",
     ),
     (
         matches(r"args are\(None,\)"),
-        "fill_message_args returns None, and your function sent this value. Send the request "
-        "that was filled.",
+        "Your function sent the return value of fill_message_args, which is None. Send the "
+        "request that was filled.",
     ),
-    (matches("KeyError: 0"), "fill_message_args needs a list of values. Write [fields]."),
+    (matches("KeyError: 0"), "The second argument of fill_message_args has to be a list. Write [fields]."),
     (
         matches("md5sums do not match"),
-        "Your proxy has the wrong type for this service. Get the class of its type in each "
-        "call, with get_service_class_by_name.",
+        "Your proxy has the wrong type for this service. In each call, get the class of the "
+        "service's type with get_service_class_by_name.",
     ),
 ]
 FLAT = (
-    "The request did not get the values of the dict. Fill its fields by name: "
+    "The request does not contain the values of the dict. Fill the fields by name: "
     "genpy.message.fill_message_args(request, [fields])."
 )
 NESTED = (
-    "The field `camera_info` needs a message, but it got a dict. "
-    "genpy.message.fill_message_args can fill a request from a dict that contains dicts."
+    "The field `camera_info` needs a message, but it got a dict. Use "
+    "genpy.message.fill_message_args, which can read inner dicts."
 )
 CALLED = "Call services of three types, and return the fields of the response."
 
@@ -51,10 +53,10 @@ CALLED = "Call services of three types, and return the fields of the response."
 @part(
     "08.5",
     points=3,
-    goal="Call a service of any type with the fields in a dict, and return its response.",
+    goal="Call a service of any type with the fields in a dict, and return the response.",
     needs=["call_any"],
     deadline=25.0,
-    goals={CALLED: 2, "Raise an error for an unknown field, and return the whole response.": 1},
+    goals={CALLED: 2, "Raise an error for an unknown field. Return the whole response.": 1},
 )
 def call_of_any_type(context: CheckContext) -> None:
     """Serve three types with random names; then pass a field that does not exist in the type."""
@@ -72,13 +74,13 @@ def call_of_any_type(context: CheckContext) -> None:
         hints=[
             (
                 matches("^ROSServiceException"),
-                "rosservice.call_service catches the exception of genpy, and raises a "
-                "different exception. Fill the request with genpy.message.",
+                "rosservice.call_service raises its own exception instead of the exception of "
+                "genpy. Fill the request with genpy.message.",
             ),
             (
                 ANYTHING,
-                "The function ignored a field name that the type does not have. Do not catch the "
-                "exception that is raised for this name.",
+                "The function ignored a field name that the type does not have. Do not catch "
+                "the exception for this name.",
             ),
         ],
     )
@@ -89,17 +91,16 @@ def call_of_any_type(context: CheckContext) -> None:
     context.expect(
         "the response is returned",
         expected="a response",
-        actual="a response" if whole.returned() else "an object of another type with the same values",
-        hints="Return the object that the proxy returns, not a dict of its fields.",
+        actual="a response" if whole.returned() else "an object of a different type with the same values",
+        hints="The function returned a dict or a similar object. Return the object that the proxy returns.",
     )
 
 
 CALLED_WRONGLY: Hints = [
-    (0, "The function did not call the service. Call the proxy with the request."),
+    (0, "The function did not call the service. Call the proxy with the filled request."),
     (
         ANYTHING,
-        "The function called the service more than once, so the server repeated its work. "
-        "Call the service once.",
+        "The function called the service more than once. Call the service only once.",
     ),
 ]
 
@@ -108,10 +109,13 @@ NOT_RETURNED: Hints = [
     (None, NO_RETURN),
     (
         (lambda actual: isinstance(actual, list) and all(isinstance(item, str) for item in actual)),
-        "These are lines of text. Return the object that the proxy returns.",
+        "The function returned lines of text. Return the object that the proxy returns.",
     ),
-    ((lambda actual: isinstance(actual, list)), "This is more than the response. Return only the response."),
-    (ANYTHING, "Return the whole response, unchanged."),
+    (
+        (lambda actual: isinstance(actual, list)),
+        "The function returned more than the response. Return only the response.",
+    ),
+    (ANYTHING, "The function did not return the response. Return the whole response without any change."),
 ]
 
 
@@ -131,11 +135,11 @@ def _calls(context: CheckContext, example: ExampleCall) -> None:
         hints=[
             (
                 example.mixed_up,
-                "The values are in the wrong fields. Fill them by name, not by position.",
+                "The values are in the wrong fields. Fill the fields by name, not by position.",
             ),
             (
                 matches(": ''|: 0|: False"),
-                "A field without a value is empty, 0 or False. Fill the request before the call.",
+                "The request has the default values, such as 0 or False. Fill the request before the call.",
             ),
         ],
     )

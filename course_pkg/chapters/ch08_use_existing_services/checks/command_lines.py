@@ -17,51 +17,54 @@ from course_pkg.ros.protocol.json_channel import Json
 PRINTS = (["echo"], ["printf"])
 WORDS = 4  # A line has this many words: rosservice, call, the name, and one word with all fields.
 SPLIT = (
-    "bash has split the fields at spaces, or removed quotes. Use shlex.quote, which turns "
-    "any text into one word for bash."
+    "bash has split the fields at spaces, or has removed quotes. Use shlex.quote, which makes "
+    "one word from any text."
 )
 TYPES = (
-    'YAML read a different value; for example, it reads off as False, but "off" in quotes '
-    "as a string. json.dumps writes a dict in a form that YAML reads correctly."
+    "YAML read a different value. Use json.dumps, which writes a dict in a form that YAML reads correctly."
 )
-LOST = "A field in an inner dictionary has no value. Write the whole dict into the line."
-REPLACED = "bash has replaced $HOME with a path. Use shlex.quote: inside its quotes, bash replaces nothing."
-NO_YAML = (
-    "bash passed the fields as one word, but YAML cannot read a dict from this word. Use "
-    "json.dumps, and then shlex.quote."
+LOST = "A field in an inner dict has no value. Write the whole dict into the line."
+REPLACED = (
+    "bash has replaced $HOME with a path. Use shlex.quote, because bash replaces nothing inside its quotes."
 )
-TWICE = "The line calls the service more than once. Write one call."
+NO_YAML = "YAML cannot read a dict from the fields in your line. Use json.dumps, and then shlex.quote."
+TWICE = "The line calls the service more than once. Write only one call."
 COMPLAINTS = [
     (
         matches(r"call \S+ \w+:="),
-        "Arguments with := are for ROS, so rosservice does not receive them. Write the fields as a dict.",
+        "rosservice does not receive arguments with :=, because they are for ROS. Write the "
+        "fields as a dict.",
     ),
-    (matches(r"call \S+ \w+="), "YAML reads a=5 as a string. Write a dict: {a: 5}."),
+    (matches(r"call \S+ \w+="), "YAML reads a=5 as a string. Write the fields as a dict: {a: 5}."),
     (
         matches("^!"),
         "The character ! works only in a cell of a notebook. Remove this character, because "
-        "your line is for a terminal.",
+        "the line is for a terminal.",
     ),
     (
         matches("syntax error"),
-        "This is a call in Python. In a terminal, write words with spaces between them, without parentheses.",
+        "Your line is a call in Python. In a terminal, write words with spaces between them, "
+        "without parentheses.",
     ),
     (
         matches("no such file"),
-        "Because of the quotes, bash reads the whole line as one word. Quote only the fields.",
+        "Because of the quotes, bash reads the whole line as one word. Write quotes only around the fields.",
     ),
     (matches(r"\{.*no such option"), SPLIT),
     (
         matches("no such option"),
-        "rosservice regards -5 as an option. Write -- before the values, or write a dict.",
+        "rosservice reads -5 as an option. Write -- before the values, or write a dict.",
     ),
     (matches("EOF while|unmatched|not found|ParserError|ScannerError|Not enough|Too many"), SPLIT),
     (matches("incorrect type|has no len"), TYPES),
     (
         matches("not available"),
-        "No service has the name that is in your line. Use the name in the variable `service`.",
+        "The name of the service in your line is wrong. Use the name in the variable `service`.",
     ),
-    (matches("no output, and no call"), "rosservice received no values. Write the fields after the name."),
+    (
+        matches("no output, and no call"),
+        "rosservice received no values. Write the fields after the name of the service.",
+    ),
 ]
 
 
@@ -69,13 +72,13 @@ NO_LINE: Hints = [
     (None, NO_RETURN),
     (
         (lambda actual: isinstance(actual, list)),
-        "This is a list of words. Return one string, with spaces between the words.",
+        "Your function returned a list of words. Return one string with spaces between the words.",
     ),
     (
         matches("object|success"),
-        "Your function called the service. Return the line as a string; the check runs it.",
+        "Your function called the service. Return the line as a string, because the check runs the line.",
     ),
-    (ANYTHING, "The line has to contain the command rosservice call."),
+    (ANYTHING, "The command is missing in your line. Write `rosservice call` at the beginning."),
 ]
 
 
@@ -83,8 +86,8 @@ NO_LINE: Hints = [
     "08.4",
     points=2,
     goal=(
-        "Return the command line, with rosservice call, that calls the service with these fields "
-        "in a terminal."
+        "Return a command line with `rosservice call` for a terminal. The line calls the "
+        "service with the given fields."
     ),
     needs=["call_line"],
     deadline=38.0,
@@ -128,8 +131,8 @@ def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, l
             expected="one command, rosservice call",
             actual=line,
             hint=(
-                "A program other than rosservice makes the call. Write a line that is only one "
-                "rosservice command."
+                "A program other than rosservice makes the call. Write a line that contains "
+                "only one `rosservice call` command."
             ),
         )
     context.expect(
@@ -139,8 +142,8 @@ def _runs(context: CheckContext, example: ExampleCall, server: ScriptedServer, l
         hints=[
             (
                 example.mixed_up,
-                "The values are in the wrong fields: without names, rosservice uses the order "
-                "of the fields in the type. Write a dict with names.",
+                "The values are in the wrong fields, because rosservice uses the order of the "
+                "fields in the type. Write a dict with names.",
             ),
             (_lost, LOST),
             (lambda actual: "$HOME" in str(example.fields) and "$HOME" not in str(actual), REPLACED),

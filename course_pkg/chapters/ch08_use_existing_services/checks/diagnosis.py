@@ -30,47 +30,51 @@ ERRORS: Hints = [
     (
         matches("^ROSServiceException.*invalid"),
         "get_service_uri returned None, and your function passed None to get_service_headers. "
-        "Test for None first.",
+        "Test for None before this call.",
     ),
     (
         matches("^ROSServiceIOException"),
-        "The server has ended, so get_service_headers raised an exception. Catch ROSServiceIOException.",
+        "get_service_headers raised an exception, because the server has ended. Catch ROSServiceIOException.",
     ),
     (
         matches("^KeyError"),
-        "The headers have no entry with this name. You need the entries `type` and `md5sum`.",
+        "The headers have no entry with the name that you use. Use the entries `type` and `md5sum`.",
     ),
 ]
 OTHER_RESULTS: Hints = [
     (
         "another type",
-        "The names of the types are equal, so the function must not report another type. "
-        "Compare with the whole name of `kind`, package/Type.",
+        'The names of the types are equal, but your function reported "another type". Compare '
+        "the type with the whole name of `kind`, package/Type.",
     ),
     (
         "another definition",
-        "The MD5 sums are equal, so the function must not report another definition. Compare "
-        "with the MD5 sum of `kind`, the class of the whole service type.",
+        'The MD5 sums are equal, but your function reported "another definition". Compare the '
+        "MD5 sum with the MD5 sum of the service type in `kind`.",
     ),
 ]
 WHY = {
     "not registered": "The master has no address for this service, so get_service_uri returns None.",
-    "server is gone": "The master has an address for this service, but no server answers at this address.",
+    "server is gone": "The master has an address for this service, but no server answers there. Test whether "
+    "get_service_headers raises an exception.",
     "another type": (
-        "The names of the types are different; sometimes only the package is different. "
-        "Compare the names before you compare the MD5 sums."
+        "The names of the types are different, although sometimes only the package is "
+        "different. Compare the names before you compare the MD5 sums."
     ),
     "another definition": (
         "The names of the types are equal, but the MD5 sums are different. Compare the MD5 sums, too."
     ),
-    "ok": "The type and the MD5 sum are equal, so a client can connect.",
+    "ok": "The type and the MD5 sum are equal, so a client can connect. Report no problem in this case.",
 }
 
 
 @part(
     "08.6",
     points=3,
-    goal="Return why a client that uses a given type cannot call a service. Do not call the service.",
+    goal=(
+        "Return the reason why a client that uses a given type cannot call a service. Do not call "
+        "the service."
+    ),
     needs=["diagnose"],
     deadline=20.0,
 )
@@ -88,7 +92,7 @@ def find_the_cause(context: CheckContext) -> None:
         expected=0,
         actual=len(server.requests),
         hints=(
-            "Do not call the service, because a call makes the server do its work. Use "
+            "Your function called the service, so the server did its work. Use only "
             "get_service_uri and get_service_headers."
         ),
     )
@@ -133,6 +137,6 @@ def _returns(context: CheckContext, name: str, kind: str, expected: str) -> None
             (None, NO_RETURN),
             *(OTHER_RESULTS if expected == "ok" else ()),
             (lambda actual: actual in RESULTS, WHY[expected]),
-            (ANYTHING, "Return one of the five strings of the table."),
+            (ANYTHING, "Return one of the five strings in the table."),
         ],
     )

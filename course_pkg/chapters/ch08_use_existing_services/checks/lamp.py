@@ -12,23 +12,23 @@ LAMP = "/on_off"
 KIND = "course_pkg/ServiceExample"
 STATES = {True: "ON", False: "OFF"}
 NO_ERROR: Hints = [
-    (matches("field message"), "The message is a string. Convert the error with str(error)."),
+    (matches("field message"), "The message has to be a string. Convert the error with str(error)."),
     (
         matches("cannot process request: (?!service handler|handler)"),
         "The call of /lamp failed, because your handler raised an exception. Catch "
-        "rospy.ServiceException, and respond with success=False.",
+        "rospy.ServiceException, and return success=False.",
     ),
 ]
 OBEYED = "Call /on_off once with 1 or 0, and return success=True."
-COMPARED = "Return success=False if the lamp refuses or has another state."
+COMPARED = "Return success=False if the lamp refuses the request or has the wrong state."
 
 
 @part(
     "08.2",
     points=3,
     goal=(
-        "Serve /lamp: call /on_off once with 1 or 0; in the response, success is True if the lamp "
-        "has the wanted state."
+        "Serve /lamp, and call /on_off once with 1 or 0 in the handler. In the response, "
+        "success is True if the lamp has the wanted state."
     ),
     needs=["handle_lamp|lamp_service"],
     deadline=20.0,
@@ -60,16 +60,20 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
         expected=[{"number": int(data)}],
         actual=lamp.requests,
         hints=[
-            ([], "The handler did not call /on_off. Create a proxy without persistent=True, and call it."),
+            (
+                [],
+                "The handler did not call /on_off. Create a proxy without persistent=True, and "
+                "call this proxy.",
+            ),
             (
                 [{"number": int(not data)}],
-                "The number is wrong: 1 switches the lamp on, and 0 switches it off.",
+                "The number is wrong. Send 1 to switch the lamp on, and 0 to switch the lamp off.",
             ),
             (
                 lambda actual: len(actual) > 1,
-                "The handler called /on_off more than once. Call it once, and store the response.",
+                "The handler called /on_off more than once. Call /on_off only once, and store the response.",
             ),
-            (ANYTHING, "The number is neither 1 nor 0. Send 1 for True and 0 for False."),
+            (ANYTHING, "The number has to be 1 or 0. Send 1 for True, and 0 for False."),
         ],
     )
     context.expect(
@@ -85,7 +89,7 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
         "the lamp obeys: the message is the state",
         expected=STATES[data],
         actual=response.message,
-        hints="The message has to be the field `state` of the lamp's response, unchanged.",
+        hints="The message is wrong. Return the field `state` of the lamp's response without any change.",
     )
     lamp.leave()
 
@@ -99,15 +103,15 @@ def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
         expected=False,
         actual=response.success,
         hints=(
-            "The lamp responded with the other state. A response does not prove that the lamp "
-            "obeyed, so compare the states."
+            "The lamp responded with the wrong state, but success is True. Compare the state "
+            "in the response with the wanted state."
         ),
     )
     context.expect(
         "the lamp has another state: the message is this state",
         expected=state,
         actual=response.message,
-        hints="The message has to be the state in the lamp's response, not the wanted state.",
+        hints="The message is the wanted state. Return the state in the lamp's response instead.",
     )
     _was_called_once(context, lamp)
     lamp.leave()
@@ -120,8 +124,8 @@ def _was_called_once(context: CheckContext, lamp: ScriptedServer) -> None:
             expected="one call for each call of /lamp",
             actual=f"{len(lamp.requests)} calls",
             hint=(
-                "The handler called /on_off again after an error or a response with the wrong state. "
-                "Call /on_off only once."
+                "The handler repeated the call of /on_off. Call /on_off only once, even after "
+                "an error or a wrong state."
             ),
         )
 
@@ -140,7 +144,7 @@ def _fails(context: CheckContext, panel: Service, failure: str, *reasons: str) -
         f"{failure}: success is False",
         expected=False,
         actual=response.success,
-        hints="The call of /on_off failed. Respond with success=False.",
+        hints="The call of /on_off failed, but success is True. Return success=False in this case.",
     )
     context.require(
         f"{failure}: the message is the error message",
@@ -148,7 +152,7 @@ def _fails(context: CheckContext, panel: Service, failure: str, *reasons: str) -
         expected=f"a message that contains {reasons[0]!r}",
         actual=response.message,
         hints=(
-            "The client of /lamp does not learn the reason. Use the text of the exception, "
-            "str(error), as the message."
+            "The message does not contain the reason for the failure. Use the text of the "
+            "exception, str(error), as the message."
         ),
     )

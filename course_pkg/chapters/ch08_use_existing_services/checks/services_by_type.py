@@ -10,37 +10,37 @@ from course_pkg.types import compile_service
 
 KINDS = ("std_srvs/Trigger", "std_srvs/SetBool", "course_pkg/AddTwoInts", "course_pkg/geometry")
 DEAD = (
-    "The master still lists a service whose server has ended. Catch "
+    "Your list contains a service whose server has ended. Catch "
     "rosservice.ROSServiceIOException inside the loop, and continue with the next service."
 )
 NONE = (
-    "No service was found. Get the names of the services inside the function, and compare "
-    "`kind` with the whole string package/Type that get_service_type returns."
+    "Your function found no service. For each service, compare `kind` with the whole string "
+    "that get_service_type returns."
 )
-SOME = "Only some services were found. Examine all names, and return after the loop."
+SOME = "Your function found only some of the services. Examine all names, and return after the loop."
 GONE = (
-    "The search ended at a service whose server has ended. Catch the error inside the loop, "
-    "and continue the loop."
+    "The search ended at a service whose server has ended. Catch the exception inside the "
+    "loop, and continue the loop."
 )
-LATE = "A service was added after the first call of your function. Get the list of services in each call."
+LATE = "Your function did not find a new service. Get the list of services in each call of the function."
 ERRORS = [
     (matches("ROSServiceIOException"), DEAD),
     (
         matches("Unable to load type"),
-        "The type of a service is not built on this machine. You need only the name of the "
-        "type: use get_service_type.",
+        "The type of a service is not installed on this machine. Use get_service_type, because "
+        "you need only the name of the type.",
     ),
 ]
-FOUND = "Return the names of all services of the type, without a call."
+FOUND = "Return the names of all services of the given type. Do not call the services."
 
 
 @part(
     "08.1",
     points=2,
-    goal="Return a list with the names of all services of a type, without services whose server has ended.",
+    goal="Return a list with the names of all services of a type. Leave out services whose server has ended.",
     needs=["services_of"],
     deadline=25.0,
-    goals=[FOUND, "Leave out a service whose server has ended, and find a new one."],
+    goals=[FOUND, "Leave out a service whose server has ended, and find a new service."],
 )
 def find_by_type(context: CheckContext) -> None:
     """Serve two types and types with similar names.
@@ -64,8 +64,8 @@ def find_by_type(context: CheckContext) -> None:
             expected="no request",
             actual="a request to each service",
             hint=(
-                "The function called the services to find their type, but a call makes a server do "
-                "its work. Use get_service_type."
+                "The function called the services to find their type, so the servers did their "
+                "work. Use get_service_type instead."
             ),
         )
     context.fulfilled(FOUND)
@@ -82,8 +82,8 @@ def find_by_type(context: CheckContext) -> None:
         expected=[],
         actual=context.run("services_of", f"{word}_pkg/Nobodys", hints=ERRORS).returned(),
         hints=[
-            (None, "There is no service of this type. Return an empty list."),
-            ([""], "The list contains an empty string. Return only names of services."),
+            (None, "No service of this type exists. Return an empty list."),
+            ([""], "The list contains an empty string. Return only the names of services."),
         ],
     )
 
@@ -125,9 +125,19 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
         actual=names,
         hints=[
             (None, NO_RETURN),
-            ((lambda actual: isinstance(actual, str)), "This is one string. Collect the names in a list."),
-            (matches("object"), "This is not a list. Convert it with list(...) or sorted(...)."),
-            (ANYTHING, "Return only the names, without nodes and types."),
+            (
+                (lambda actual: isinstance(actual, str)),
+                "Your function returned one string. Collect the names in a list.",
+            ),
+            (
+                matches("object"),
+                "Your function did not return a list. Convert the result with list(...) or sorted(...).",
+            ),
+            (
+                ANYTHING,
+                "Your list contains more than the names. Return only the names of the services, "
+                "without nodes and types.",
+            ),
         ],
     )
 
@@ -138,20 +148,20 @@ def _why_wrong(types: set[str | None], kind: str) -> str:
     None means that the service does not exist, and "" means that the server is dead.
     """
     if None in types:
-        return "The list has strings that are not names of services. Return only the names of services."
+        return "Your list contains strings that are not names of services. Return only the names of services."
     if "" in types:
         return DEAD
     if f"{kind}Stamped" in types:
         return (
-            "One service has a longer type name that begins with the same text. Compare the whole "
-            "strings with ==."
+            "Your list contains a service with a longer type name that begins with the same "
+            "text. Compare the whole strings with ==."
         )
     if any(found and found.endswith(f"_pkg/{kind.partition('/')[2]}") for found in types):
         return (
-            "One service has a type with the same name from another package. Compare the whole "
-            "string, with the package."
+            "Your list contains a service whose type is from a different package. Compare the "
+            "whole string, including the package."
         )
     return (
-        "Some services have another type. Get the type with get_service_type: the name of a "
-        "service does not show its type."
+        "Your list contains services of a different type. Get the type with get_service_type, "
+        "because the name of a service does not show its type."
     )

@@ -32,7 +32,8 @@ CASES = (
         wrong_results=[
             (
                 "was there",
-                "The switch responded with success=True and is in the wanted position, so it has moved.",
+                "The switch responded with success=True and is in the wanted position, so it "
+                'has moved. Return "moved".',
             ),
             (
                 "failed",
@@ -51,12 +52,12 @@ CASES = (
             (
                 "moved",
                 "The switch responded with success=False and is in the wanted position, so it "
-                "was there before.",
+                'was there before the call. Return "was there".',
             ),
             (
                 "failed",
-                "success=False does not mean a failure here. Call `report`: the switch is in "
-                "the wanted position.",
+                "success=False does not always mean a failure: the switch is in the wanted "
+                "position. Call `report` to get the position.",
             ),
         ],
     ),
@@ -69,8 +70,8 @@ CASES = (
         wrong_results=[
             (
                 "was there",
-                "The switch responded with success=False and is in the other position. Call "
-                "`report` to see this.",
+                "The switch responded with success=False and is in the wrong position. Call "
+                "`report` to get the position.",
             ),
         ],
     ),
@@ -83,8 +84,8 @@ CASES = (
         wrong_results=[
             (
                 "moved",
-                "The switch responded with success=True, but it is in the other position. Call "
-                "`report` after `set`, and use its message.",
+                "The switch responded with success=True, but the switch is in the wrong "
+                "position. Call `report` after `set`, and use the message of `report`.",
             ),
         ],
     ),
@@ -97,8 +98,8 @@ CASES = (
         wrong_results=[
             (
                 "was there",
-                "The switch responded with success=True and is in the wanted position. Decide by "
-                "success, not by the position before the call.",
+                "The switch responded with success=True and is in the wanted position. Use the "
+                "field `success`, not the position before the call.",
             ),
         ],
     ),
@@ -126,7 +127,7 @@ class FakeSwitch:
 @part(
     "08.3",
     points=3,
-    goal='Call `set` once, and then `report`; return "moved", "was there" or "failed".',
+    goal='Call `set` once, and then call `report`. Return "moved", "was there" or "failed".',
     needs=["move"],
     deadline=25.0,
 )
@@ -142,8 +143,8 @@ def move_and_verify(context: CheckContext) -> None:
 def _wrongly_set(to_open: bool) -> Hints:
     return [
         ([], "The function did not call `set`. Call `set` first, and then `report`."),
-        ([{"data": not to_open}], "The request had the wrong value: data=True opens the switch."),
-        (ANYTHING, "The function called `set` more than once. Call it once, and store the response."),
+        ([{"data": not to_open}], "The request has the wrong value. Send data=True to open the switch."),
+        (ANYTHING, "The function called `set` more than once. Call `set` only once, and store the response."),
     ]
 
 
@@ -152,15 +153,15 @@ def _wrong_outcome(case: Case, switch: FakeSwitch) -> Hints:
         (None, NO_RETURN),
         (
             (lambda actual: isinstance(actual, bool)),
-            "A bool has only two values, but there are three results. Return one of the three strings.",
+            "Your function returned a bool, but there are three results. Return one of the three strings.",
         ),
         (
             (lambda actual: switch.message in actual),
-            "This is the message of `set`, which is different for each switch. Return one of "
-            "the three strings.",
+            "Your function returned the message of `set`, which is different for each switch. "
+            "Return one of the three strings.",
         ),
         *case.wrong_results,
-        (ANYTHING, 'Return "moved", "was there" or "failed", exactly in this spelling.'),
+        (ANYTHING, 'Return "moved", "was there" or "failed". Write the string exactly as in the exercise.'),
     ]
 
 
@@ -169,7 +170,9 @@ def _move(context: CheckContext, case: Case, to_open: bool) -> None:
     switch = FakeSwitch(case, to_open is case.there, context.random.word())
     setting = context.serve(f"{name}/set", "std_srvs/SetBool", switch.handle_set)
     context.serve(f"{name}/report", "std_srvs/Trigger", switch.handle_report)
-    unavailable = "Call only `set` and `report` of the node. The name of `set` is f'{switch}/set'."
+    unavailable = (
+        "Call only the services `set` and `report` of the node. The name of `set` is f'{switch}/set'."
+    )
     result = context.run("move", name, to_open, hints=[(matches("unavailable"), unavailable)]).returned()
     context.expect(
         "`set` is called once, with the wanted position",
