@@ -257,7 +257,10 @@ class Results(Handler):
         except (ValueError, RecursionError) as error:
             self.refuse(HTTPStatus.BAD_REQUEST, f"The request is not valid: {error}")
         except TooMany:
-            reason = f"There are {MOST} results of this student already. Ask your teacher to delete them."
+            reason = (
+                f"The service already has {MOST} results of this student. Ask your teacher to delete "
+                "these results."
+            )
             self.refuse(HTTPStatus.TOO_MANY_REQUESTS, reason)
         except sqlite3.Error as error:
             self.refuse(HTTPStatus.INSUFFICIENT_STORAGE, f"The results cannot be stored: {error}.")

@@ -23,8 +23,8 @@ def chosen_chapters(path: str = "", listed: Sequence[str] = ()) -> tuple[str, ..
     unknown = sorted(set(listed) - set(known))
     if unknown:
         raise HandoutError(
-            f"There is no chapter {', '.join(unknown)}. The chapters are {known[0]} to {known[-1]}: write "
-            "them with two digits and commas, such as --chapters 05,06."
+            f"There is no chapter {', '.join(unknown)}. The chapters are {known[0]} to {known[-1]}. "
+            "Write them with two digits and commas, such as --chapters 05,06."
         )
     return tuple(each for each in known if not listed or each in listed)
 

@@ -62,7 +62,7 @@ replace("point < 96", "point <= 96")
 replace("frame.data[start : start + frame.width]", "frame.data[start : start + frame.step]")
 # %% 15.1 wrong: always True | hint: All points are light
 replace("10 * dark >= frame.width * frame.height", "dark >= 0")
-# %% 15.1 wrong: publishes only customers | hint: The node published nothing for a valid frame
+# %% 15.1 wrong: publishes only customers | hint: The node published nothing for a valid frame. Check whether the callback
 replace("if customer is not None:", "if customer:")
 # %% 15.1 wrong: publishes twice | hint: The node published more than one message for a frame
 replace("        seen.publish(customer)", "        seen.publish(customer)\n        seen.publish(customer)")

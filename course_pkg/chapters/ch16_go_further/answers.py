@@ -326,7 +326,7 @@ replace("delivered + 1", "delivered")
 replace("set_succeeded(FetchResult(fetched=goal.things))", "set_succeeded()")
 # %% 16.4 wrong: publishes in the loop of the delivery | hint: The battery sent no values during the delivery
 replace("robot.battery.publish(robot.charge)", "if not robot.server.is_active():\n            robot.battery.publish(robot.charge)")
-# %% 16.4 wrong: the charge stays | hint: The charge did not change
+# %% 16.4 wrong: the charge stays | hint: The charge did not change. Subtract 1
 replace("            self.charge -= 1\n", "")
 # %% 16.4 wrong: one percent for all | hint: The charge changed only once during the whole delivery
 replace("            self.charge -= 1\n", "")

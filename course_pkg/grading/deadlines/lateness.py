@@ -30,8 +30,9 @@ class Lateness:
         due = [each for each in found if self._due(each) is not None]
         if due and all(NO_TIME in each.notes for each in due):
             raise GradingError(
-                "--deadline needs the times of handing in, but no time is known. Give --times with Moodle's "
-                "grading worksheet or a table student,submitted; for nbgrader, give --times nbgrader."
+                "--deadline needs the times of handing in, but no time is known. Use --times with "
+                "Moodle's grading worksheet or with a table student,submitted. For nbgrader, use "
+                "--times nbgrader."
             )
         return found
 
@@ -52,7 +53,7 @@ class Lateness:
         days = self.deadlines.extensions.days(submission.student)
         extended = f", with an extension of {days:g} {'day' if days == 1 else 'days'}" if days else ""
         at = shown(when.astimezone(due.tzinfo))
-        note = f"Handed in at {at}; the deadline was {shown(due)}{extended}."
+        note = f"Handed in at {at}. The deadline was {shown(due)}{extended}."
         return replace(submission, late=late, notes=(*submission.notes, note))
 
 

@@ -78,7 +78,7 @@ def test_an_extension_ends_at_the_same_time_of_day() -> None:
     ("given", "grace", "said"),
     [
         (["2026-11-01T23:59"], 0, r"no time zone.*--time-zone Europe/Berlin"),
-        (["tomorrow"], 0, r"is not a time: write 2026-11-01T23:59\+01:00"),
+        (["tomorrow"], 0, r"is not a time. Write 2026-11-01T23:59\+01:00"),
         (["xx=" + DUE], 0, "is not a time"),
         ([DUE, DUE], 0, "two deadlines"),
         ([DUE], -1, "--grace-minutes -1"),
@@ -125,7 +125,7 @@ def test_the_note_says_when() -> None:
     late, early = lateness.applied([_submission("s01"), _submission("s02")])
     assert late.late == pytest.approx(1.0)
     assert late.notes == (
-        "Handed in at 2026-11-03 23:59 +01:00; the deadline was 2026-11-02 23:59 +01:00, with an extension "
+        "Handed in at 2026-11-03 23:59 +01:00. The deadline was 2026-11-02 23:59 +01:00, with an extension "
         "of 1 day.",
     )
     assert (early.late, early.notes) == (0.0, ())

@@ -173,7 +173,7 @@ def test_a_notebook_of_the_first_edition(tmp_path: Path, chapter: RenumberedChap
     for each, path in zip(found, files, strict=True):
         assert each.content == b""
         assert each.problem.startswith(f"{Path(path).name} was not graded: it belongs to the first edition")
-        assert f"It is chapter {chapter.now} now." in each.problem
+        assert f"and it is chapter {chapter.now} now." in each.problem
         assert f"{chapter.now}_{chapter.name[3:]}.ipynb" in each.problem
 
 
@@ -255,7 +255,7 @@ BAD = {
     "not JSON": (b"{", "not JSON"),
     "not UTF-8": (b'{"cells": ["\xff"]}', "not JSON"),
     "a number of many digits": (b'{"cells": ' + b"9" * 10_000 + b"}", "not JSON"),
-    "a list": (b"[]", "it is JSON, but has no cells"),
+    "a list": (b"[]", "is JSON, but it has no cells"),
     "no cells": (b'{"nbformat": 4}', "no cells"),
     "cells that are none": (b'{"cells": {"a": 1}}', "no cells"),
     "nested": (DEEP, "not JSON"),
@@ -290,7 +290,7 @@ def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None
         ("s01/mine.ipynb", "give the file a name such as"),
         ("s01/notes.pdf", "neither a notebook"),
         ("s01/all.zip", "archive inside"),
-        (FIVE, "its student is unknown"),
+        (FIVE, "the student is unknown"),
     ],
 )
 def test_files_without_a_chapter_or_student(tmp_path: Path, name: str, words: str) -> None:

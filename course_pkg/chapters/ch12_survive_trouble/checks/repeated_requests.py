@@ -193,10 +193,8 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
         "another request is charged, even if the amount is the same",
         [cents, cents],
         _only_one(
-            (
-                "Two customers may pay the same amount. Compare only the request_id to find out whether "
-                "a request is a repetition."
-            )
+            "Two customers may pay the same amount. Compare only the request_id to find out whether "
+            "a request is a repetition."
         ),
     )
     context.require(

@@ -48,10 +48,8 @@ def compiled(context: CheckContext, file: str) -> Folder:
     finished = folder.command("bash", "-c", line, within=COMPILING, worded=f"the compiler, at {file}")
     if finished.status is None:
         raise CheckError(
-            (
-                f"The compiler had not finished after {finished.took:.0f} s, because the machine is "
-                "busy. Run this cell again."
-            )
+            f"The compiler had not finished after {finished.took:.0f} s, because the machine is "
+            "busy. Run this cell again."
         )
     if finished.status != 0:
         fault = explain(finished.err + finished.out) or Fault("the compiler ended without a message", "")

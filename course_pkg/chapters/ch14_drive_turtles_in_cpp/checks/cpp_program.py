@@ -40,10 +40,8 @@ def _compiled(context: CheckContext, program: TurtleProgram) -> BuiltPackage:
     )
     if done.status is None:
         raise CheckError(
-            (
-                f"The compiler had not finished after {done.took:.0f} s, because the machine is busy. "
-                "Run this cell again."
-            )
+            f"The compiler had not finished after {done.took:.0f} s, because the machine is busy. "
+            "Run this cell again."
         )
     if done.status != 0:
         fault = explain(done.err + done.out) or Fault("the compiler ended without a message", "")
