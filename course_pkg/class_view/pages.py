@@ -138,7 +138,7 @@ class TeacherHandler(Handler):
             self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
             and self.request.path != self.shared.prefix
         ):
-            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from another page.")
+            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from a page of a different server.")
             return
         given = self.get_query_argument("token", "")
         kept = (self.get_signed_cookie(SESSION, max_age_days=DAYS) or b"").decode()

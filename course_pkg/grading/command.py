@@ -218,7 +218,8 @@ def _dated(
     lateness = Lateness(due, times_of(str(times), options.source, zone) if asked else lambda _: None)
     if table and (strangers := table.strangers(found)):
         sys.stderr.write(
-            f"{strangers} in the table of late days handed in nothing. Check the spelling of the names.\n"
+            f"These students are in the table of late days, but handed in nothing: {strangers}. "
+            "Check the spelling of their names.\n"
         )
     dated = lateness.applied(attempts_to_grade(found, options.attempts, lateness.when))
     return table.applied(dated) if table else dated

@@ -30,7 +30,7 @@ from course_pkg.files import write_atomically
 from course_pkg.grading.grade import Grade
 
 ALL_OR_NOTHING, EVERY = "all-or-nothing", "all parts"
-START = "`./course points FILE` writes a file to start from."
+START = "`./course points FILE` writes a file that you can change."
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,9 @@ def _by_goal(part: Part, given: dict[str, Any], path: Path | None) -> Worth:
     texts = [goal.text for goal in part.goals]
     listed = ", ".join(map(repr, texts))
     if not texts:
-        raise _wrong(path, f"{part.check!r} has only one goal. Give it a number, such as {part.points}.")
+        raise _wrong(
+            path, f"{part.check!r} has only one goal. Give this part a number, such as {part.points}."
+        )
     if unknown := [text for text in given if text not in texts]:
         raise _wrong(path, f"{part.check!r} has no goal {unknown[0]!r}. Its goals are {listed}.")
     if missing := [text for text in texts if text not in given]:

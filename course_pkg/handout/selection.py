@@ -34,7 +34,9 @@ def _of_path(name: str) -> tuple[str, ...]:
     found = {number for each in paths if _plain(each.name) == _plain(name) for number in each.chapters}
     if not found:
         names = dict.fromkeys(f'"{each.name}"' for each in paths)
-        raise HandoutError(f'There is no path "{name}". Give --path one of {", ".join(names)}.')
+        raise HandoutError(
+            f'There is no path "{name}". Use one of these values for --path: {", ".join(names)}.'
+        )
     return tuple(sorted(found))
 
 

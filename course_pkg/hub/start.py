@@ -152,8 +152,9 @@ def _require_protection(places: Places) -> None:
         folder = places.checkout / name
         if folder.exists() and not _closed(folder):
             raise HubError(
-                f"Students can read {folder}. Type `chmod 700 {folder}`, or start the hub in the folder "
-                "that `course release` wrote. Then start again."
+                f"Students can read {folder}, but this folder has to be private. Type `chmod 700 "
+                f"{folder}`, or start the hub in the folder that `course release` wrote. Then start "
+                "the hub again."
             )
 
 
@@ -169,7 +170,7 @@ def _closed(path: Path) -> Path | None:
 def _certificate(options: Options, state: Path) -> tuple[str, str]:
     """Return the files of the certificate and of its key; both are "" if the hub is bound to loopback."""
     if (options.cert is None) != (options.key is None):
-        raise HubError("The options --cert and --key belong together. Give both.")
+        raise HubError("The options --cert and --key belong together. Give both options.")
     if options.cert and options.key:
         missing = [str(path) for path in (options.cert, options.key) if not path.is_file()]
         if missing:

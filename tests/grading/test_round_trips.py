@@ -209,7 +209,7 @@ def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> N
     out = tmp_path / "out"
     _, found = _graded(source, read_lists(None, _write(tmp_path / "sheet.csv", ENGLISH)), out)
     assert found.unclear == {
-        "Jo New_101": "its number fits a row with another name of Moodle's worksheet (line 2)"
+        "Jo New_101": "the student's number fits a row with another name of Moodle's worksheet (line 2)"
     }
     assert (out / "moodle_worksheet.csv").read_bytes() == ENGLISH.encode()
 

@@ -38,7 +38,7 @@ replace('response.name)\n', 'response.name)\n    rospy.spin()\n')
 replace('response.name)\n    return 0', 'response.name)\n    return 1')
 # %% 09.1 wrong: two calls | hint: The program called /spawn more than once, and each call creates a turtle
 replace('(3, 3, 0, "MyTurtle")\n', '(3, 3, 0, "MyTurtle")\n        rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "")\n')
-# %% 09.1 wrong: repeats a refused call | hint: The program repeated a call that was refused
+# %% 09.1 wrong: repeats a refused call | hint: The server refused the call, and the program called the service again
 replace("rospy.ServiceException) as error:\n", """rospy.ServiceException) as error:
         try:
             rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "MyTurtle")
@@ -265,7 +265,7 @@ replace('linear.x = self.speed', 'linear.x = abs(self.speed)')
 replace('linear.x = self.speed', 'linear.x = int(self.speed)')
 # %% 09.4 wrong: returns the new speed | hint: The field `before` contains the new speed
 replace('before, self.speed = self.speed, request.speed', 'before = self.speed = request.speed')
-# %% 09.4 wrong: forgets to return it | hint: The field `before` has to contain the speed that the last accepted
+# %% 09.4 wrong: forgets to return it | hint: The field `before` is wrong
 replace('ChangeSpeedResponse(before=before)', 'ChangeSpeedResponse()')
 # %% 09.4 wrong: refuses negative speeds | hint: The node refused an allowed speed
 replace('if not math.isfinite(request.speed)', 'if not 0 <= request.speed < 1000')
@@ -322,13 +322,13 @@ replace("try: … return 0", """rospy.init_node("spawn_turtle_plus")
     follower = Follower(response.name)
     rospy.spin()""")
 replace('rospy.init_node("spawn_turtle_plus")\n    sys.exit(main())', "main()")
-# %% 09.5 wrong: the speed first | hint: All three services are called, but in the wrong order
+# %% 09.5 wrong: the speed first | hint: The program calls the three services in the wrong order
 replace('        call("toggle_forward", Empty)\n        call("change_speed", ChangeSpeed, 2.0)\n', '        call("change_speed", ChangeSpeed, 2.0)\n        call("toggle_forward", Empty)\n')
 # %% 09.5 wrong: waits for the first only | hint: The program ended too early, because /toggle_forward starts half a second late
 replace('    rospy.wait_for_service(name, timeout=5)\n', '    if name == "spawn":\n        rospy.wait_for_service(name, timeout=5)\n')
 # %% 09.5 wrong: another name | hint: The program waits, but does not call the next service
 replace('call("toggle_forward", Empty)', 'call("toggle", Empty)')
-# %% 09.5 wrong: another place | hint: Compare the fields of your request with x = 3, y =
+# %% 09.5 wrong: another place | hint: The request is wrong
 replace('3, 3, 0, "MyTurtle"', '3, 3, 3, "MyTurtle"')
 # %% 09.5 wrong: another speed | hint: Send 2.0 in the field `speed`
 replace('ChangeSpeed, 2.0', 'ChangeSpeed, 10.0')
@@ -336,7 +336,7 @@ replace('ChangeSpeed, 2.0', 'ChangeSpeed, 10.0')
 replace('    rospy.spin()\n', '')
 # %% 09.5 wrong: the name is fixed | hint: Publish only on the topic /NAME/cmd_vel
 replace('f"{name}/cmd_vel"', '"MyTurtle/cmd_vel"')
-# %% 09.5 wrong: follows another turtle | hint: Subscribe to the velocities of the first turtle
+# %% 09.5 wrong: follows another turtle | hint: The program gets no velocities of the first turtle
 replace('Subscriber("turtle1/cmd_vel"', 'Subscriber("turtle2/cmd_vel"')
 # %% 09.5 wrong: a callback that does nothing | hint: The callback publishes nothing
 replace('Twist, publisher.publish)', 'Twist, lambda message: None)')
@@ -349,7 +349,7 @@ replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(
 # %% 09.5 wrong: two fields only | hint: Some fields of the published message differ from the received message
 replace('    publisher = rospy', '    def copy(message):\n        new = Twist()\n        new.linear.x, new.angular.z = message.linear.x, message.angular.z\n        publisher.publish(new)\n\n    publisher = rospy')
 replace('Twist, publisher.publish)', 'Twist, copy)')
-# %% 09.5 wrong: continues after a failure | hint: The program called more services after a failure
+# %% 09.5 wrong: continues after a failure | hint: After a failed call, the program still called the next service
 replace('        call("toggle_forward", Empty)\n', '        try:\n            call("toggle_forward", Empty)\n        except (rospy.ROSException, rospy.ServiceException) as error:\n            print(error)\n')
 # %% 09.5 wrong: no limit | hint: A service is missing, but the program did not end
 replace('(name, timeout=5)', '(name)')

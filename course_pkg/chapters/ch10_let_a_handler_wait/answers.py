@@ -79,7 +79,7 @@ replace("messages.append(proxy().message)", "proxy()")
 replace("return messages", "return [thread.join() for thread in threads]")
 # %% 10.1 wrong: a set of one message | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
-# %% 10.1 wrong: no return line | hint: A handler has a path without a `return` line
+# %% 10.1 wrong: no return line | hint: without a return line
 replace("\n    return messages", "")
 # %% 10.1 wrong: a pool with one thread too few | hint: Some calls began only after other calls had returned
 based_on("a pool of threads and one proxy")
@@ -286,7 +286,7 @@ replace("with self.changed … self.items))", """with self.there:
         return self.items > 0""")
 # %% 10.3 wrong: no notify | hint: An item came, but the waiting call did not return
 replace("\n            self.changed.notify_all()", "")
-# %% 10.3 wrong: no loop | hint: More items were taken than were put in
+# %% 10.3 wrong: no loop | hint: The handler of /take returned an item although the basket was empty
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "if self.items == 0 and not self.changed.wait(self.limit)")
 # %% 10.3 wrong: no limit | hint: The handler of /take waits longer than the limit
 replace(", timeout=self.limit", "")
@@ -315,7 +315,7 @@ replace("message=str(self.items)", "message=self.items", times=2)
 replace('return TriggerResponse(success=False, message="empty")', 'raise rospy.ServiceException("empty")')
 # %% 10.3 wrong: no response after the limit | hint: A handler has a path without a `return` line
 replace('return TriggerResponse(success=False, message="empty")', "return None")
-# %% 10.3 wrong: another word for empty | hint: No item came, so return success=False with the message "empty"
+# %% 10.3 wrong: another word for empty | hint: No item came, but the response is wrong
 replace('"empty"', '"nothing there"')
 # %% 10.3 wrong: leaves success out | hint: The message is right, but the field `success` is wrong
 replace("success=True, ", "", times=2)
@@ -652,15 +652,15 @@ replace("with target.lock:\n        with source.lock:", """with source.lock:
             time.sleep(0.01)
         try:""")
 replace("return True", "return True\n        finally:\n            target.lock.release()")
-# %% 10.6 wrong: only subtracts | hint: The total changed
+# %% 10.6 wrong: only subtracts | hint: The total number of things changed
 replace("\n        target.count += 1", "")
-# %% 10.6 wrong: the wrong direction | hint: The function has to move exactly one thing, from `source` to `target`
+# %% 10.6 wrong: the wrong direction | hint: The counts after the call are wrong
 replace("source.count -= 1", "source.count, target.count = source.count - 2, target.count + 1")
 # %% 10.6 wrong: looks before it has the locks | hint: The function read a count before it held both locks, so another thread can
 replace("    first, second", "    if source.count == 0:\n        return False\n    first, second")
 # %% 10.6 wrong: orders the locks by the counts | hint: The function read a count before it held both locks, so another thread can
 replace("shelf.number", "shelf.count")
-# %% 10.6 wrong: moves from the first lock to the second | hint: The function has to move exactly one thing, from `source` to `target`
+# %% 10.6 wrong: moves from the first lock to the second | hint: The counts after the call are wrong
 replace("source.count", "first.count", times=2)
 replace("target.count", "second.count")
 # %% 10.6 wrong: moves from the second lock to the first | hint: The source was not empty, but the function returned False

@@ -319,7 +319,7 @@ replace('spinner(4)', 'spinner(3)')
 # %% 14.7 wrong: no call | hint: The handlers were changed
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
-# %% 14.7 wrong: no parameter | hint: The level has to come from the parameter ~level
+# %% 14.7 wrong: no parameter | hint: The level in the message is wrong
 replace('  ros::param::param("~level", level, 80);\n', '')
 # %% 14.7 wrong: another message | hint: a colon, a space and the level
 replace('"battery: "', '"Battery "')

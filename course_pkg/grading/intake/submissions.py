@@ -226,8 +226,9 @@ def _of_first_edition(found: RenumberedChapter, references: References, blank: S
     """
     name = clean.line(blank.origin.rpartition("/")[2], 120)
     problem = (
-        f"{name} was not graded: it belongs to the first edition of the course, where {found.difference} "
-        f"Copy your answers into {references.name_of(found.now)}.ipynb and hand in that notebook."
+        f"{name} was not graded: this notebook belongs to the first edition of the course, where "
+        f"{found.difference} Copy your answers into {references.name_of(found.now)}.ipynb, and hand "
+        "in that notebook."
     )
     return replace(blank, chapter=found.now, problem=problem)
 
@@ -267,8 +268,8 @@ def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
         if others:
             names = _listed([each.origin for each in others])
             note = (
-                f"Handed in {len(ranked)} times: {best.origin} was graded, and these files were not "
-                f"graded: {names}."
+                f"This chapter was handed in {len(ranked)} times: {best.origin} was graded, and "
+                f"these files were not graded: {names}."
             )
             usable = tuple(each for each in reversed(others) if not each.problem)
             best = replace(best, notes=(*best.notes, note), attempts=usable)

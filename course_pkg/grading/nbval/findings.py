@@ -16,7 +16,7 @@ SENTENCES = (  # Each entry is a text of nbval 0.11 or pytest, and its meaning f
     ("Unexpected output fields", "The cell showed more output than with the right answers."),
     (
         "dissimilar number of outputs",
-        "The number of outputs of the cell is different from the number with the right answers.",
+        "With the right answers, this cell has a different number of outputs.",
     ),
     ("Cell outputs differ", "The output of the cell is different from the output with the right answers."),
     ("Kernel dead", "The cell was not run, because the kernel had ended in an earlier cell."),

@@ -56,7 +56,9 @@ def _readable(source: str) -> tuple[str, list[str]]:
     kept = source.replace("\r\n", "\n").replace("\r", "\n").replace("\x00", "")
     kept = kept.encode("utf-8", "replace").decode("utf-8")  # A question mark replaces a surrogate.
     if kept != source.replace("\r\n", "\n").replace("\r", "\n"):
-        return kept, ["Characters that a Python file cannot contain were removed from your cell."]
+        return kept, [
+            "Some characters were removed from your cell, because a Python file cannot contain them."
+        ]
     return kept, []
 
 

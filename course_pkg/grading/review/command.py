@@ -25,7 +25,7 @@ from course_pkg.state import locked
 
 AFTERWARDS = (
     "To write these points into the reports, type your `course grade` command again. The command "
-    "grades no answer twice."
+    "does not grade any answer again."
 )
 
 
@@ -45,7 +45,9 @@ def review(out: Path, wanted: Wanted, port: int, *, browser: bool) -> int:
     except KeyboardInterrupt:
         sys.stdout.write(f"\nThe review has ended. All saved points are in {out / FILE}. {AFTERWARDS}\n")
     except OSError as error:
-        raise GradingError(f"{out} cannot be written ({error.strerror}). Correct its permissions.") from error
+        raise GradingError(
+            f"{out} cannot be written ({error.strerror}). Correct the permissions of this folder."
+        ) from error
     return 0
 
 

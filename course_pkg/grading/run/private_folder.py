@@ -24,7 +24,9 @@ def require_names(folder: Path, chapters: Sequence[str]) -> None:
     try:
         files = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "__")))
     except OSError as error:
-        raise GradingError(f"{folder} cannot be read ({error.strerror}). Correct its permissions.") from error
+        raise GradingError(
+            f"{folder} cannot be read ({error.strerror}). Correct the permissions of this folder."
+        ) from error
     used = [path for path in files if path.is_file() and _is_used(path, chapters)]
     if wrong := [path.name for path in files if path not in used and SIMILAR.match(path.name)]:
         raise GradingError(

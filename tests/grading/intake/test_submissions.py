@@ -172,7 +172,9 @@ def test_a_notebook_of_the_first_edition(tmp_path: Path, chapter: RenumberedChap
     assert [each.chapter for each in found] == [chapter.now] * 5
     for each, path in zip(found, files, strict=True):
         assert each.content == b""
-        assert each.problem.startswith(f"{Path(path).name} was not graded: it belongs to the first edition")
+        assert each.problem.startswith(
+            f"{Path(path).name} was not graded: this notebook belongs to the first edition"
+        )
         assert f"and it is chapter {chapter.now} now." in each.problem
         assert f"{chapter.now}_{chapter.name[3:]}.ipynb" in each.problem
 
@@ -198,7 +200,7 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
     """The error message names the exercises that have moved to another chapter."""
     chapter = next(each for each in RENUMBERED if each.number == "10")
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(_of_first_edition(chapter))}))
-    assert "It is chapter 12 now. Exercise 10.1 is now exercise 10.4 of chapter 10" in found.problem
+    assert "and it is chapter 12 now. Exercise 10.1 is now exercise 10.4 in chapter 10" in found.problem
 
 
 @pytest.mark.parametrize("chapter", RENUMBERED, ids=[each.name for each in RENUMBERED])

@@ -28,7 +28,7 @@ KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "co
 SPEED = 2.0  # m/s
 LATER = 0.5  # The service /toggle_forward starts after this many s.
 WHERE = "Publish only on the topic /NAME/cmd_vel. NAME is the name of the turtle in the response of /spawn."
-ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
+ENDED = "The node ended after the calls, so its subscriber gets no messages. Call rospy.spin() at the end."
 ENDING = 0.6  # A program without spin() ends within this many s.
 COUNT = 20  # COUNT is the number of velocities that the check publishes.
 STOPS = (
@@ -142,20 +142,22 @@ def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> 
         expected=TURTLE,
         actual=driver.requests("spawn")[0],
         near=1e-6,
-        hints='Compare the fields of your request with x = 3, y = 3, theta = 0 and name = "MyTurtle".',
+        hints=(
+            'The request is wrong. Compare its fields with x = 3, y = 3, theta = 0 and name = "MyTurtle".'
+        ),
     )
     context.expect(
         "the program sets the speed to 2.0 m/s",
         expected={"speed": SPEED},
         actual=driver.requests("change_speed")[0],
         near=1e-6,
-        hints="Send 2.0 in the field `speed`.",
+        hints="The request has the wrong speed. Send 2.0 in the field `speed`.",
     )
 
 
 def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
     if sorted(calls) == sorted(ORDER):
-        return "All three services are called, but in the wrong order. Spawn the turtle first."
+        return "The program calls the three services in the wrong order. Spawn the turtle first."
     if ended and calls:
         return (
             "The program ended too early, because /toggle_forward starts half a second late. Wait "
@@ -194,7 +196,16 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
         holds=publisher.has_subscriber(4.0),
         expected="a subscriber",
         actual="no subscriber",
-        hints=[ended, (ANYTHING, "Subscribe to the velocities of the first turtle, /turtle1/cmd_vel.")],
+        hints=[
+            ended,
+            (
+                ANYTHING,
+                (
+                    "The program gets no velocities of the first turtle. Subscribe to the topic "
+                    "/turtle1/cmd_vel."
+                ),
+            ),
+        ],
     )
     publisher.finish(5.0)
     subscription.wait(COUNT, 2.0)
@@ -263,8 +274,8 @@ def _stops_early(
         expected=", ".join(f"/{name}" for name in calls),
         actual=", ".join(f"/{name}" for name in driver.calls) or "no call",
         hints=(
-            "The program called more services after a failure. End the program as soon as a service "
-            "is missing or refuses a call."
+            "After a failed call, the program still called the next service. End the program as "
+            "soon as a service is missing or refuses a call."
         ),
     )
     printed = done.out + done.err

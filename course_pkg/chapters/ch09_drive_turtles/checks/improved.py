@@ -165,7 +165,13 @@ def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float
                     "before you set the new speed."
                 ),
             ),
-            (ANYTHING, "The field `before` has to contain the speed that the last accepted call set."),
+            (
+                ANYTHING,
+                (
+                    "The field `before` is wrong. Set it to the old speed, which the last accepted call has "
+                    "set."
+                ),
+            ),
         ],
     )
 

@@ -64,8 +64,8 @@ RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
     "09.3",
     points=3,
     goal=(
-        "Repair pubvel_toggle_plus.py, so that /change_rate changes the rate, returns the old rate, and "
-        "refuses impossible rates."
+        "Repair pubvel_toggle_plus.py: /change_rate has to change the rate, return the old rate, "
+        "and refuse impossible rates."
     ),
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
@@ -130,8 +130,8 @@ def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
         actual=change(rate=fast).before,
         near=1e-6,
         hints=(
-            "The handler stored the rate before it refused the call. Check the rate first, and store "
-            "only a rate that is allowed."
+            "The handler stored the rate before it refused the call. Check the rate first, and "
+            "store only an allowed rate."
         ),
     )
     return fast

@@ -162,7 +162,7 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
         )
         if done.status is None
         else (
-            "The turtle was spawned, so the exit status has to be 0. Use another status only after a failure."
+            "The turtle was spawned, so the exit status has to be 0. Use exit status 1 only after a failure."
         ),
     )
 
@@ -215,8 +215,8 @@ def _is_refused(context: CheckContext, world: World) -> None:
         expected="one request",
         actual=f"{len(server.requests)} requests",
         hints=(
-            "The program repeated a call that was refused. Call /spawn once, and end the program after a "
-            "failure."
+            "The server refused the call, and the program called the service again. Call /spawn "
+            "only once, and end the program after a failure."
         ),
     )
     _fails_with_one(

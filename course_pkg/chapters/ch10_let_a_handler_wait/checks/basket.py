@@ -59,8 +59,8 @@ NOT_WOKEN = (
     "notify() after you have changed the number of items."
 )
 TOO_MANY = (
-    "More items were taken than were put in. After a thread has woken up, check again whether an "
-    "item is there: use a `while` loop or `wait_for`."
+    "The handler of /take returned an item although the basket was empty. After a thread has woken "
+    "up, check again whether an item is there: use a `while` loop or `wait_for`."
 )
 TOO_EARLY = (
     "The handler of /take returned before its time limit was over. If a thread wakes up and no item "
@@ -143,7 +143,7 @@ def _answer(context: CheckContext, assertion: str, response: Message, success: b
             ),
             (
                 lambda actual: actual[1] != "empty" and message == "empty",
-                'No item came, so return success=False with the message "empty".',
+                ('No item came, but the response is wrong. Return success=False and the message "empty".'),
             ),
             (
                 ANYTHING,

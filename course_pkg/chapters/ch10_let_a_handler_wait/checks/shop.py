@@ -121,8 +121,10 @@ PUT_BACK = "Put the thing back if the till fails."
 @part(
     "10.5",
     points=3,
-    goal="Sell a thing for money: reserve it under the lock, call the till without the lock, and put it back "
-    "if the till fails.",
+    goal=(
+        "Sell a thing for money. Reserve the thing while you hold the lock, and call the till without "
+        "the lock. Put the thing back if the till fails."
+    ),
     needs=["Shop"],
     deadline=60.0,
     goals=[SOLD, PUT_BACK, "Sell to 50 clients at the same time."],

@@ -53,7 +53,7 @@ EMPTIED = 'Sell the things to one client after the other, and then respond with 
     ),
     needs=["Stock"],
     deadline=60.0,
-    goals=[EMPTIED, "Sell each thing only once to 50 clients at the same time."],
+    goals=[EMPTIED, "Sell each thing only once, even if 50 clients call at the same time."],
 )
 def safe_with_fifty_clients(context: CheckContext) -> None:
     """Empty a small shelf with single calls; then make fifty simultaneous calls for fewer things."""

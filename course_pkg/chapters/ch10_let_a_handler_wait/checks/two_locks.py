@@ -245,7 +245,7 @@ MOVED = "Move a thing in one thread, but do not move a thing from an empty shelf
 @part(
     "10.6",
     points=2,
-    goal="Move a thing between two shelves under both locks, without a deadlock in either direction.",
+    goal="Move a thing between two shelves while you hold both locks, without a deadlock.",
     needs=["move"],
     deadline=30.0,
     goals=[MOVED, "Move things in both directions at the same time, without a deadlock."],
@@ -343,13 +343,19 @@ def _moves_one(
         hints=[
             (
                 lambda actual: sum(actual) != sum(counts),
-                "The total changed. Subtract one from the source, and add one to the target.",
+                (
+                    "The total number of things changed. Subtract one from the source, and add one to "
+                    "the target."
+                ),
             ),
             (
                 lambda actual: min(actual) < 0,
                 ("The count of an empty shelf became negative. Check the count before you move a thing."),
             ),
-            (ANYTHING, "The function has to move exactly one thing, from `source` to `target`."),
+            (
+                ANYTHING,
+                "The counts after the call are wrong. Move exactly one thing from `source` to `target`.",
+            ),
         ],
     )
     context.require(

@@ -62,7 +62,7 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
     ]
 
 
-RECEIVED = "Return exactly `count` bytes, even if they arrive in pieces."
+RECEIVED = "Return exactly `count` bytes, even if the bytes arrive in pieces."
 
 
 @part(
@@ -210,8 +210,8 @@ NOT_RAISED: Hints = [
     "11.2",
     points=2,
     goal=(
-        "Return exactly `count` bytes from a socket, even if they arrive in pieces; "
-        "raise ConnectionError if the connection ends earlier."
+        "Return exactly `count` bytes from a socket, even if the bytes arrive in pieces. Raise "
+        "ConnectionError if the connection ends earlier."
     ),
     needs=["receive"],
     goals={RECEIVED: 3, "Raise ConnectionError if the connection ends earlier.": 1},

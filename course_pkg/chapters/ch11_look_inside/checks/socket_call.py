@@ -95,7 +95,7 @@ IN_ORDER = (
     "The function read the response in a wrong order. After the server's header, read one byte for "
     "success, 4 bytes for the length N, and N bytes of data."
 )
-ANSWERED = "Return the response, even if it arrives byte by byte."
+ANSWERED = "Return the response, even if its bytes arrive one after the other."
 
 
 @part(

@@ -79,7 +79,11 @@ FAILED = "Charge again after the purse has failed. Refuse a request without an i
     goal=("Charge each request only once, even if the request comes again. Send the same receipt each time."),
     needs=["Till"],
     deadline=60.0,
-    goals={CHARGED: 2, FAILED: 1, "Charge only once when 50 requests come at the same time.": 1},
+    goals={
+        CHARGED: 2,
+        FAILED: 1,
+        "Charge each request only once, even if 50 calls come at the same time.": 1,
+    },
 )
 def charge_once(context: CheckContext) -> None:
     """Send new and repeated requests; let the purse fail; send a request without an id.

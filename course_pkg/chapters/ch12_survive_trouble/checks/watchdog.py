@@ -58,7 +58,7 @@ class SecondMaster:
             self._running = None
 
 
-REGISTERED = "Register the service again when the master does not know it."
+REGISTERED = "Register the service again if the master does not know the service."
 
 
 @part(

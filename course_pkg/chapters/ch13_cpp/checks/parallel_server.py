@@ -86,9 +86,7 @@ OWN_LOCK = (
 @part(
     "13.4",
     points=3,
-    goal=(
-        "Change number_server.cpp so that it handles six clients at the same time and counts them correctly."
-    ),
+    goal=("Change number_server.cpp: handle six clients at the same time, and count the clients correctly."),
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,

@@ -179,8 +179,8 @@ def _answers(context: CheckContext, report: Service, level: int) -> None:
             (
                 "battery: 80",
                 (
-                    "The level has to come from the parameter ~level. Keep the line with "
-                    "ros::param::param in main."
+                    "The level in the message is wrong. Read it from the parameter ~level: keep the "
+                    "line with ros::param::param in main."
                 ),
             ),
             (ANYTHING, 'The message is wrong. Write the word "battery", a colon, a space and the level.'),

@@ -47,7 +47,7 @@ if __name__ == "__main__":
 """
 DELIVERED = "Deliver parcels with feedback, and publish the charge of the battery."
 STOPPED = "Stop when the delivery is cancelled."
-LIMITED = "Refuse more parcels than the parameter capacity allows."
+LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows."
 
 
 @part(
