@@ -102,7 +102,7 @@ class TeacherHandler(Handler):
             self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
             and self.request.path != self.shared.prefix
         ):
-            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from another page.")
+            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from a page of a different server.")
             return
         given = self.get_query_argument("token", "")
         kept = (self.get_signed_cookie(SESSION, max_age_days=DAYS) or b"").decode()
@@ -220,7 +220,10 @@ class Results(Handler):
         except (ValueError, RecursionError) as error:
             self.refuse(HTTPStatus.BAD_REQUEST, f"The request is not valid: {error}")
         except TooMany:
-            reason = f"There are {MOST} results of this student already. Ask your teacher to delete them."
+            reason = (
+                f"The service already has {MOST} results of this student. Ask your teacher to delete "
+                "these results."
+            )
             self.refuse(HTTPStatus.TOO_MANY_REQUESTS, reason)
         except sqlite3.Error as error:
             self.refuse(HTTPStatus.INSUFFICIENT_STORAGE, f"The results cannot be stored: {error}.")

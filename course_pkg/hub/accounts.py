@@ -20,8 +20,9 @@ def check_names(names: Iterable[str]) -> None:
     wrong = [name for name in names if not NAME.fullmatch(name)]
     if wrong:
         raise HubError(
-            f"These are not names of accounts: {', '.join(map(repr, wrong))}. A name has 1 to 32 characters: "
-            "a to z, 0 to 9, _ and -, and begins with a letter. Change the names in the list."
+            f"These are not names of accounts: {', '.join(map(repr, wrong))}. A name has 1 to 32 of "
+            "the characters a to z, 0 to 9, _ and -, and it begins with a letter. Change the names "
+            "in the list."
         )
 
 
@@ -44,14 +45,18 @@ def make_accounts(names: Iterable[str]) -> list[str]:
             raise HubError(f"The student {name} cannot work here: {problem}")
     if missing and os.geteuid() != 0:
         raise HubError(
-            f"These accounts are missing: {', '.join(missing)}. Only root can create them: type the command "
-            "with sudo. To try the hub without accounts, add --without-accounts DIR."
+            f"These accounts are missing: {', '.join(missing)}. Only root can create accounts, so "
+            "type the command with sudo. To try the hub without accounts, add --without-accounts "
+            "DIR."
         )
     for name in missing:
         command = ["useradd", "--create-home", "-K", "HOME_MODE=0700", "--shell", "/bin/bash", name]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
-            raise HubError(f"The account {name} was not created: {done.stderr.strip()}. Correct the cause.")
+            raise HubError(
+                f"The account {name} was not created: {done.stderr.strip()}. Correct this problem, and "
+                "type the command again."
+            )
     return missing
 
 

@@ -135,7 +135,7 @@ def _only_hub(state: Path) -> Iterator[None]:
             stack.enter_context(locked(state / "running", 0))
         except TimeoutError as error:
             raise HubError(
-                "Another hub of this installation is running. End it with Ctrl-C in its terminal first."
+                "Another hub of this installation is running. First end this hub with Ctrl-C in its terminal."
             ) from error
         yield
 
@@ -145,15 +145,17 @@ def _require_protection(places: Places) -> None:
     for folder in (places.python, places.environment, places.checkout / "course_pkg"):
         if closed := _closed(folder):
             raise HubError(
-                f"The students' accounts cannot read {closed}, but they need the files in it. Install the "
-                "course where everybody can read it, such as /opt/ros-course, with XDG_CACHE_HOME=/opt/cache."
+                f"The students' accounts need the files in {closed}, but cannot read them. Install "
+                "the course in a folder that everybody can read, such as /opt/ros-course, with "
+                "XDG_CACHE_HOME=/opt/cache."
             )
     for name in ("solutions", "tests"):
         folder = places.checkout / name
         if folder.exists() and not _closed(folder):
             raise HubError(
-                f"Students can read {folder}. Type `chmod 700 {folder}`, or start the hub in the folder "
-                "that `course release` wrote. Then start again."
+                f"Students can read {folder}, but this folder has to be private. Type `chmod 700 "
+                f"{folder}`, or start the hub in the folder that `course release` wrote. Then start "
+                "the hub again."
             )
 
 
@@ -169,7 +171,7 @@ def _closed(path: Path) -> Path | None:
 def _certificate(options: Options, state: Path) -> tuple[str, str]:
     """Return the files of the certificate and of its key; both are "" if the hub is bound to loopback."""
     if (options.cert is None) != (options.key is None):
-        raise HubError("Give both --cert and --key.")
+        raise HubError("The options --cert and --key belong together. Give both options.")
     if options.cert and options.key:
         missing = [str(path) for path in (options.cert, options.key) if not path.is_file()]
         if missing:
@@ -178,13 +180,15 @@ def _certificate(options: Options, state: Path) -> tuple[str, str]:
     try:
         loopback = ipaddress.ip_address(options.ip).is_loopback
     except ValueError as error:
-        raise HubError(f"--ip {options.ip} is not an IP address.") from error
+        raise HubError(
+            f"--ip {options.ip} is not an IP address. Give an address such as 127.0.0.1."
+        ) from error
     if loopback:
         return "", ""
     cert, key = self_signed(state, options.ip)
     sys.stdout.write(
-        "The hub uses a self-signed certificate, so browsers show a warning. For a course, get a certificate "
-        "for the machine's name, and give it with --cert and --key.\n"
+        "The hub uses a self-signed certificate, so browsers show a warning. For a course, get a "
+        "certificate for the machine's name, and use it with --cert and --key.\n"
     )
     return str(cert), str(key)
 

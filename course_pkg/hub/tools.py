@@ -28,8 +28,8 @@ def installed_proxy(places: Places) -> Path:
         return program
     if not shutil.which("npm"):
         raise HubError(
-            "JupyterHub needs a proxy, and npm installs it. As an administrator, type\n"
-            "  apt-get install --no-install-recommends nodejs npm\nand start again."
+            "JupyterHub needs a proxy, which npm installs. As an administrator, type\n  apt-get "
+            "install --no-install-recommends nodejs npm\nand start the hub again."
         )
     folder.mkdir(parents=True, exist_ok=True)
     for path in sources:
@@ -56,6 +56,8 @@ def _run(command: Sequence[str], failure: str) -> None:
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
-        raise HubError(f"{failure}: {error.strerror}. Install {command[0]}, and start again.") from error
+        raise HubError(
+            f"{failure}: {error.strerror}. Install {command[0]}, and start the hub again."
+        ) from error
     if done.returncode:
         raise HubError(f"{failure}:\n{done.stderr.strip()}")

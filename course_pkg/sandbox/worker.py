@@ -189,7 +189,7 @@ class Session:
 
     def _reason(self) -> str:
         if self._over is None:
-            return f"it was not finished after {self._limit:g} s"
+            return f"the check was not finished after {self._limit:g} s"
         code = os.waitstatus_to_exitcode(self._over)
         return ENDINGS.get(code, "the processes of this part were lost")
 

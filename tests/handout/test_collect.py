@@ -272,7 +272,7 @@ def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.
 def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path) -> None:
     """Nothing is written to a folder that contains other files."""
     (tmp_path / "thesis.txt").write_text("")
-    with pytest.raises(HandoutError, match=r"did not make it .*Give a new or an empty folder"):
+    with pytest.raises(HandoutError, match=r"did not create it.*Give a new or an empty folder"):
         run(homes, tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
 
@@ -280,7 +280,7 @@ def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path
 @pytest.mark.parametrize("folder", ["/home/anna/ros-course", "../ben", "."])
 def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Path) -> None:
     """An absolute path, or a path that leads out of the home folder, is refused."""
-    with pytest.raises(HandoutError, match="Give its path below the home folder"):
+    with pytest.raises(HandoutError, match="Give the folder's path below the home folder"):
         collect(Options(folder, tmp_path / "out", homes))
 
 

@@ -312,18 +312,18 @@ replace("""ros::MultiThreadedSpinner spinner(4);
   spinner.spin();""", "ros::AsyncSpinner threads(8);\n  threads.start();\n  ros::waitForShutdown();")
 # %% 14.7 wrong: as it was | hint: Use a MultiThreadedSpinner or an AsyncSpinner
 replace('  ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();\n', '  ros::spin(); // changed\n')
-# %% 14.7 wrong: one thread | hint: The handler of /report waits for /battery, but no thread is left
+# %% 14.7 wrong: one thread | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('spinner(4)', 'spinner(1)')
 # %% 14.7 wrong: three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
-# %% 14.7 wrong: no call | hint: Do not change the two handlers
+# %% 14.7 wrong: no call | hint: The handlers were changed
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
-# %% 14.7 wrong: no parameter | hint: The level has to come from the parameter ~level
+# %% 14.7 wrong: no parameter | hint: The level in the message is wrong
 replace('  ros::param::param("~level", level, 80);\n', '')
 # %% 14.7 wrong: another message | hint: a colon, a space and the level
 replace('"battery: "', '"Battery "')
-# %% 14.7 wrong: a client of another name | hint: The handler returned false, because its call of /battery failed
+# %% 14.7 wrong: a client of another name | hint: The handler of /report returned false, because its call of /battery failed
 replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("level")')
 
 # %% 14.8 right: an AsyncSpinner for the queue
@@ -337,14 +337,14 @@ replace("spin();", "spin();\n  worker.join();")
 replace('  ros::CallbackQueue queue;\n  ros::NodeHandle other;\n  other.setCallbackQueue(&queue);\n', '')
 replace('other.advertise', 'node.advertise')
 replace('spinner(1, &queue)', 'spinner(4)')
-# %% 14.8 wrong: no spinner for the queue | hint: The handler of /report waits for /battery, but no thread is left
+# %% 14.8 wrong: no spinner for the queue | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('  spinner.start();\n', '')
-# %% 14.8 wrong: both in the new queue | hint: The handler of /report waits for /battery, but no thread is left
+# %% 14.8 wrong: both in the new queue | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 # %% 14.8 wrong: both in a queue with four threads | hint: One call works, but eight calls at the same time do not end
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 replace('spinner(1, &queue)', 'spinner(4, &queue)')
-# %% 14.8 wrong: no call | hint: Do not change the two handlers
+# %% 14.8 wrong: no call | hint: The handlers were changed
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
 
@@ -387,21 +387,21 @@ int main(int argc, char** argv) {
 }
 """
 
-# %% 14.9 wrong: one count for all | hint: This is the number of all calls
+# %% 14.9 wrong: one count for all | hint: The response contains the number of all calls
 replace('++calls[session->second]', '++calls["all"]')
-# %% 14.9 wrong: the name of the node | hint: This is the number of all calls
+# %% 14.9 wrong: the name of the node | hint: The response contains the number of all calls
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
-# %% 14.9 wrong: the session and the name of the node | hint: Another node can continue a session
+# %% 14.9 wrong: the session and the name of the node | hint: The handler uses the node's name
 replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
-# %% 14.9 wrong: counts afterwards | hint: This is the number of calls before this call
+# %% 14.9 wrong: counts afterwards | hint: The response contains the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
 # %% 14.9 wrong: a map in the handler | hint: The count starts again in each call
 replace('std::map<std::string, int> calls;\n', '')
 replace('bool handleCount(Event& event) {\n', 'bool handleCount(Event& event) {\n  std::map<std::string, int> calls;\n')
 # %% 14.9 wrong: no message | hint: The message is empty
 replace('event.getResponse().message = std::to_string(++calls[session->second])', '++calls[session->second]')
-# %% 14.9 wrong: no look at the header | hint: The header had no field "session", but the call got a count
+# %% 14.9 wrong: no look at the header | hint: The header had no field "session", but the response contains a count
 replace('  if (session == header.end()) {\n    return false;\n  }\n', '  std::string key = session == header.end() ? "" : session->second;\n')
 replace('++calls[session->second]', '++calls[key]')
-# %% 14.9 wrong: another field | hint: The header of the call had the field "session", but the response
+# %% 14.9 wrong: another field | hint: The response does not contain the number of calls in the session
 replace('find("session")', 'find("Session")')

@@ -38,7 +38,7 @@ def compile_roscpp(
     done = folder.command("bash", "-c", line, within=within, worded=f"the compiler, at {file}")
     if done.status is None:
         raise CheckError(
-            f"The compiler had not finished after {done.took:.0f} s: the machine is busy. "
+            f"The compiler had not finished after {done.took:.0f} s, because the machine is busy. "
             "Run this cell again."
         )
     if done.status != 0:

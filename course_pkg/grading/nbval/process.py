@@ -90,7 +90,7 @@ def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
     if not (first := next(left, "")):
         return ""
     words = (
-        f"The cell gave no result within {cell:.0f} s, so this cell and all cells after it have no result."
+        f"The cell gave no result within {cell:.0f} s. So this cell and all cells after it have no result."
     )
     return json.dumps({"cell": first, "outcome": "failed", "words": words}) + "\n"
 

@@ -41,6 +41,6 @@ def _read(path: Path, which: str) -> Grade:
         return grade_from(json.loads(path.read_text("utf-8")))
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise GradingError(
-            f"In {path.parents[1]}, in the order of paths, {which} ({path.name}) is not a grade of this "
-            f"version of the course: {type(error).__name__}. Delete it, and grade again."
+            f"In {path.parents[1]}, {which} in the order of paths ({path.name}) is not a grade of "
+            f"this version of the course: {type(error).__name__}. Delete this file, and grade again."
         ) from error

@@ -48,9 +48,9 @@ def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
     if absent:
         names = [f"{name_of(grade.student)} (chapter {grade.chapter})" for grade in absent]
         lines.append(
-            "This time, nothing was handed in for these results of an earlier run: "
-            f"{_listed(names)}. They are marked in class.html and grades.csv, and the files for "
-            "Moodle, Canvas and Gradescope do not contain them."
+            "These results are from an earlier run, because nothing was handed in this time: "
+            f"{_listed(names)}. class.html and grades.csv mark these results. The files for Moodle, "
+            "Canvas and Gradescope do not contain them."
         )
     if kept:
         results = "1 other result" if kept == 1 else f"{kept} other results"

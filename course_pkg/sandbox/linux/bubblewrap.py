@@ -71,9 +71,9 @@ def require_sandbox() -> None:
     """Raise SandboxUnavailable if this machine cannot create a sandbox."""
     if reason := refusal():
         raise SandboxUnavailable(
-            f"{reason} Without a sandbox, students' code runs with your permissions: it can read your files "
-            "and change grades. Grade on another machine, or add --unsafe-no-sandbox if you trust every "
-            "submission."
+            f"{reason} Without a sandbox, students' code runs with your permissions, so it can read "
+            "your files and change grades. Grade on another machine, or add --unsafe-no-sandbox if "
+            "you trust every submission."
         )
 
 

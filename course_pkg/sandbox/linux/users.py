@@ -52,7 +52,9 @@ def reserve() -> tuple[Users, socket.socket]:
             clear(users)
             return users, lock
         lock.close()
-    raise SandboxUnavailable("All users for students' code are in use by other graders on this machine.")
+    raise SandboxUnavailable(
+        "Other graders on this machine use all accounts for students' code. Wait until a grader has ended."
+    )
 
 
 def become(uid: int) -> None:

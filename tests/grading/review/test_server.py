@@ -74,14 +74,14 @@ def test_the_command(tmp_path: Path) -> None:
     with _review(out, "--part", "5.1") as (process, url, token):
         own = {"Authorization": f"token {token}"}
         assert ask(f"{url}/save", {"number": 1, "points": "1", "comment": "kept"}, **own)[0] == 200
-        assert "Another `course review` uses" in _refused(out)
+        assert "Another `course review` command uses" in _refused(out)
         process.kill()
     assert [(row.points, row.comment) for row in read_overrides(out).rows.values()] == [(1, "kept")]
     with _review(out) as (process, _url, _token):
         process.send_signal(signal.SIGINT)
         ended, said = process.communicate(timeout=30)
     assert process.returncode == 0, said
-    assert "The review has ended; all saved points are in" in ended.splitlines()[-1]
+    assert "The review has ended. All saved points are in" in ended.splitlines()[-1]
     assert said == ""
 
 

@@ -27,8 +27,8 @@ ORDER = ("spawn", "toggle_forward", "change_speed")
 KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "course_pkg/ChangeSpeed"}
 SPEED = 2.0  # m/s
 LATER = 0.5  # The service /toggle_forward starts after this many s.
-WHERE = "Publish only on /NAME/cmd_vel, where NAME is the name in the response of /spawn."
-ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
+WHERE = "Publish only on the topic /NAME/cmd_vel. NAME is the name of the turtle in the response of /spawn."
+ENDED = "The node ended after the calls, so its subscriber gets no messages. Call rospy.spin() at the end."
 ENDING = 0.6  # A program without spin() ends within this many s.
 COUNT = 20  # COUNT is the number of velocities that the check publishes.
 STOPS = (
@@ -142,29 +142,32 @@ def _calls_in_order(context: CheckContext, driver: Driver, running: Running) -> 
         expected=TURTLE,
         actual=driver.requests("spawn")[0],
         near=1e-6,
-        hints='Compare the fields of your request with x = 3, y = 3, theta = 0 and name = "MyTurtle".',
+        hints=(
+            'The request is wrong. Compare its fields with x = 3, y = 3, theta = 0 and name = "MyTurtle".'
+        ),
     )
     context.expect(
         "the program sets the speed to 2.0 m/s",
         expected={"speed": SPEED},
         actual=driver.requests("change_speed")[0],
         near=1e-6,
-        hints="Send 2.0 in the field `speed`.",
+        hints="The request has the wrong speed. Send 2.0 in the field `speed`.",
     )
 
 
 def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
     if sorted(calls) == sorted(ORDER):
-        return "All three services are called, but in the wrong order. Spawn the turtle first."
+        return "The program calls the three services in the wrong order. Spawn the turtle first."
     if ended and calls:
         return (
-            "The program ended too early. /toggle_forward starts half a second late: wait for each service."
+            "The program ended too early, because /toggle_forward starts half a second late. Wait "
+            "for each service before you call the service."
         )
     if ended:
         return why_it_ended(running.stop())
     return (
-        "The program waits, but calls no further service. Compare the names of the "
-        "three services with your names."
+        "The program waits, but does not call the next service. Compare the service names in your "
+        "program with the names in the exercise."
     )
 
 
@@ -193,7 +196,16 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
         holds=publisher.has_subscriber(4.0),
         expected="a subscriber",
         actual="no subscriber",
-        hints=[ended, (ANYTHING, "Subscribe to the velocities of the first turtle, /turtle1/cmd_vel.")],
+        hints=[
+            ended,
+            (
+                ANYTHING,
+                (
+                    "The program gets no velocities of the first turtle. Subscribe to the topic "
+                    "/turtle1/cmd_vel."
+                ),
+            ),
+        ],
     )
     publisher.finish(5.0)
     subscription.wait(COUNT, 2.0)
@@ -216,12 +228,21 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
         expected=COUNT,
         actual=len(received),
         hints=[
-            (0, "The callback publishes nothing. In the callback, publish the message that arrived."),
+            (
+                0,
+                (
+                    "The callback publishes nothing. In the callback, publish the message that the callback "
+                    "gets."
+                ),
+            ),
             (
                 (lambda count: count > COUNT),
-                "Some velocities were published more than once. Publish once in the callback, not in a loop.",
+                (
+                    "Some velocities were published more than once. Publish each message once in the "
+                    "callback, not in a loop."
+                ),
             ),
-            (ANYTHING, "Some velocities are missing. Publish each message in the callback, without a pause."),
+            (ANYTHING, "Some velocities are missing. Publish each message immediately in the callback."),
         ],
     )
     sent, other = first_unlike(velocities, received, near=1e-9)
@@ -231,7 +252,8 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
         actual=other,
         near=1e-9,
         hints=(
-            "Some fields differ. Publish the whole message that arrived, not only one or two of its fields."
+            "Some fields of the published message differ from the received message. Publish the "
+            "whole received message, not only one or two of its fields."
         ),
     )
 
@@ -252,8 +274,8 @@ def _stops_early(
         expected=", ".join(f"/{name}" for name in calls),
         actual=", ".join(f"/{name}" for name in driver.calls) or "no call",
         hints=(
-            "The program continued to call services after a failure. End the program as soon as a "
-            "service is missing or refuses a call."
+            "After a failed call, the program still called the next service. End the program as "
+            "soon as a service is missing or refuses a call."
         ),
     )
     printed = done.out + done.err
@@ -263,9 +285,12 @@ def _stops_early(
         expected="a message, and the exit status 1",
         actual="a traceback" if "Traceback" in printed else outcome(done),
         hints=(
-            "The program waits without a limit, or continues although a service is missing. Give each "
-            "wait a timeout of 5 s."
+            "A service is missing, but the program did not end. Wait for each service with a "
+            "timeout of 5 s, and end the program after a timeout."
         )
         if done.status is None
-        else "If a wait times out or a call is refused, print a message, and end with the exit status 1.",
+        else (
+            "The program has to report a failure. If a wait times out or a call is refused, print a "
+            "message and end with exit status 1."
+        ),
     )

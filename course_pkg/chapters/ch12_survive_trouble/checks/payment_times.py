@@ -16,18 +16,19 @@ AT_END = 0.9
 ENDED = 1.3  # The fastest of these payments may take at most this many s.
 AT_WORK = 0.5  # A client must make attempts for at least this many s.
 GONE = (
-    "The till has no server, but pay() waits for it without a time limit. Use the "
+    "The till has no server, but pay() waits for this service without a time limit. Use the "
     "remaining time as the limit of each wait."
 )
 STOPPED = (
-    "pay() ended before the deadline. The argument `deadline` is a time in seconds: "
-    "try again until this time is over."
+    "pay() ended before the deadline. Try again until the time in the argument `deadline` (in "
+    "seconds) is over."
 )
 LONG_PAUSE = (
-    "The first pause is too long. It has to be 0.1 s: double the pause after the sleep, not before it."
+    "The first pause is too long, because it has to be 0.1 s. Double the pause after the sleep, not "
+    "before it."
 )
 OVERSLEPT = (
-    "The last pause ended after the deadline. Sleep at most for the time that remains until the deadline."
+    "The last pause ended after the deadline. Sleep no longer than the time that remains until the deadline."
 )
 
 

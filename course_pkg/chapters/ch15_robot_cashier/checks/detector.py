@@ -29,49 +29,58 @@ EARLY = 0.1  # Because of rounding, a call may seem to end this many s too early
 CALLERS = 4
 
 NOT_SEEN = (
-    "In the newest message, a customer is there, but found is False in the response. Use the newest message."
+    "The newest message reports a customer, but found is False in the response. Use the newest message."
 )
 REMEMBERED = (
-    "In the newest message, no customer is there, but found is True in the "
-    "response. Use only the newest message."
+    "The newest message reports no customer, but found is True in the response. Use only the newest "
+    "message, and no older message."
 )
-NO_WAIT = "The response came too early, although no customer was there. Wait for request.patience seconds."
-TOO_LONG = "The response came too late: use request.patience as the limit of the wait."
+NO_WAIT = "The response came too early. If no customer is there, wait for request.patience seconds."
+TOO_LONG = "The response came too late. Use request.patience as the limit of the wait."
 ONE_BY_ONE = (
-    "While one call waited, another call got no response. Do not hold a lock while "
-    "the handler waits; Condition.wait_for releases its lock."
+    "One call had to wait for another call. Do not hold a lock while the handler waits "
+    "(Condition.wait_for releases its lock during the wait)."
 )
 NOT_WOKEN = (
-    "The customer came while several calls were waiting, but one of these calls responded too late. In "
-    "the callback, wake up all waiting calls with notify_all()."
+    "The customer came while several calls were waiting, but one of these calls responded too late. "
+    "In the callback, call notify_all() to wake up all waiting calls."
 )
-UNREFUSED = "The field `patience` has to be from 0 to 60 s: raise rospy.ServiceException for any other value."
-NAN = "Each comparison with nan (not a number) is False. Write `if not 0 <= request.patience <= 60`."
-NAMELESS = 'The error message has to contain the word "patience".'
-FIRST = "The handler waited before it refused: check request.patience at the beginning of the handler."
+UNREFUSED = (
+    "The handler accepted an impossible `patience`. Raise rospy.ServiceException if it is not from 0 to 60 s."
+)
+NAN = (
+    "The handler accepted nan (not a number), because each comparison with nan is False. Write `if not "
+    "0 <= request.patience <= 60`."
+)
+NAMELESS = 'The error message does not contain the word "patience". Write this word into the message.'
+FIRST = (
+    "The handler waited before it refused the call. Check request.patience at the beginning of the handler."
+)
 
 FAILED: Hints = [
     (
         REFUSED_BY_HANDLER,
-        "The handler refused a valid call. Accept each value of `patience` from 0 to 60 s while messages "
-        "arrive.",
+        (
+            "The handler refused a valid call. While messages arrive, accept each value of `patience` "
+            "from 0 to 60 s."
+        ),
     ),
     (matches("error processing"), BUG),
     (matches("TimesUp"), TOO_LONG),
 ]
-WAITED = "Wait for a customer, with a limit."
+WAITED = "Wait for a customer, but not longer than the limit."
 SEVERAL = "Respond to several callers at the same time."
-SILENT_CAMERA = "Refuse before the first message, and after 1 s without a message."
+SILENT_CAMERA = "Refuse a call before the first message, and after 1 s without a message."
 
 
 @part(
     "15.2",
     points=3,
-    goal="Write customer_detector.py: detect_customer waits for a customer, with a limit.",
+    goal="Write customer_detector.py: detect_customer waits for a customer, but not longer than a limit.",
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
-    goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible patience.": 1},
+    goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible value of `patience`.": 1},
 )
 def the_detector(context: CheckContext) -> None:
     """Publish on customer_seen; call with and without a customer; then make several simultaneous calls."""
@@ -101,7 +110,10 @@ def _finds(context: CheckContext, detect: Service, patience: float, hint: str, w
         holds=detect.took < within,
         expected="an immediate response",
         actual=f"a response after {detect.took:.1f} s",
-        hints="A customer was there before the call: check first, and wait only if no customer is there.",
+        hints=(
+            "A customer was there before the call, but the handler waited. Check first, and wait only "
+            "if no customer is there."
+        ),
     )
 
 
@@ -170,20 +182,23 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
         )
 
 
-SILENT = 'The error message has to contain the word "camera".'
-OLD = "The last message is older than 1 s, so do not use it: store the time at which each message arrives."
+SILENT = 'The error message does not contain the word "camera". Write this word into the message.'
+OLD = (
+    "The handler used a message that is older than 1 s. Store the time at which each message arrives, "
+    "and compare it with the current time."
+)
 NOBODY_KNOWS = (
-    "The camera sends no messages, so the node does not know whether a customer is there. After "
-    "request.patience seconds, raise rospy.ServiceException instead of returning found=False."
+    "Without messages from the camera, the node does not know whether a customer is there. After "
+    "request.patience seconds, raise rospy.ServiceException; do not return found=False."
 )
 TOO_SOON = (
-    "The node refused the call too early. A new message can still arrive, so wait for request.patience "
-    "seconds."
+    "The node refused the call too early. Wait for request.patience seconds, because a new message "
+    "can still arrive."
 )
-FRESH = "The last message was less than 1 s old, so it is valid. Use it."
+FRESH = "The node did not use the last message. A message is valid if it is less than 1 s old."
 CAME_BACK = (
-    "The camera sent no messages for some time, but new messages came before the end of the call. Use "
-    "the newest message, even if it came after a pause."
+    "The camera stopped for some time, but new messages came before the end of the call. Use the "
+    "newest message, even if it came after a pause."
 )
 
 REFUSED_TOO_MUCH: Hints = [(matches("camera"), FRESH), *FAILED[1:]]
@@ -193,11 +208,13 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
 @part(
     "15.3",
     points=2,
-    goal="Extend customer_detector.py: without a message in the last second, detect_customer refuses.",
+    goal=(
+        "Extend customer_detector.py: detect_customer refuses a call if no message came in the last second."
+    ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
-    goals={SILENT_CAMERA: 3, "Notice when the camera stops or starts to send messages during a call.": 1},
+    goals={SILENT_CAMERA: 3, "During a call, notice when the camera stops or starts to send messages.": 1},
 )
 def the_silent_camera(context: CheckContext) -> None:
     """Call before the first message, shortly and long after the last message, and during new messages."""
