@@ -327,9 +327,9 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
         return time.monotonic() - began, seen
 
 
-def files_in(folder: str) -> set[Path]:
-    """Return all files, sockets and folders in a folder."""
-    return set(Path(folder).rglob("*"))
+def files_in(folder: str) -> set[str]:
+    """Return all files, sockets and folders in a folder, which may be removed meanwhile."""
+    return {os.path.join(root, name) for root, folders, files in os.walk(folder) for name in folders + files}
 
 
 def started_with(folder: str) -> list[int]:
