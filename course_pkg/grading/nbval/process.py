@@ -23,7 +23,7 @@ from course_pkg.checking.parts import secret_paths
 from course_pkg.grading.nbval.plugin import RECORD
 from course_pkg.sandbox.channel import descendants, end, fork
 from course_pkg.sandbox.linux import confinement, namespaces
-from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
+from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, run_master, too_much_memory_below
 from course_pkg.waiting import Deadline, at_this_load
 
 # nbval waits for output, and ends the kernel at most this many s after the time limit of a cell.
@@ -76,7 +76,7 @@ def _run_within_limits(command: list[str], record: Path, silence: float) -> bool
         while process.poll() is None:
             if record.stat().st_size > size:
                 size, deadline = record.stat().st_size, Deadline(silence)
-            if memory_below(process.pid) > TOGETHER or deadline.passed:
+            if too_much_memory_below(process.pid, TOGETHER) or deadline.passed:
                 end([*descendants(process.pid), process.pid])
             with suppress(subprocess.TimeoutExpired):
                 process.wait(MEMORY_INTERVAL)
