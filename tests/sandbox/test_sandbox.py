@@ -188,20 +188,32 @@ def test_only_a_private_network_exists(worker: SandboxWorker) -> None:
     assert words == "RuntimeError: [] ['lo']"
 
 
-def test_too_much_memory_during_the_check_is_the_reason(worker: SandboxWorker) -> None:
+ONE_CALL = """
+from course_pkg.checking import CheckContext, part
+
+@part("05.1.1", points=1, goal="Answer one call.", deadline=100.0)
+def one_call(context: CheckContext) -> None:
+    context.service("/getGeometry", "course_pkg/geometry", timeout=90.0)(length=1.0, width=1.0, height=1.0)
+"""
+
+
+def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path: Path) -> None:
     """If an answer is stopped while its check runs, the result is this reason, and not a lost master."""
     source = """
         import os, time
         def handle_geometry(request):
-            for _ in range(8):
+            for _ in range(6):
                 if os.fork() == 0:
                     kept = bytearray(b"x") * (150 << 20)
-                    time.sleep(60)
-            time.sleep(60)
+                    time.sleep(600)
+            time.sleep(600)
         geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
         """
+    (tmp_path / "private_05.py").write_text(ONE_CALL)
+    tmp_path.chmod(0o755)
     [before] = {answer.before for answer in every_answer() if answer.check == "05.1"}
-    result = worker.run(PartJob("05.1", before, (textwrap.dedent(source),), "", 1, 30.0))
+    with SandboxWorker(private=str(tmp_path)) as worker:
+        result = worker.run(PartJob("05.1.1", before, (textwrap.dedent(source),), "", 1, 100.0))
     assert (result.record, result.ending) == (None, "the answer used more memory than allowed")
 
 
