@@ -28,7 +28,7 @@ SERVER = (
     "def handle_geometry(request):\n"
     "    area = request.width * request.length\n"
     "    return area, area * request.height\n\n\n"
-    'rospy.Service("/getGeometry", geometry, handle_geometry)'
+    'service = rospy.Service("/getGeometry", geometry, handle_geometry)'
 )
 PLOT = (
     "import matplotlib.pyplot as plt\n\n"
