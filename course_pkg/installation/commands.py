@@ -42,7 +42,7 @@ def _uninstall(options: SimpleNamespace) -> int:
 
 def _uninstall_arguments(parser: ArgumentParser) -> None:
     _prefix_argument(parser)
-    parser.add_argument("--force", action="store_true", help="even if users work with it now")
+    parser.add_argument("--force", action="store_true", help="remove it even if users work with it now")
 
 
 def _bundle(options: SimpleNamespace) -> int:

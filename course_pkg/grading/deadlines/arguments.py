@@ -52,7 +52,7 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         "--late-per-day",
         type=float,
         metavar="PERCENT",
-        help="the percentage of the points that is taken off for each day late that has begun, such as 10",
+        help="percent of the points to subtract for each late day that has begun, such as 10",
     )
     group.add_argument(
         "--late-max-days",
