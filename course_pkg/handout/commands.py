@@ -109,7 +109,10 @@ def _autograder_arguments(parser: ArgumentParser) -> None:
         help="the time limit of a run, which must be shorter than that of Gradescope (default: 9)",
     )
     parser.add_argument(
-        "--late-per-day", type=float, metavar="PERCENT", help="percent of the points to subtract for each late day"
+        "--late-per-day",
+        type=float,
+        metavar="PERCENT",
+        help="percent of the points to subtract for each late day",
     )
     parser.add_argument(
         "--late-max-days", type=float, metavar="N", help="no points are left after N late days"
