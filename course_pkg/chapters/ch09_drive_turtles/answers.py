@@ -101,6 +101,8 @@ def main():
 replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
 # %% 09.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
 replace('\nforward = True', '\nforward = False')
+# %% 09.2 wrong: the handler publishes a velocity of 0 | hint: A message contained another velocity
+replace("    return EmptyResponse()", "    publisher.publish(Twist())\n    return EmptyResponse()")
 # %% 09.2 wrong: twice as fast | hint: To drive straight ahead, set linear.x = 1.0
 replace('linear.x = 1.0', 'linear.x = 2.0')
 # %% 09.2 wrong: no global | hint: After the call, the turtle still goes straight ahead
@@ -148,6 +150,8 @@ replace("before = frequency … before=before)", "old, frequency = frequency, re
 replace("toggle_forward", "/toggle_forward")
 replace("\n    used, rate = frequency, rospy.Rate(frequency)", "")
 replace("if used != … rate.sleep()", "rospy.sleep(1.0 / frequency)")
+# %% 09.3 wrong: a new rate sets the first direction again | hint: A call of /change_rate also changed the direction
+replace("    global frequency\n", "    global frequency, forward\n    forward = True\n")
 # %% 09.3 wrong: the loop keeps its rate | hint: You cannot change the rate of a Rate object
 replace('used != frequency', 'used < 0')
 # %% 09.3 wrong: returns the new rate | hint: This is the new rate
@@ -326,6 +330,8 @@ replace('rospy.init_node("spawn_turtle_plus")\n    sys.exit(main())', "main()")
 replace('        call("toggle_forward", Empty)\n        call("change_speed", ChangeSpeed, 2.0)\n', '        call("change_speed", ChangeSpeed, 2.0)\n        call("toggle_forward", Empty)\n')
 # %% 09.5 wrong: waits for the first only | hint: wait for each service
 replace('    rospy.wait_for_service(name, timeout=5)\n', '    if name == "spawn":\n        rospy.wait_for_service(name, timeout=5)\n')
+# %% 09.5 wrong: waits 1 s at most | hint: wait for each service
+replace("timeout=5", "timeout=1")
 # %% 09.5 wrong: another name | hint: The program waits, but calls no further service
 replace('call("toggle_forward", Empty)', 'call("toggle", Empty)')
 # %% 09.5 wrong: another place | hint: Compare the fields of your request with x = 3, y =

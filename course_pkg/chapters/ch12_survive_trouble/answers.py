@@ -289,6 +289,9 @@ def pay(till, cents, deadline):
             return response.receipt
         time.sleep(max(0, min(pause, over - time.time())))
 
+# %% 12.3 wrong: no pause after a TimeoutError | hint: There was no pause after a TimeoutError
+based_on("a loop with a clock")
+replace("                raise\n", "                raise\n            if isinstance(error, TimeoutError):\n                continue\n")
 # %% 12.3 wrong: treats a bad return value as a refusal | hint: The error contains "handler returned", so it is possible that the handler
 replace(' and "handler returned" not in str(error)', "")
 # %% 12.3 wrong: doubles before the first sleep | hint: The first pause is too long

@@ -54,10 +54,13 @@ def safe_with_fifty_clients(context: CheckContext) -> None:
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     few = context.random.integer(2, 4)
-    take = _opened(context, name, CheckedShelf(few), ONE)
+    shelf = CheckedShelf(few)
+    take = _opened(context, name, shelf, ONE)
     try:
         for left in [*range(few - 1, -1, -1), None, None]:
             _takes_one(context, take, left)
+        shelf.things = few
+        _sells_what_comes_later(context, take, few)
     finally:
         context.run("checked_shop.close")
     context.fulfilled(EMPTIED)
@@ -82,6 +85,19 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
     )
     context.require("a Stock can be created from a shelf", holds=not opened.error, actual=opened.error)
     return context.service(name, TRIGGER, hints=ERRORS, timeout=timeout)
+
+
+def _sells_what_comes_later(context: CheckContext, take: Service, things: int) -> None:
+    """Take a thing after the shelf was filled again with `things` things."""
+    context.expect(
+        'the message is the number of things that are left, or "sold out"',
+        expected=str(things - 1),
+        actual=take().message,
+        hints=(
+            "New things were put on the shelf, but the handler did not notice them. In each call, read the "
+            "number from the shelf."
+        ),
+    )
 
 
 def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:

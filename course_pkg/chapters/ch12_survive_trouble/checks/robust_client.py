@@ -67,14 +67,16 @@ def a_robust_client(context: CheckContext) -> None:
     _refused(context, name, till)
     context.fulfilled(PAID)
     first, *others = FAULTS
-    tries = {}
+    tries, before = {}, len(till.arrivals)
     for words in (first, *context.random.shuffled(others)):
         till.plan.extend(FAULTS[words])
         tries[words] = pays_after(context, name, till, books, words)
     _in_a_random_order(context, name, till, books)
     _repeats_a_bad_return(context, name, till)
     context.fulfilled(REPEATED)
+    slow = till.arrivals[before : before + 2]
     _limits_each_try(context, name, till, tries[SLOW])
+    _pauses_after_a_timeout(context, *slow)
     _pauses_grow(context, name, till, books)
     _gives_up(context, name, till)
     _keeps_the_deadline(context, name, till)
@@ -224,6 +226,18 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
             f"A try had less than {TRY:g} s, so pay() called the till again while the till was "
             f"still working. Give each try {TRY:g} s."
         ),
+    )
+
+
+def _pauses_after_a_timeout(context: CheckContext, first: float, second: float) -> None:
+    """Assert that a pause follows an attempt that took TRY s; `first` and `second` are times of requests."""
+    pause = second - first - TRY
+    context.require(
+        "there is a pause before the next try",
+        holds=pause > PAUSE / 2,
+        expected=f"{PAUSE:g} s or more",
+        actual=f"{pause:.3f} s",
+        hints="There was no pause after a TimeoutError. Sleep after every failed try.",
     )
 
 

@@ -23,6 +23,7 @@ ENOUGH = 5.0  # For a robot that finishes in time, the client has this limit in 
 BRIEF = 0.2  # For a robot that ignores the cancellation, the client has this limit in s.
 LATE = 0.6  # A late robot starts this many s after the call.
 SECONDS = 0.8  # The client must cancel the goal after this many s; the time is not a whole number.
+ARRIVING = 1.0  # The check waits at most this many s for the message that cancels the goal.
 SLACK = 3.0  # On a busy machine, a call may take this many s longer.
 LONGEST = 4.7  # If a client must give up after WAIT, the client may take this many s on a busy machine.
 BOUND = (
@@ -182,9 +183,17 @@ def _too_late(context: CheckContext) -> None:
     name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
     robot = Robot(fetched, LONG)
     with _serving(name, robot):
+        cancellations = context.subscribe(f"{name}/cancel", "actionlib_msgs/GoalID")
         result = _fetch(context, robot, name, 5, SECONDS)
         if not result.error:
             _is_cancelled(context, robot)
+            context.require(
+                "a robot that does not finish in time is cancelled",
+                holds=all(arrival.fields["id"] for arrival in cancellations.wait(1, ARRIVING)),
+                expected="a cancellation of this goal",
+                actual="a cancellation of all goals",
+                hints="cancel_all_goals() also cancels the goals of other clients. Call cancel_goal().",
+            )
         context.expect(
             "after a cancellation, the number of things fetched so far is returned",
             expected=fetched,
