@@ -284,6 +284,8 @@ replace('if request.data == self.moving:', 'if request.data != getattr(self, "st
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
 # %% 09.4 wrong: a speed that is set while it is stopped is lost | hint: came while the turtle was stopped
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')
+# %% 09.4 wrong: a toggle starts a turtle that is stopped | hint: A call of /toggle_forward started the turtle again
+replace('self.forward = not self.forward\n', 'self.forward = not self.forward\n        self.moving = True\n')
 # %% 09.4 wrong: at most 10 m/s | hint: Publish the number that /change_speed has set
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, min(max(request.speed, -10), 10)')
 # %% 09.4 wrong: success is the value of data | hint: Set success to True

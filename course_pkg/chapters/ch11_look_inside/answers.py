@@ -615,7 +615,7 @@ class Remembering:
         return ask(uri, self.service, length, width, height)
 
 # %% 11.6 wrong: another order of the sides | hint: The request contains other sides
-replace("self.service, length, width, height", "self.service, height, length, width")
+replace("self.service, length, width, height", "self.service, height, length, width", times=2)
 # %% 11.6 wrong: never looks again | hint: The server is not at the old address any more
 based_on("looks up for each call")
 replace("\n\n", "\n        self.uri = rosgraph.Master(node.name).lookupService(service)\n\n")
