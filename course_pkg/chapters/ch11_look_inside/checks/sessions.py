@@ -96,10 +96,12 @@ def _shares_no_total(context: CheckContext, kind: ServiceClass, session: str) ->
     """Call a new object of the class in a session that the first object knows."""
     name, amount = f"/{context.random.word()}", context.random.integer(20, 900)
     context.prepare(ANOTHER)
-    context.run("another_sessions.open", Its("Sessions"), name, worded="Sessions()").returned()
+    opened = context.run("another_sessions.open", Its("Sessions"), name, worded="Sessions()")
+    assertion = "the response contains the total of the session"
+    context.require(assertion, holds=not opened.error, actual=opened.error)
     try:
         context.expect(
-            "the response contains the total of the session",
+            assertion,
             expected=amount,
             actual=_answer(context, kind, amount, {"session": session}, name=name).total,
             hints=SHARED,

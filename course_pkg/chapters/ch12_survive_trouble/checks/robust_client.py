@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from course_pkg.chapters.ch12_survive_trouble.checks.payment_times import (
     ends_without_a_till,
+    pauses_after_a_timeout,
     pauses_for_a_moment,
 )
 from course_pkg.chapters.ch12_survive_trouble.checks.payments import (
@@ -67,20 +68,19 @@ def a_robust_client(context: CheckContext) -> None:
     _refused(context, name, till)
     context.fulfilled(PAID)
     first, *others = FAULTS
-    tries, before = {}, len(till.arrivals)
+    tries = {}
     for words in (first, *context.random.shuffled(others)):
         till.plan.extend(FAULTS[words])
         tries[words] = pays_after(context, name, till, books, words)
     _in_a_random_order(context, name, till, books)
     _repeats_a_bad_return(context, name, till)
     context.fulfilled(REPEATED)
-    slow = till.arrivals[before : before + 2]
     _limits_each_try(context, name, till, tries[SLOW])
-    _pauses_after_a_timeout(context, *slow)
     _pauses_grow(context, name, till, books)
     _gives_up(context, name, till)
     _keeps_the_deadline(context, name, till)
     pauses_for_a_moment(context, name, till)
+    pauses_after_a_timeout(context, name, till)
     ends_without_a_till(context)
 
 
@@ -226,18 +226,6 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
             f"A try had less than {TRY:g} s, so pay() called the till again while the till was "
             f"still working. Give each try {TRY:g} s."
         ),
-    )
-
-
-def _pauses_after_a_timeout(context: CheckContext, first: float, second: float) -> None:
-    """Assert that a pause follows an attempt that took TRY s; `first` and `second` are times of requests."""
-    pause = second - first - TRY
-    context.require(
-        "there is a pause before the next try",
-        holds=pause > PAUSE / 2,
-        expected=f"{PAUSE:g} s or more",
-        actual=f"{pause:.3f} s",
-        hints="There was no pause after a TimeoutError. Sleep after every failed try.",
     )
 
 
