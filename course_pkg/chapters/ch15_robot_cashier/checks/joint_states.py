@@ -13,7 +13,7 @@ FIRST = 1000  # The first joint state has this stamp in s; each following stamp 
 COUNT = 24
 EFFORT = 7  # The joint state with this index has an infinite effort.
 FEW_EFFORTS = 9  # The joint state with this index has fewer efforts than names.
-EMPTY = 21  # The joint state with this index has no names, positions and velocities.
+EMPTY = 21  # The joint state with this index has no joints.
 
 
 @dataclass
@@ -80,7 +80,7 @@ def joint_states(context: CheckContext) -> list[JointState]:
     # The following joint states are valid.
     states[EFFORT].effort[0] = math.inf
     states[FEW_EFFORTS].effort = states[FEW_EFFORTS].effort[:2]
-    states[EMPTY].name, states[EMPTY].position, states[EMPTY].velocity = [], [], []
+    states[EMPTY].name, states[EMPTY].position, states[EMPTY].velocity, states[EMPTY].effort = [], [], [], []
     return states
 
 
