@@ -332,6 +332,8 @@ replace('rospy.init_node("spawn_turtle_plus")\n    sys.exit(main())', "main()")
 replace('        call("toggle_forward", Empty)\n        call("change_speed", ChangeSpeed, 2.0)\n', '        call("change_speed", ChangeSpeed, 2.0)\n        call("toggle_forward", Empty)\n')
 # %% 09.5 wrong: waits for the first only | hint: wait for each service
 replace('    rospy.wait_for_service(name, timeout=5)\n', '    if name == "spawn":\n        rospy.wait_for_service(name, timeout=5)\n')
+# %% 09.5 wrong: waits for all services first | hint: /toggle_forward starts only after the call of /spawn
+replace("    try:\n", "    try:\n        for service in (\"spawn\", \"toggle_forward\", \"change_speed\"):\n            rospy.wait_for_service(service, timeout=5)\n")
 # %% 09.5 wrong: waits 1 s at most | hint: wait for each service
 replace("timeout=5", "timeout=1")
 # %% 09.5 wrong: another name | hint: The program waits, but calls no further service

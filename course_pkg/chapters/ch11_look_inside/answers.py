@@ -493,6 +493,8 @@ class Keeper:
                 self.proxy.close()
                 self.proxy = None
 
+# %% 11.5 wrong: waits for the server | hint: Without a server, your method did not return
+replace("        self.proxy.close()\n", "        rospy.wait_for_service(self.service)\n")
 # %% 11.5 wrong: another order of the sides | hint: The request contains other sides
 replace("            return self.proxy(length, width, height)", "            return self.proxy(width, length, height)")
 # %% 11.5 wrong: a new connection for each call | hint: The connection was not persistent

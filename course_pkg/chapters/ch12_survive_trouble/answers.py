@@ -400,6 +400,8 @@ class Watchdog:
         with self.lock:
             self.over.set()
 
+# %% 12.4 wrong: stops after it has registered the service | hint: The watchdog stopped polling although a master was running
+replace("rospy.get_node_uri())", "rospy.get_node_uri())\n                self.over.set()")
 # %% 12.4 wrong: a pause of one second | hint: The watchdog polls too rarely
 replace("self.over.wait(self.every)", "self.over.wait(1.0)")
 

@@ -763,6 +763,8 @@ replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
 replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
+# %% 15.10 wrong: a text as the parameter | hint: The parameter is a text
+replace('value="$(arg wait)"', 'value="$(arg wait)" type="str"')
 # %% 15.10 wrong: another default | hint: Without an argument, the value of wait has to be 2 s: write default="2.0".
 replace('default="2.0"', 'default="3.0"')
 # %% 15.10 wrong: a fixed value | hint: The parameter has a fixed value

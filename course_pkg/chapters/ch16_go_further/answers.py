@@ -15,6 +15,9 @@ class Fetcher:
             self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))
         self.server.set_succeeded(FetchResult(fetched=goal.things))
 
+# %% 16.1 wrong: one thing too many | hint: The result is too large by one
+replace("fetched=goal.things", "fetched=goal.things + 1")
+
 # %% 16.1 right: counts in the result, and checks after each thing
 class Fetcher(object):
     """A robot that sleeps with rospy."""

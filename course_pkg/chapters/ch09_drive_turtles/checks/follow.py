@@ -28,6 +28,7 @@ KINDS = {"spawn": SPAWN, "toggle_forward": "std_srvs/Empty", "change_speed": "co
 SPEED = 2.0  # m/s
 LATER = 2.0  # The service /toggle_forward starts after this many s.
 WHERE = "Publish only on /NAME/cmd_vel, where NAME is the name in the response of /spawn."
+TOO_LATE = "/toggle_forward starts only after the call of /spawn. Wait for each service just before its call."
 ENDED = "The node ended after the calls. A node with a subscriber has to wait in rospy.spin()."
 ENDING = 0.6  # A program without spin() ends within this many s.
 COUNT = 20  # COUNT is the number of velocities that the check publishes.
@@ -162,7 +163,8 @@ def _why_not_called(calls: list[str], running: Running, *, ended: bool) -> str:
     if ended and calls:
         return f"The program ended too early. /toggle_forward starts {LATER:g} s late: wait for each service."
     if ended:
-        return why_it_ended(running.stop())
+        done = running.stop()
+        return TOO_LATE if done.status == 1 and "Traceback" not in done.err else why_it_ended(done)
     return (
         "The program waits, but calls no further service. Compare the names of the "
         "three services with your names."

@@ -27,6 +27,7 @@ AGAIN = (
     "Your method called the service again and again. Call the service only once more, and raise the "
     "error of this second call."
 )
+WAITED = "Without a server, your method did not return. Call only once more, and do not wait for the service."
 NOT_MEASURED = "The second call failed, too, so there is no response. Raise the error of the second call."
 REFUSED = (
     "The server refused with an error message: raise this error.",
@@ -191,7 +192,7 @@ def _reports_a_missing_server(context: CheckContext, client: Client) -> None:
         holds=not result.error.startswith("TimesUp"),
         expected="an immediate error",
         actual=result.error,
-        hints=AGAIN,
+        hints=WAITED,
     )
 
 

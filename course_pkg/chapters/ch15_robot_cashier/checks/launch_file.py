@@ -29,7 +29,7 @@ for node in config.nodes:
     for key, value in re.findall(r"(?<!\\S)_(\\w+):=(\\S+)", node.args or ""):
         print(f"{node.namespace}{node.name}/{key}: {value}")
 for parameter in config.params.values():
-    print(f"{parameter.key}: {parameter.value}")
+    print(f"{parameter.key}: {parameter.value!r}")
 """
 
 UNDECLARED = (
@@ -67,6 +67,7 @@ PLACE = (
     'The parameter "wait" does not belong to robot_cashier: write the <param> tag '
     "inside the <node> tag of robot_cashier."
 )
+TEXT = 'The parameter is a text. Remove the attribute "type", so that roslaunch stores a number.'
 DEFAULT_WAIT = 'Without an argument, the value of wait has to be 2 s: write default="2.0".'
 NOT_PASSED = (
     'The parameter has a fixed value. Write value="$(arg wait)", so that it gets the value of the argument.'
@@ -163,6 +164,7 @@ def _passes_the_argument(context: CheckContext, printed: str, wait: float, given
         hints=[
             (matches("no parameter"), NO_PARAMETER),
             (lambda _: not found, PLACE),
+            (lambda _: bool(found) and found[1].startswith("'"), TEXT),
             (lambda _: not given, DEFAULT_WAIT),
             (ANYTHING, NOT_PASSED),
         ],
@@ -171,7 +173,7 @@ def _passes_the_argument(context: CheckContext, printed: str, wait: float, given
 
 def _number(text: str) -> float | None:
     try:
-        return float(text.strip().strip("'\""))
+        return float(text)
     except ValueError:
         return None
 

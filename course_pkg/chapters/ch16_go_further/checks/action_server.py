@@ -94,6 +94,7 @@ def _wrong_number_fetched(things: int) -> Hints:
             things - 1,
             "The result is too small by one, because range() counts from 0. Return the number of things.",
         ),
+        (things + 1, "The result is too large by one. Stop after goal.things things."),
     ]
 
 
