@@ -311,7 +311,7 @@ replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.
 # %% 15.5 wrong: publishes later | hint: The images come late
 replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
 # %% 15.5 wrong: publishes nothing | hint: No mirror image came
-replace("    if is_valid(joints):", "    if not joints.name:")
+replace("    if is_valid(joints):", "    if joints is None:")
 # %% 15.5 wrong: another type | hint: The topic joint_states has the type sensor_msgs/JointState
 replace('''"joint_states", JointState, handle''', '''"joint_states", JointTrajectory, handle''')
 replace("import math\n", "import math\n\nfrom std_msgs.msg import Header as JointTrajectory\n")

@@ -54,13 +54,10 @@ def safe_with_fifty_clients(context: CheckContext) -> None:
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     few = context.random.integer(2, 4)
-    shelf = CheckedShelf(few)
-    take = _opened(context, name, shelf, ONE)
+    take = _opened(context, name, CheckedShelf(few), ONE)
     try:
         for left in [*range(few - 1, -1, -1), None, None]:
             _takes_one(context, take, left)
-        shelf.things = few
-        _sells_what_comes_later(context, take, few)
     finally:
         context.run("checked_shop.close")
     context.fulfilled(EMPTIED)
@@ -69,6 +66,8 @@ def safe_with_fifty_clients(context: CheckContext) -> None:
     take = _opened(context, name, shelf, MANY)
     try:
         _takes_all(context, take, shelf, count)
+        shelf.things = few
+        _sells_what_comes_later(context, take, few)
     finally:
         context.run("checked_shop.close")
 
