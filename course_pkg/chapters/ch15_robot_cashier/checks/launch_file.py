@@ -164,7 +164,7 @@ def _passes_the_argument(context: CheckContext, printed: str, wait: float, given
         hints=[
             (matches("no parameter"), NO_PARAMETER),
             (lambda _: not found, PLACE),
-            (lambda _: bool(found) and found[1].startswith("'"), TEXT),
+            (matches("wait: '"), TEXT),
             (lambda _: not given, DEFAULT_WAIT),
             (ANYTHING, NOT_PASSED),
         ],
