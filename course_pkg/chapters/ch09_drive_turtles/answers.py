@@ -101,6 +101,8 @@ def main():
 replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
 # %% 09.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
 replace('\nforward = True', '\nforward = False')
+# %% 09.2 wrong: the handler publishes a velocity of 0 | hint: A message contained another velocity
+replace("    return EmptyResponse()", "    publisher.publish(Twist())\n    return EmptyResponse()")
 # %% 09.2 wrong: twice as fast | hint: To drive straight ahead, set linear.x = 1.0
 replace('linear.x = 1.0', 'linear.x = 2.0')
 # %% 09.2 wrong: no global | hint: After the call, the turtle still goes straight ahead
@@ -148,6 +150,8 @@ replace("before = frequency … before=before)", "old, frequency = frequency, re
 replace("toggle_forward", "/toggle_forward")
 replace("\n    used, rate = frequency, rospy.Rate(frequency)", "")
 replace("if used != … rate.sleep()", "rospy.sleep(1.0 / frequency)")
+# %% 09.3 wrong: a new rate sets the first direction again | hint: A call of /change_rate also changed the direction
+replace("    global frequency\n", "    global frequency, forward\n    forward = True\n")
 # %% 09.3 wrong: the loop keeps its rate | hint: A Rate object cannot change its rate
 replace('used != frequency', 'used < 0')
 # %% 09.3 wrong: returns the new rate | hint: The field `before` contains the new rate
@@ -280,6 +284,8 @@ replace('if request.data == self.moving:', 'if request.data != getattr(self, "st
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
 # %% 09.4 wrong: a speed that is set while it is stopped is lost | hint: The client called /change_speed while the turtle was stopped
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')
+# %% 09.4 wrong: a toggle starts a turtle that is stopped | hint: A call of /toggle_forward started the turtle again
+replace('self.forward = not self.forward\n', 'self.forward = not self.forward\n        self.moving = True\n')
 # %% 09.4 wrong: at most 10 m/s | hint: The turtle does not move at the speed that /change_speed has set
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, min(max(request.speed, -10), 10)')
 # %% 09.4 wrong: success is the value of data | hint: The field `success` is False
@@ -324,8 +330,12 @@ replace("try: … return 0", """rospy.init_node("spawn_turtle_plus")
 replace('rospy.init_node("spawn_turtle_plus")\n    sys.exit(main())', "main()")
 # %% 09.5 wrong: the speed first | hint: The program calls the three services in the wrong order
 replace('        call("toggle_forward", Empty)\n        call("change_speed", ChangeSpeed, 2.0)\n', '        call("change_speed", ChangeSpeed, 2.0)\n        call("toggle_forward", Empty)\n')
-# %% 09.5 wrong: waits for the first only | hint: The program ended too early, because /toggle_forward starts half a second late
+# %% 09.5 wrong: waits for the first only | hint: The program ended too early, because /toggle_forward starts
 replace('    rospy.wait_for_service(name, timeout=5)\n', '    if name == "spawn":\n        rospy.wait_for_service(name, timeout=5)\n')
+# %% 09.5 wrong: waits for all services first | hint: /toggle_forward starts only after the call of /spawn
+replace("    try:\n", "    try:\n        for service in (\"spawn\", \"toggle_forward\", \"change_speed\"):\n            rospy.wait_for_service(service, timeout=5)\n")
+# %% 09.5 wrong: waits 1 s at most | hint: The program ended too early, because /toggle_forward starts
+replace("timeout=5", "timeout=1")
 # %% 09.5 wrong: another name | hint: The program waits, but does not call the next service
 replace('call("toggle_forward", Empty)', 'call("toggle", Empty)')
 # %% 09.5 wrong: another place | hint: The request is wrong

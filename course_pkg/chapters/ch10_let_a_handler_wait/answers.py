@@ -77,6 +77,12 @@ replace("target=call)", "target=call, args=name)")
 # %% 10.1 wrong: the return value of a thread | hint: The list contains None
 replace("messages.append(proxy().message)", "proxy()")
 replace("return messages", "return [thread.join() for thread in threads]")
+# %% 10.1 wrong: a set of all messages | hint: Two clients got the same message
+replace("messages = []", "messages = set()")
+replace("messages.append", "messages.add")
+replace("return messages", "return list(messages)")
+# %% 10.1 wrong: a limit for each join | hint: Join every thread before you return
+replace("thread.join()", "thread.join(0.2)")
 # %% 10.1 wrong: a set of one message | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
 # %% 10.1 wrong: no return line | hint: without a return line
@@ -133,6 +139,9 @@ replace("\n    if customer is None:\n        return False, 0, rospy.Time()", "")
 replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None:
             if not watch.changed.wait(request.patience):
                 break""")
+# %% 10.2 wrong: remembers a customer who has left | hint: No customer is there, so the field `detected` has to be False
+replace("def handle_detect", "seen = {}\n\n\ndef handle_detect")
+replace("        customer = watch.next(request.after)\n", "        customer = seen.get(request.after) or watch.next(request.after)\n    if customer:\n        seen[request.after] = customer\n")
 # %% 10.2 wrong: looks twice a second | hint: so it notices a customer late
 based_on("looks ten times a second")
 replace("0.1", "0.5")
@@ -286,6 +295,13 @@ replace("with self.changed … self.items))", """with self.there:
         return self.items > 0""")
 # %% 10.3 wrong: no notify | hint: An item came, but the waiting call did not return
 replace("\n            self.changed.notify_all()", "")
+# %% 10.3 wrong: a list in the class | hint: Two baskets share their items
+replace("    def __init__", "    items = []\n\n    def __init__")
+replace("        self.items = 0\n", "")
+replace("self.items += 1", "self.items.append(1)")
+replace("str(self.items)", "str(len(self.items))", times=2)
+replace("self.items > 0", "self.items")
+replace("self.items -= 1", "self.items.pop()")
 # %% 10.3 wrong: no loop | hint: The handler of /take returned an item although the basket was empty
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "if self.items == 0 and not self.changed.wait(self.limit)")
 # %% 10.3 wrong: no limit | hint: The handler of /take waits longer than the limit
@@ -362,6 +378,10 @@ replace("        self.lock = … count - 1)", """
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)""")
+# %% 10.4 wrong: reads the shelf only once | hint: New things were put on the shelf
+replace("self.shelf = shelf", "self.shelf, self.count = shelf, shelf.read()")
+replace("            count = self.shelf.read()\n", "            count = self.count\n")
+replace("self.shelf.write(count - 1)", "self.count = count - 1\n            self.shelf.write(count - 1)")
 # %% 10.4 wrong: a lock for each call | hint: Two handlers read the same number, so one sale was lost
 replace("\n        self.lock = threading.Lock()", "")
 replace("self.lock", "threading.Lock()")

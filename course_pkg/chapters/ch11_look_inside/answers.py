@@ -34,6 +34,8 @@ replace('"{name}={value}".encode()', '"{name}={value}"')
 replace("+ text", "+ text.encode()")
 # %% 11.1 wrong: lines, as in HTTP | hint: The text between name and value is wrong
 replace("{name}={value}", "{name}: {value}")
+# %% 11.1 wrong: leaves out an empty value | hint: A field with an empty value is missing
+replace("        text = f", "        if not value:\n            continue\n        text = f")
 # %% 11.1 wrong: one length for all | hint: The length of a field is missing
 replace('body = b"" … text)) + text', 'body = "".join(f"{name}={value}" for name, value in fields.items()).encode()')
 
@@ -98,6 +100,10 @@ def receive(sock, count):
     return sock.recv(count)
 import time
 
+# %% 11.2 wrong: a time limit of its own | hint: The function gave up while it waited for the next piece
+replace('    data = b""\n', '    sock.settimeout(0.1)\n    data = b""\n')
+# %% 11.2 wrong: closes the socket before it raises | hint: The function closed the socket
+replace("            raise", "            sock.close()\n            raise")
 # %% 11.2 wrong: calls recv once | hint: The function returned too few bytes
 replace('data = b"" … return data', "return sock.recv(count)")
 # %% 11.2 wrong: never notices the end | hint: The function never returned after the connection was closed
@@ -386,6 +392,8 @@ class Sessions:
             self.calls[name] += 1
             return {"total": self.totals[name], "calls": self.calls[name]}
 
+# %% 11.4 wrong: a dict in the class | hint: A new Sessions object already had a total
+replace("    def __init__(self):\n        self.sessions = {}\n", "    sessions = {}\n")
 # %% 11.4 wrong: one total for all sessions | hint: The response contains the total of all sessions
 replace('request._connection_header.get("session")', '"everybody"')
 # %% 11.4 wrong: forgets the total after each call | hint: The response contains only the amount of this call
@@ -485,6 +493,10 @@ class Keeper:
                 self.proxy.close()
                 self.proxy = None
 
+# %% 11.5 wrong: waits for the server | hint: Without a server, your method did not return
+replace("        self.proxy.close()\n", "        rospy.wait_for_service(self.service)\n")
+# %% 11.5 wrong: another order of the sides | hint: The request contains other sides
+replace("            return self.proxy(length, width, height)", "            return self.proxy(width, length, height)")
 # %% 11.5 wrong: a new connection for each call | hint: The connection was not persistent
 replace("self.service = service … persistent=True)", "self.proxy = rospy.ServiceProxy(service, geometry)")
 replace("\n        try: … .connect()", "")
@@ -604,6 +616,8 @@ class Remembering:
         uri = rosgraph.Master(node.name).lookupService(self.service)
         return ask(uri, self.service, length, width, height)
 
+# %% 11.6 wrong: another order of the sides | hint: The request contains other sides
+replace("self.service, length, width, height", "self.service, height, length, width", times=2)
 # %% 11.6 wrong: never looks again | hint: No server is at the old address any more
 based_on("looks up for each call")
 replace("\n\n", "\n        self.uri = rosgraph.Master(node.name).lookupService(service)\n\n")

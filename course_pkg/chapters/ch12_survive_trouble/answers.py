@@ -289,6 +289,9 @@ def pay(till, cents, deadline):
             return response.receipt
         time.sleep(max(0, min(pause, over - time.time())))
 
+# %% 12.3 wrong: no pause after a TimeoutError | hint: There was no pause after a TimeoutError
+based_on("a loop with a clock")
+replace("                raise\n", "                raise\n            if isinstance(error, TimeoutError):\n                continue\n")
 # %% 12.3 wrong: treats a bad return value as a refusal | hint: An error with "handler returned" is not a refusal, because the handler has perhaps
 replace(' and "handler returned" not in str(error)', "")
 # %% 12.3 wrong: doubles before the first sleep | hint: The first pause is too long
@@ -397,6 +400,8 @@ class Watchdog:
         with self.lock:
             self.over.set()
 
+# %% 12.4 wrong: stops after it has registered the service | hint: The watchdog stopped polling although a master was running
+replace("rospy.get_node_uri())", "rospy.get_node_uri())\n                self.over.set()")
 # %% 12.4 wrong: a pause of one second | hint: The watchdog polls too rarely
 replace("self.over.wait(self.every)", "self.over.wait(1.0)")
 

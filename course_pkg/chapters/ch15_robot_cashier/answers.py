@@ -219,6 +219,9 @@ replace("return time.monotonic() - self.arrived > 1.0", "return False")
 replace("lambda: self.customer and not self.is_silent()", "lambda: self.customer")
 # %% 15.3 wrong: refuses at once | hint: The node refused the call too early
 replace("        with self.changed:\n            found", "        if self.is_silent():\n            raise rospy.ServiceException('the camera is silent')\n        with self.changed:\n            found")
+# %% 15.3 wrong: uses only messages that come during the call | hint: A message that arrived before the call is valid, too
+replace("        with self.changed:\n            found", "        began = time.monotonic()\n        with self.changed:\n            found")
+replace("if not found and self.is_silent()", "if not found and self.arrived < began")
 # %% 15.3 wrong: a message counts for 0.2 s | hint: The node did not use the last message
 replace("self.arrived > 1.0", "self.arrived > 0.2")
 # %% 15.3 wrong: a message without camera | hint: The error message does not contain the word "camera"
@@ -291,6 +294,10 @@ replace("    if is_valid(joints):", "    if not is_valid(joints):\n        joint
 replace("not in (0, count)", "!= count")
 # %% 15.5 wrong: finite efforts only | hint: The node ignored a joint state with an infinite effort, which is valid
 replace("*joints.velocity]", "*joints.velocity, *joints.effort]")
+# %% 15.5 wrong: compares the number of efforts | hint: The conditions do not mention the number of efforts
+replace("len(joints.velocity) not in (0, count)", "len(joints.velocity) not in (0, count) or len(joints.effort) not in (0, count)")
+# %% 15.5 wrong: leaves out a joint state without joints | hint: A joint state with 0 names and 0 positions is valid
+replace("if len(joints.position) != count", "if not count or len(joints.position) != count")
 # %% 15.5 wrong: published twice | hint: Some images arrived more than once
 replace("        mirrored.publish(", "        mirrored.publish(JointState(joints.header, joints.name, [-p for p in joints.position], [-v for v in joints.velocity], joints.effort))\n        mirrored.publish(")
 # %% 15.5 wrong: ends with the first invalid one | hint: No image arrived after the first invalid joint state
@@ -304,7 +311,7 @@ replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.
 # %% 15.5 wrong: publishes later | hint: The images arrive late
 replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
 # %% 15.5 wrong: publishes nothing | hint: No mirror image arrived
-replace("    if is_valid(joints):", "    if not joints.name:")
+replace("    if is_valid(joints):", "    if joints is None:")
 # %% 15.5 wrong: another type | hint: The node does not subscribe to joint_states with the right type
 replace('''"joint_states", JointState, handle''', '''"joint_states", JointTrajectory, handle''')
 replace("import math\n", "import math\n\nfrom std_msgs.msg import Header as JointTrajectory\n")
@@ -435,6 +442,11 @@ replace('    there = True\n', """    there = True
 replace("        reset()\n", '        rospy.wait_for_service("till/reset")\n        reset()\n')
 # %% 15.6 wrong: resets before and after | hint: more often than there were visits
 replace('    greetings.publish("Good day!")\n', '    greetings.publish("Good day!")\n    try:\n        reset()\n    except rospy.ServiceException:\n        pass\n')
+# %% 15.6 wrong: mirrors nothing during a visit | hint: During a visit, the node mirrored nothing
+replace("def is_valid", "visiting = False\n\n\ndef is_valid")
+replace("    if is_valid(joints):", "    if is_valid(joints) and not visiting:")
+replace('    greetings.publish("Good day!")\n', '    global visiting\n    visiting = True\n    greetings.publish("Good day!")\n')
+replace("    try:\n        reset()\n", "    visiting = False\n    try:\n        reset()\n")
 # %% 15.6 wrong: calls in the callback | hint: The node publishes no mirror image while a call waits
 replace("handle_joints(joints):", "handle_joints(joints):\n    if is_there(wait):\n        attend_visit()")
 replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
@@ -751,6 +763,8 @@ replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
 replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
+# %% 15.10 wrong: a text as the parameter | hint: The parameter is a text
+replace('value="$(arg wait)"', 'value="$(arg wait)" type="str"')
 # %% 15.10 wrong: another default | hint: Without an argument, the value of "wait" has to be 2 s
 replace('default="2.0"', 'default="3.0"')
 # %% 15.10 wrong: a fixed value | hint: The parameter always has the same value, even if the user passes another value

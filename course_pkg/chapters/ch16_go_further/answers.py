@@ -15,6 +15,9 @@ class Fetcher:
             self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))
         self.server.set_succeeded(FetchResult(fetched=goal.things))
 
+# %% 16.1 wrong: one thing too many | hint: The result is too large by one
+replace("fetched=goal.things", "fetched=goal.things + 1")
+
 # %% 16.1 right: counts in the result, and checks after each thing
 class Fetcher(object):
     """A robot that sleeps with rospy."""
@@ -141,6 +144,9 @@ def fetch_within(name, things, seconds):
         robot.send_goal_and_wait(goal, rospy.Duration(seconds), rospy.Duration(3))
         return robot.get_result().fetched
 
+# %% 16.2 wrong: cancels the goals of all clients | hint: cancel_all_goals() also cancels the goals of other clients
+based_on("waits, cancels, and waits again")
+replace("cancel_goal()", "cancel_all_goals()")
 # %% 16.2 wrong: waits without a limit | hint: A wait without a time limit did not end
 replace("if not client.wait_for_result … Duration(2))", "client.wait_for_result()")
 # %% 16.2 wrong: sleeps for the whole time | hint: The function still waited after the result had arrived
@@ -346,5 +352,7 @@ replace("if goal.things … goal.things):", """for delivered in range(goal.thing
                 return""")
 # %% 16.4 wrong: counts parcels that it does not deliver | hint: The robot delivered no parcel, so the result has to be 0
 replace("set_aborted(FetchResult(fetched=0)", "set_aborted(FetchResult(fetched=goal.things)")
+# %% 16.4 wrong: a pause before it aborts | hint: Compare goal.things with the capacity before the loop
+replace("            self.server.set_aborted", "            rospy.sleep(goal.seconds)\n            self.server.set_aborted")
 # %% 16.4 wrong: one parcel less | hint: The robot refused a delivery that it can carry
 replace("goal.things > self.capacity", "goal.things >= self.capacity")

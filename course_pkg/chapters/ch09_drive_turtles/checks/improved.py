@@ -198,6 +198,13 @@ def _starts_and_stops(
                 "messages in which all fields are 0."
             ),
         )
+        for _ in range(2):
+            toggle()
+        stream.becomes(
+            STANDING,
+            "data=False stops the turtle: the program publishes velocities of 0",
+            "A call of /toggle_forward started the turtle again. In its handler, change only the direction.",
+        )
         _says(context, switch, moving=False, already=True)
         speed = context.random.number(2.0, 9.0)
         before = change_speed(speed=speed).before

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from course_pkg.chapters.ch09_drive_turtles.checks.toggle import toggles_the_stream
+from course_pkg.chapters.ch09_drive_turtles.checks.toggle import ONE_CALL, TURNING, toggles_the_stream
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
 from course_pkg.chapters.ch09_drive_turtles.checks.velocities import Stream
@@ -15,6 +15,7 @@ KIND = "course_pkg/ChangeRate"
 AT_FIRST = 2.0  # The first rate is in messages per second.
 # The check sets this rate (messages per second) at the end, because the next message then comes after 1000 s.
 TINY = 0.001
+TURNS_BACK = "A call of /change_rate also changed the direction. In its handler, change only the rate."
 ALLOWED = "The node refused an allowed rate. Accept every number above 0 and up to 100, such as 2.5."
 REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
 
@@ -86,7 +87,9 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
         change = world.service("change_rate", KIND, REFUSALS)
         rate = sets_rates(context, change, stream)
         context.fulfilled(CHANGED)
-        toggles_the_stream(world.service("toggle_forward", "std_srvs/Empty"), stream)
+        toggle = world.service("toggle_forward", "std_srvs/Empty")
+        toggles_the_stream(toggle, stream)
+        toggle()
         context.expect(
             "the response contains the rate before the call",
             expected=rate,
@@ -97,6 +100,7 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
                 "/toggle_forward, change only the direction."
             ),
         )
+        stream.becomes(TURNING, ONE_CALL, TURNS_BACK)
         stream.moves_turtle()
         change(rate=TINY)
 

@@ -232,7 +232,7 @@ def _is_refused(context: CheckContext, world: World) -> None:
 
 def _gives_up(context: CheckContext, world: World, running: Running, began: float) -> None:
     looked = time.monotonic()
-    done = world.ends(running, max(began + LIMIT + LATE - looked, 0.1))
+    done = world.ends(running, max(began + LIMIT + at_this_load(LATE) - looked, 0.1))
     took = time.monotonic() - began
     context.require(
         GIVES_UP,

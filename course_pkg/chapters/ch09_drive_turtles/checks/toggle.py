@@ -102,6 +102,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
         _counts_each_call(toggle, stream)
+        stream.only(STRAIGHT, TURNING)
         context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(
             RATE,

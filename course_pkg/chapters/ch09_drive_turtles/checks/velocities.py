@@ -83,6 +83,17 @@ class Stream:
             hints="A field is not 0, although it has to be 0. Set only linear.x and angular.z.",
         )
 
+    def only(self, *wanted: tuple[float, float]) -> None:
+        """Assert that each message so far contains one of these velocities (m/s, rad/s)."""
+        others = [each for each in map(velocity, self._subscription.arrivals) if each not in wanted]
+        self._context.require(
+            KEEP_COMING,
+            holds=not others,
+            expected=f"only the velocities {' and '.join(map(str, wanted))}",
+            actual=others[0] if others else "no other velocity",
+            hints="A message contained another velocity. Publish in the loop, and not in the handler.",
+        )
+
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
         """Assert that `wanted` messages per second arrive.
 

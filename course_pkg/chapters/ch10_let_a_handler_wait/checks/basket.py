@@ -30,6 +30,9 @@ class CheckedBasket:
             rospy.Service(take, Trigger, self.basket.handle_take),
         ]
 
+    def open_another(self, kind, limit, put):
+        self.services.append(rospy.Service(put, Trigger, kind(limit).handle_put))
+
     def wake(self):
         '''Wake the waiting threads although nothing has changed.'''
         for value in vars(self.basket).values():
@@ -65,6 +68,10 @@ TOO_MANY = (
 TOO_EARLY = (
     "The handler of /take returned before its time limit was over. If a thread wakes up and no item "
     "is there, let the thread wait again for the remaining time."
+)
+SHARED = (
+    "Two baskets share their items, so the second basket was not empty at first. Create the items in "
+    "__init__ and store them in self, not in the class."
 )
 ERRORS = [
     (
@@ -102,7 +109,7 @@ def wait_for_another_call(context: CheckContext) -> None:
 
     After that, use many clients.
     """
-    names = [f"/{context.random.word()}" for _ in range(2)]
+    *names, another = [f"/{context.random.word()}" for _ in range(3)]
     context.prepare(KERNEL_CODE)
     opened = context.run("checked_basket.open", Its("Basket"), LIMIT, *names, worded=f"Basket({LIMIT:g})")
     context.require("a Basket can be created from a limit", holds=not opened.error, actual=opened.error)
@@ -112,6 +119,7 @@ def wait_for_another_call(context: CheckContext) -> None:
     )
     try:
         _puts_and_takes(context, put, take)
+        _shares_nothing(context, another, put, take)
         _waits_for_an_item(context, put, take)
         _shares_the_items(context, put, take)
     finally:
@@ -126,6 +134,19 @@ def _puts_and_takes(context: CheckContext, put: Service, take: Service) -> None:
         response = take()
         _at_once(context, "an item that is in the basket is taken immediately", take.took)
         _answer(context, "/take subtracts one from the number of items", response, True, str(number))
+
+
+def _shares_nothing(context: CheckContext, another: str, put: Service, take: Service) -> None:
+    """Put an item into the first basket, and then an item into a new basket; the new basket has one item."""
+    put()
+    worded = f"Basket({LIMIT:g})"
+    opened = context.run("checked_basket.open_another", Its("Basket"), LIMIT, another, worded=worded)
+    context.require("a Basket can be created from a limit", holds=not opened.error, actual=opened.error)
+    response = context.service(another, TRIGGER, hints=ERRORS)()
+    context.expect(
+        "/put adds one to the number of items", expected="1", actual=response.message, hints=SHARED
+    )
+    take()
 
 
 def _answer(context: CheckContext, assertion: str, response: Message, success: bool, message: str) -> None:

@@ -147,12 +147,15 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Respond only after all clients have called; use two different numbers of clients."""
+    """Respond only after all clients have called; use two different numbers of clients.
+
+    The calls of the first round are longer, so that a join() with a short limit ends before a call.
+    """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
         counts = [context.random.integer(3, 4), context.random.integer(24, 36)]
-        late = max([_round(context, count) for count in counts])
+        late = max([_round(context, count, hold) for count, hold in zip(counts, (LONGER, 0.0), strict=True)])
         if late > PROMPT:
             _round(context, counts[0], late + LONGER)
     finally:
@@ -167,7 +170,8 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
     name = f"/{context.random.word()}"
     proxies = Proxies()
     context.place("checked_proxies", proxies)
-    words = [context.random.word(8) for _ in range(count)]
+    word, *words = (context.random.word(8) for _ in range(count - 1))
+    words += [word, word]  # Two responses contain the same message.
     gate = Gate(count, words, hold)
     server = context.serve(name, TRIGGER, gate)
     result = context.run("call_at_once", name, count, within=LIMIT + hold, hints=ERRORS)
@@ -231,6 +235,11 @@ def _returned(context: CheckContext, words: list[str], found: Json) -> None:
         actual=found,
         hints=[
             (None, NO_RETURN),
+            (
+                lambda actual: isinstance(actual, list) and sorted(map(str, actual)) == sorted(set(words)),
+                "Two clients got the same message, but it is only once in the result. Append each message "
+                "to a list, because a set and the keys of a dict contain each text only once.",
+            ),
             (
                 lambda actual: isinstance(actual, list) and len(actual) < len(words),
                 "Not all messages are in the list. Join every thread before you return the list.",

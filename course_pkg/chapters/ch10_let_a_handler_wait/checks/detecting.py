@@ -283,6 +283,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
     coming = context.random.integer(1000, 9000)
     shop.there()
     shop.await_sight(0)
+    _no(context, detect(after=0, patience=0.0))  # The customers of the earlier calls have left.
     shop.later(LATER, coming)
     shop.later(CHANGE, coming - 1, coming)
     patience = LATER + SLACK + 1.0

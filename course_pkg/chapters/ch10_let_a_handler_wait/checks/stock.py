@@ -72,6 +72,8 @@ def safe_with_fifty_clients(context: CheckContext) -> None:
     take = _opened(context, name, shelf, MANY)
     try:
         _takes_all(context, take, shelf, count)
+        shelf.things = few
+        _sells_what_comes_later(context, take, few)
     finally:
         context.run("checked_shop.close")
 
@@ -88,6 +90,19 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
     )
     context.require("a Stock can be created from a shelf", holds=not opened.error, actual=opened.error)
     return context.service(name, TRIGGER, hints=ERRORS, timeout=timeout)
+
+
+def _sells_what_comes_later(context: CheckContext, take: Service, things: int) -> None:
+    """Take a thing after the shelf was filled again with `things` things."""
+    context.expect(
+        'the message is the number of things that are left, or "sold out"',
+        expected=str(things - 1),
+        actual=take().message,
+        hints=(
+            "New things were put on the shelf, but the handler did not notice them. In each call, read the "
+            "number from the shelf."
+        ),
+    )
 
 
 def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:

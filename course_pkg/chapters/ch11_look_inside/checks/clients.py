@@ -31,6 +31,7 @@ AGAIN = (
     "Your method called the service again and again. After an error, call the service only once "
     "more, and raise the error of the second call."
 )
+WAITED = "Without a server, your method did not return. Call only once more, and do not wait for the service."
 NOT_MEASURED = "The second call also failed, so there is no response. Raise the error of the second call."
 REFUSED = (
     "The server refused the call and sent an error message. Raise this error.",
@@ -66,6 +67,7 @@ def persistent_client(context: CheckContext) -> None:
     client = Client(context, "Keeper", name)
     for volume in volumes[:3]:
         _measures(context, client, "the response is returned", volume)
+    _sends_the_sides(context, client, server, "the response is returned")
     _one_connection(context, server, "the calls share one connection")
     acts.insert(0, Refuse("not this box"))
     _reports_a_refusal(context, client, server, *REFUSED)
@@ -112,6 +114,17 @@ def _measures(context: CheckContext, client: Client, assertion: str, volume: Jso
                 "The method returned only a part of the response. Return the whole response of the proxy.",
             ),
         ],
+    )
+
+
+def _sends_the_sides(context: CheckContext, client: Client, server: ScriptedServer, assertion: str) -> None:
+    """Assert that the last request contains the sides that `measure` got."""
+    context.expect(
+        assertion,
+        expected=client.sides,
+        actual=[server.requests[-1][side] for side in ("length", "width", "height")],
+        near=1e-6,
+        hints="The request contains other sides. Pass length, width and height on in this order.",
     )
 
 
@@ -193,7 +206,7 @@ def _reports_a_missing_server(context: CheckContext, client: Client) -> None:
         holds=not result.error.startswith("TimesUp"),
         expected="an immediate error",
         actual=result.error,
-        hints=AGAIN,
+        hints=WAITED,
     )
 
 
@@ -260,6 +273,7 @@ def client_with_a_known_address(context: CheckContext) -> None:
     server = context.serve(name, GEOMETRY, lambda _: acts.pop(0) if acts[1:] else acts[0])
     client = Client(context, "Remembering", name)
     _measures_both(context, client, "area and volume are returned", numbers[0], ())
+    _sends_the_sides(context, client, server, "area and volume are returned")
     context.absent(name)
     _measures_both(context, client, "a call with a known address needs no master", numbers[1], LOST)
     _keeps_the_address(context, name, client, numbers[1])

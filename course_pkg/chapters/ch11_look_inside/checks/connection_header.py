@@ -27,6 +27,10 @@ import socket
 
 your_end = socket.socket(socket.AF_UNIX)
 your_end.connect("\\0{name}")
+
+
+def is_open():
+    return your_end.fileno() >= 0
 """
 ERRORS = [
     (
@@ -40,6 +44,7 @@ ERRORS = [
 WITHIN = 3.0  # WITHIN is the time limit in s for one call.
 # Wait this many s before sending the next part to a client that peeks at the bytes without reading them.
 PEEKING = 0.4
+PAUSE = 0.5  # The pieces of one message may be this many s apart.
 CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 
 
@@ -80,7 +85,7 @@ def packed_header(context: CheckContext) -> None:
     context.prepare(TYPE_OF_HEADER)
     for what, fields in (
         ("two fields", {"service": f"/{word()}", "md5sum": word(32)}),
-        ("a letter outside of ASCII", {"callerid": f"/{word(4)}", "robot": f"Jürgen {word(3)}"}),
+        ("a letter outside of ASCII", {"session": "", "robot": f"Jürgen {word(3)}"}),
         ("no field", {}),
     ):
         assertion = f"{what}: the bytes are a header of TCPROS"
@@ -171,6 +176,10 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
             ),
         ),
         (
+            _packed({name: value for name, value in fields.items() if value}),
+            "A field with an empty value is missing. Its text is the name and the equals sign.",
+        ),
+        (
             _packed(fields, code="latin-1", count=len),
             (
                 "The text is encoded in Latin-1. Call encode() without an argument to use UTF-8, in "
@@ -224,7 +233,7 @@ def exact_read(context: CheckContext) -> None:
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
     _receives(context, "bytes that arrive together", [whole], [12])
-    _receives(context, "bytes that arrive in pieces", [whole[:5], whole[5:6], whole[6:]], [12])
+    _receives(context, "bytes that arrive in pieces", [whole[:5], whole[5:6], whole[6:]], [12], PAUSE)
     _receives(context, "exactly `count` bytes, and the rest in the next call", [whole], [4, 8])
     joined = [whole[:5], whole[5:] + following]
     _receives(context, "no bytes of the next message, even if a piece contains some", joined, [12, 12])
@@ -237,6 +246,13 @@ def exact_read(context: CheckContext) -> None:
             "ConnectionError",
             hints=NOT_RAISED,
         )
+        context.require(
+            "if the connection ends before the last byte, a ConnectionError is raised",
+            holds=context.run("is_open", worded="receive()").returned() is True,
+            expected="a socket that is still open",
+            actual="a closed socket",
+            hints=CLOSED,
+        )
 
 
 TAKEN = (
@@ -245,20 +261,23 @@ TAKEN = (
 )
 
 
+CLOSED = "The function closed the socket. Leave the socket open, because the caller still uses it."
+
+
 class OtherEnd:
     """The check's end of the connection to the student's socket.
 
     The object sends `pieces`, and does not close the connection before the end of the block.
 
     Each piece is sent after the client has read the previous piece. Therefore, a client that reads only once
-    gets only one piece.
+    gets only one piece. There is a pause of `pause` s before each piece.
     """
 
-    def __init__(self, pieces: Sequence[bytes], *, closes: bool = False) -> None:
+    def __init__(self, pieces: Sequence[bytes], *, closes: bool = False, pause: float = 0.0) -> None:
         # The socket is in Linux's abstract namespace. The socket needs no file, and only this network
         # namespace can use the socket.
         self.name = f"course-{secrets.token_hex(8)}"
-        self._pieces, self._closes = pieces, closes
+        self._pieces, self._closes, self._pause = pieces, closes, pause
         self._listener = socket.socket(socket.AF_UNIX)
         self._listener.bind(f"\0{self.name}")
         self._listener.listen(1)
@@ -290,6 +309,7 @@ class OtherEnd:
             with sock:
                 self._sock = sock
                 for piece in self._pieces:
+                    self._over.wait(self._pause)
                     sock.sendall(piece)
                     wait_until(lambda: not _unread(sock), PEEKING, 0.005, self._over)
                 if not self._closes:
@@ -302,9 +322,11 @@ def _unread(sock: socket.socket) -> int:
     return int(count)
 
 
-def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: list[int]) -> None:
+def _receives(
+    context: CheckContext, what: str, pieces: list[bytes], counts: list[int], pause: float = 0.0
+) -> None:
     whole, at, left = b"".join(pieces), 0, True
-    with OtherEnd(pieces) as other:
+    with OtherEnd(pieces, pause=pause) as other:
         context.prepare(YOUR_END.format(name=other.name))
         for count in counts:
             expected = list(whole[at : at + count])
@@ -357,7 +379,11 @@ def _receive_errors(count: int = 1) -> Hints:
         ),
         (
             matches("Bad file descriptor|closed file"),
-            "The function closed the socket. Leave the socket open, because the caller still uses it.",
+            CLOSED,
+        ),
+        (
+            matches("^(TimeoutError|timeout|BlockingIOError)"),
+            "The function gave up while it waited for the next piece. Wait in recv() without a time limit.",
         ),
         (
             matches("^(Connection|BrokenPipe)"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import rospy
 
-from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.plain_values import Message, ServiceClass
 from course_pkg.checking.shared.own_program import require_kernel
@@ -16,6 +16,25 @@ REFUSED = (
     'The header had the field "session", but your handler refused the call. Check the field\'s '
     "name in your code."
 )
+SHARED = (
+    "A new Sessions object already had a total for this session. Create the dict in __init__ and store it in "
+    "self, so that each object has its own totals."
+)
+ANOTHER = """
+import rospy
+from course_pkg.srv import AddUp
+
+
+class AnotherSessions:
+    def open(self, kind, name):
+        self.service = rospy.Service(name, AddUp, kind().handle)
+
+    def close(self):
+        self.service.shutdown("checked")
+
+
+another_sessions = AnotherSessions()
+"""
 TOTALS = "Keep a separate total for each session."
 
 
@@ -37,6 +56,7 @@ def totals_of_sessions(context: CheckContext) -> None:
     turns = [first, second, first, first, second, second, *others, first]
     # The amounts are larger than the number of calls, so a total differs from a number of calls.
     amounts = context.random.integers(len(turns), 20, 900)
+    amounts[3] = -amounts[3]
     totals = dict.fromkeys(turns, 0)
     counts = dict.fromkeys(turns, 0)
     everything = 0
@@ -69,8 +89,27 @@ def totals_of_sessions(context: CheckContext) -> None:
             )
         ],
     )
+    _shares_no_total(context, kind, first)
     context.fulfilled(TOTALS)
     _refuses_without_a_session(context, kind)
+
+
+def _shares_no_total(context: CheckContext, kind: ServiceClass, session: str) -> None:
+    """Call a new object of the class in a session that the first object knows."""
+    name, amount = f"/{context.random.word()}", context.random.integer(20, 900)
+    context.prepare(ANOTHER)
+    opened = context.run("another_sessions.open", Its("Sessions"), name, worded="Sessions()")
+    assertion = "the response contains the total of the session"
+    context.require(assertion, holds=not opened.error, actual=opened.error)
+    try:
+        context.expect(
+            assertion,
+            expected=amount,
+            actual=_answer(context, kind, amount, {"session": session}, name=name).total,
+            hints=SHARED,
+        )
+    finally:
+        context.run("another_sessions.close", worded="Sessions()")
 
 
 def _wrong_total(amount: int, calls: int, everything: int) -> Hints:
@@ -187,10 +226,15 @@ def _refuses_without_a_session(context: CheckContext, kind: ServiceClass) -> Non
 
 
 def _answer(
-    context: CheckContext, kind: ServiceClass, amount: int, headers: dict[str, str], refused: str = REFUSED
+    context: CheckContext,
+    kind: ServiceClass,
+    amount: int,
+    headers: dict[str, str],
+    refused: str = REFUSED,
+    name: str = NAME,
 ) -> Message:
     try:
-        return _call(kind, amount, headers)
+        return _call(kind, amount, headers, name)
     except rospy.ServiceException as error:
         context.fail(
             "a call with a session gets a response",
@@ -219,8 +263,8 @@ def _why_refused(message: str, refused: str) -> str:
     )
 
 
-def _call(kind: ServiceClass, amount: int, headers: dict[str, str]) -> Message:
-    proxy = BoundedProxy(NAME, kind, headers=headers, timeout=TIMEOUT)
+def _call(kind: ServiceClass, amount: int, headers: dict[str, str], name: str = NAME) -> Message:
+    proxy = BoundedProxy(name, kind, headers=headers, timeout=TIMEOUT)
     try:
         return proxy.call(amount=amount)
     finally:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import sys
 import textwrap
 
 from course_pkg.chapters.ch11_look_inside.checks.clients import GEOMETRY
@@ -20,6 +21,9 @@ from course_pkg.waiting import wait_until
 
 # A float32 stores this fraction exactly, and the fraction has many decimals.
 BINARY = 65 / 512
+# On Linux, every address of 127.0.0.0/8 belongs to this computer. A client that always connects to localhost
+# does not reach a server at this address.
+OTHER_HOST = "127.0.0.2"
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
 NO_PROXY = (
     "The function calls the service with a proxy. Instead, connect a socket to the address, and send "
@@ -181,7 +185,8 @@ def _answers(context: CheckContext, *, slowly: bool) -> None:
     name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
     sides = context.random.numbers(3, 0.5, 9.0)
     area, volume = (number + BINARY for number in context.random.integers(2, 10, 90))
-    with TcprosServer(kind, (area, volume), slowly=slowly) as server:
+    host = OTHER_HOST if slowly and sys.platform == "linux" else "localhost"
+    with TcprosServer(kind, (area, volume), slowly=slowly, host=host) as server:
         result = context.run(
             "ask", server.uri, name, *sides, within=10.0 if slowly else 5.0, hints=_errors(slowly)
         )

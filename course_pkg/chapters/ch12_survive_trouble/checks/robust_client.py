@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from course_pkg.chapters.ch12_survive_trouble.checks.payment_times import (
     ends_without_a_till,
+    pauses_after_a_timeout,
     pauses_for_a_moment,
 )
 from course_pkg.chapters.ch12_survive_trouble.checks.payments import (
@@ -78,6 +79,7 @@ def a_robust_client(context: CheckContext) -> None:
     _gives_up(context, name, till)
     _keeps_the_deadline(context, name, till)
     pauses_for_a_moment(context, name, till)
+    pauses_after_a_timeout(context, name, till)
     ends_without_a_till(context)
 
 

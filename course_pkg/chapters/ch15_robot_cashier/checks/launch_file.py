@@ -29,7 +29,7 @@ for node in config.nodes:
     for key, value in re.findall(r"(?<!\\S)_(\\w+):=(\\S+)", node.args or ""):
         print(f"{node.namespace}{node.name}/{key}: {value}")
 for parameter in config.params.values():
-    print(f"{parameter.key}: {parameter.value}")
+    print(f"{parameter.key}: {parameter.value!r}")
 """
 
 UNDECLARED = 'An argument is not declared. Write an <arg> tag for "wait" and an <arg> tag for "hardware".'
@@ -72,6 +72,7 @@ PLACE = (
     'The parameter "wait" does not belong to robot_cashier. Write the <param> tag inside the '
     "<node> tag of robot_cashier."
 )
+TEXT = 'The parameter is a text. Remove the attribute "type", so that roslaunch stores a number.'
 DEFAULT_WAIT = 'Without an argument, the value of "wait" has to be 2 s. Write default="2.0" in its <arg> tag.'
 NOT_PASSED = (
     "The parameter always has the same value, even if the user passes another value. Write "
@@ -175,6 +176,7 @@ def _passes_the_argument(context: CheckContext, printed: str, wait: float, given
         hints=[
             (matches("no parameter"), NO_PARAMETER),
             (lambda _: not found, PLACE),
+            (matches("wait: '"), TEXT),
             (lambda _: not given, DEFAULT_WAIT),
             (ANYTHING, NOT_PASSED),
         ],
@@ -183,7 +185,7 @@ def _passes_the_argument(context: CheckContext, printed: str, wait: float, given
 
 def _number(text: str) -> float | None:
     try:
-        return float(text.strip().strip("'\""))
+        return float(text)
     except ValueError:
         return None
 

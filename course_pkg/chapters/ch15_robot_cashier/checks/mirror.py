@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import (
     EFFORT,
+    EMPTY,
+    FEW_EFFORTS,
     FIRST,
     JOINTS,
     JointState,
@@ -210,6 +212,14 @@ def _wrong_selection(stamps: list[int]) -> Hints:
                 "The node ignored a joint state with an infinite effort, which is valid. Check only "
                 "positions and velocities with math.isfinite."
             ),
+        ),
+        (
+            lambda actual: set(stamps) - set(actual) == {FIRST + FEW_EFFORTS},
+            "The conditions do not mention the number of efforts. Remove this test.",
+        ),
+        (
+            lambda actual: set(stamps) - set(actual) == {FIRST + EMPTY},
+            "A joint state with 0 names and 0 positions is valid, so publish its mirror image, too.",
         ),
         (
             lambda actual: set(stamps) - set(actual) <= {FIRST + 5 * n for n in range(6)},

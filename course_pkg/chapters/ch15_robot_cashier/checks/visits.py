@@ -276,6 +276,7 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
         )
         if number == 0:
             _mirrors_meanwhile(context, mirrored, call)
+    _mirrors_in_visit(context, mirrored, detector.calls)
     _pauses(context, detector.calls)
 
 
@@ -305,6 +306,19 @@ def _mirrors_meanwhile(context: CheckContext, mirrored: Subscription, call: Call
         expected="an image every 50 ms",
         actual=f"{len(meanwhile)} images in 1 s",
         hints=STANDS_STILL,
+    )
+
+
+def _mirrors_in_visit(context: CheckContext, mirrored: Subscription, calls: list[Call]) -> None:
+    """Count the mirror images that arrive during the first visit."""
+    began, ended = calls[1].answered + 0.2, calls[VISITS_END[0] - 1].came
+    meanwhile = [each for each in mirrored.arrivals if began < each.at < ended]
+    context.require(
+        "the node mirrors the arm while a call waits",
+        holds=len(meanwhile) > 2,
+        expected="an image every 50 ms during a visit, too",
+        actual=f"{len(meanwhile)} images during a visit",
+        hints="During a visit, the node mirrored nothing. Publish in the callback at all times.",
     )
 
 

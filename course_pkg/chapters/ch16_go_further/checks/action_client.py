@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 
 import actionlib
+import rospy
+from actionlib_msgs.msg import GoalID
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
@@ -51,10 +53,15 @@ class Robot:
     def __init__(self, fetched: int, seconds: float, *, stubborn: bool = False) -> None:
         self.goals: list[FetchGoal] = []
         self.cancelled = threading.Event()
+        self.cancelled_all = False
         self.took = 0.0  # `took` is the time in s from the goal to its cancellation.
         # This event ends a robot that ignores the cancellation.
         self.over = threading.Event()
         self._fetched, self._seconds, self._stubborn = fetched, seconds, stubborn
+
+    def receive_cancel(self, cancelled: GoalID) -> None:
+        """Note a message on the topic `cancel`; an empty id means all goals."""
+        self.cancelled_all = self.cancelled_all or not cancelled.id
 
     def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
         """Finish after the robot's time or after a cancellation; the result is the same in both cases."""
@@ -127,9 +134,11 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
 def _serving(name: str, robot: Robot) -> Iterator[None]:
     """Serve the action `name` until the end of the block; `robot` executes its goals."""
     server = ActionServer(name, FetchAction, robot.execute)
+    cancellations = rospy.Subscriber(f"{name}/cancel", GoalID, robot.receive_cancel)
     try:
         yield
     finally:
+        cancellations.unregister()
         server.stop()
 
 
@@ -190,6 +199,13 @@ def _too_late(context: CheckContext) -> None:
         result = _fetch(context, robot, name, 5, SECONDS)
         if not result.error:
             _is_cancelled(context, robot)
+            context.require(
+                "a robot that does not finish in time is cancelled",
+                holds=not robot.cancelled_all,
+                expected="a cancellation of this goal",
+                actual="a cancellation of all goals",
+                hints="cancel_all_goals() also cancels the goals of other clients. Call cancel_goal().",
+            )
         context.expect(
             "after a cancellation, the number of things fetched so far is returned",
             expected=fetched,

@@ -104,6 +104,7 @@ def _wrong_number_fetched(things: int) -> Hints:
                 "fetched things."
             ),
         ),
+        (things + 1, "The result is too large by one. Stop after goal.things things."),
     ]
 
 
