@@ -3,10 +3,12 @@
 from math import prod
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
-from course_pkg.checking.assertions import Hints
+from course_pkg.checking.assertions import Hints, same
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.publisher import Publisher
 from course_pkg.checking.plain_values import of_kind
 from course_pkg.ros.protocol.json_channel import Json
+from course_pkg.waiting import at_this_load
 
 NOT_RECEIVED = [
     (
@@ -16,6 +18,7 @@ NOT_RECEIVED = [
     )
 ]
 NODE, SERVICE, TYPE = "Name the node.", "Name the service.", "Name the type of the service."
+TOO_LONG = "The pause is too long. Pause for `pause` seconds, and receive only one number after it."
 RECEIVED = "Return a number of the topic, and a number that was published after the pause."
 MISSED = "Return how many numbers were published between the two."
 
@@ -118,6 +121,7 @@ def ask_a_question(context: CheckContext) -> None:
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)
+        sides = {"length": length, "width": width, "height": height}
         area, volume = (
             whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
         )  # These numbers are exact as a float32.
@@ -139,20 +143,10 @@ def ask_a_question(context: CheckContext) -> None:
         )
         context.expect(
             "the sides are sent in the order length, width, height",
-            expected={"length": length, "width": width, "height": height},
+            expected=sides,
             actual=server.requests[0],
             near=1e-4,
-            hints=[
-                (
-                    lambda actual: 0.0 in actual.values(),
-                    "One side arrived as 0: a field that the client does not set is 0. Send all three sides.",
-                ),
-                (
-                    ANYTHING,
-                    "The order of the sides is wrong. Compare your order with the output of `rossrv show "
-                    "course_pkg/geometry`.",
-                ),
-            ],
+            hints=_other_sides(sides),
         )
         context.expect(
             "the volume of the response is returned",
@@ -161,6 +155,25 @@ def ask_a_question(context: CheckContext) -> None:
             near=1e-6,
             hints=_no_volume(area, volume, (length, width, height)),
         )
+
+
+def _other_sides(sides: dict[str, float]) -> Hints:
+    """Return hints for a request that does not contain the `sides` with which the function was called."""
+    return [
+        (
+            lambda actual: 0.0 in actual.values(),
+            "One side arrived as 0: a field that the client does not set is 0. Send all three sides.",
+        ),
+        (
+            lambda actual: not same([*sorted(sides.values())], sorted(actual.values()), near=1e-4),
+            "The request contains other numbers than the arguments. Send the arguments unchanged.",
+        ),
+        (
+            ANYTHING,
+            "The order of the sides is wrong. Compare your order with the output of `rossrv show "
+            "course_pkg/geometry`.",
+        ),
+    ]
 
 
 def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
@@ -201,7 +214,7 @@ def count_what_was_missed(context: CheckContext) -> None:
         numbers = [{"data": first + step} for step in range(1000)]
         publisher = context.publish(topic, "std_msgs/UInt32", numbers, every=0.03)
         pause = context.random.number(0.25, 0.4)
-        done = context.run("count_missed", topic, pause, within=4.0, hints=NOT_RECEIVED)
+        done = context.run("count_missed", topic, pause, within=4.0, hints=_no_numbers(publisher))
         before, after, missed = _three_numbers(context, done.returned())
         sent = publisher.sent
         context.require(
@@ -228,6 +241,13 @@ def count_what_was_missed(context: CheckContext) -> None:
                 "The time between these two numbers is too short. After the first number, pause "
                 "with time.sleep."
             ),
+        )
+        context.require(
+            "the second number is received after the pause",
+            holds=sent[after - first] - sent[before - first] < pause + at_this_load(1.0),
+            expected=f"{pause} s between the two numbers",
+            actual=f"{before} and {after}",
+            hints=TOO_LONG,
         )
         if 0 not in publisher.subscribers[before - first : after - first]:
             context.fail(
@@ -267,6 +287,14 @@ def count_what_was_missed(context: CheckContext) -> None:
                 ],
             )
     context.fulfilled(RECEIVED)
+
+
+def _no_numbers(publisher: Publisher) -> Hints:
+    """Return hints for a function that does not return."""
+    return [
+        (lambda actual: "TimesUp" in actual and any(publisher.subscribers), TOO_LONG),
+        *NOT_RECEIVED,
+    ]
 
 
 def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int]:

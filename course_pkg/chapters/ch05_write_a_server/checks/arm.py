@@ -211,7 +211,12 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
 
 SWITCHES: Hints = [
     (
-        matches("already registered|NoneType|shutdown"),
+        matches("already registered"),
+        "The program created /move_arm, although it already served it. Compare `data` with the present "
+        "state, and store each new rospy.Service object for the next shutdown().",
+    ),
+    (
+        matches("NoneType|shutdown"),
         "A second call of /maintenance with the same value failed. Compare `data` with the "
         "present state first.",
     ),

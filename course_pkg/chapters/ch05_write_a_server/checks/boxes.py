@@ -49,12 +49,19 @@ def area_and_volume(context: CheckContext) -> None:
                 expected=width * length * height,
                 actual=response.volume,
                 near=1e-3,
-                hints=[
-                    (0.0, "The volume is 0: a field without a value is 0. Set the field `volume`."),
-                    (width * length + height, "This is area + height. Multiply for a volume; do not add."),
-                    (ANYTHING, "Multiply all three sides: width, length and height."),
-                ],
+                hints=_about_volume(width * length, height),
             )
+
+
+def _about_volume(area: float, height: float) -> Hints:
+    return [
+        (0.0, "The volume is 0: a field without a value is 0. Set the field `volume`."),
+        (area + height, "This is area + height. Multiply for a volume; do not add."),
+        (area * height * 1e6, "This volume is in cubic centimetres. Don't convert the metres."),
+        (round(area * height), "The volume is rounded. Return all its digits."),
+        (int(area * height), "The volume is rounded. Return all its digits."),
+        (ANYTHING, "Multiply all three sides: width, length and height."),
+    ]
 
 
 def _about_area(width: float, length: float, height: float) -> Hints:
@@ -66,6 +73,7 @@ def _about_area(width: float, length: float, height: float) -> Hints:
             width * length * height,
             "This is the volume. In the response, the area comes first, and then the volume.",
         ),
+        (width * length * 1e4, "This area is in square centimetres. Use the sides in metres, as they are."),
         (
             lambda actual: abs(actual - width * length) <= 1,
             "The area is rounded. Return it without rounding.",

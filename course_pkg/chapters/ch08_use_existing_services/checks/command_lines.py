@@ -30,6 +30,7 @@ NO_YAML = (
     "bash passed the fields as one word, but YAML cannot read a dict from this word. Use "
     "json.dumps, and then shlex.quote."
 )
+CALLED_BEFORE = "Your function called the service. Return the line as a string; the check runs it."
 TWICE = "The line calls the service more than once. Write one call."
 COMPLAINTS = [
     (
@@ -71,10 +72,7 @@ NO_LINE: Hints = [
         (lambda actual: isinstance(actual, list)),
         "This is a list of words. Return one string, with spaces between the words.",
     ),
-    (
-        matches("object|success"),
-        "Your function called the service. Return the line as a string; the check runs it.",
-    ),
+    (matches("object|success"), CALLED_BEFORE),
     (ANYTHING, "The line has to contain the command rosservice call."),
 ]
 
@@ -95,6 +93,13 @@ def line_for_a_terminal(context: CheckContext) -> None:
         name = f"/{context.random.word()}"
         server = context.serve(name, example.kind, lambda _, answer=example.answer: answer)
         line = context.run("call_line", name, example.fields).returned()
+        if server.requests:
+            context.fail(
+                "it returns a string with rosservice call in it",
+                expected="no call before the check runs the line",
+                actual=f"{len(server.requests)} call(s)",
+                hint=CALLED_BEFORE,
+            )
         context.require(
             "it returns a string with rosservice call in it",
             holds=isinstance(line, str) and "rosservice call" in line,
