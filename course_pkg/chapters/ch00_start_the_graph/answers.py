@@ -78,7 +78,7 @@ replace(".volume", ".area * height")
 # %% 00.2 wrong: leaves the height out | hint: One side arrived as 0
 replace("measure(length, width, height)", "measure(length=length, width=width)")
 # %% 00.2 wrong: whole metres | hint: The request contains other numbers
-replace("measure(length, width, height)", "measure(int(length), int(width), int(height))")
+replace("measure(length, width, height)", "measure(length // 1 + 1, width // 1 + 1, height // 1 + 1)")
 # %% 00.2 wrong: a tuple | hint: That is more than the volume.
 based_on("the lines of the panel")
 replace("proxy = rospy … response.volume", "r = rospy.ServiceProxy(service, geometry)(length, width, height)\n    return r.area, r.volume")
@@ -121,8 +121,10 @@ replace("before, after, after - before - 1", "after - before - 1")
 replace("before, after, after - before - 1", "before, after")
 # %% 00.3 wrong: no pause | hint: The time between these two numbers
 replace("    time.sleep(pause)\n", "")
-# %% 00.3 wrong: the pause of the chapter | hint: The pause is too long
+# %% 00.3 wrong: the pause of the chapter | hint: The time between these two numbers
 replace("sleep(pause)", "sleep(2)")
+# %% 00.3 wrong: a pause in milliseconds | hint: The pause is too long
+replace("sleep(pause)", "sleep(1000 * pause)")
 # %% 00.3 wrong: the messages | hint: That is a whole message
 replace("return before, after,", "return UInt32(before), UInt32(after),")
 # %% 00.3 wrong: the later number first | hint: The order is wrong. Return two numbers

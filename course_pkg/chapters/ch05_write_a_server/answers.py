@@ -388,7 +388,10 @@ replace('    rospy.init_node("arm")\n', "")
 replace("    rospy.spin()\n", "")
 # %% 05.5 wrong: closed at the start | hint: The program runs, but a service is missing
 replace("        self.open()\n        rospy.Service", "        rospy.Service")
-# %% 05.5 wrong: never compares | hint: A second call of /maintenance with
+# %% 05.5 wrong: does not compare before it closes | hint: A second call of /maintenance with
+based_on("global variables")
+replace('        if service is None:\n            return False, "closed"\n', "")
+# %% 05.5 wrong: never compares | hint: /move_arm, although it already served it
 replace("changed = request.data == (self.move_service is not None)", "changed = True")
 # %% 05.5 wrong: does not store the new service | hint: /move_arm, although it already served it
 based_on("global variables")

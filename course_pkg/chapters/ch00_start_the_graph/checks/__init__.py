@@ -8,7 +8,6 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.publisher import Publisher
 from course_pkg.checking.plain_values import of_kind
 from course_pkg.ros.protocol.json_channel import Json
-from course_pkg.waiting import at_this_load
 
 NOT_RECEIVED = [
     (
@@ -208,13 +207,14 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
 )
 def count_what_was_missed(context: CheckContext) -> None:
     """Run the function twice with different pauses; each time, a new topic publishes consecutive numbers."""
-    for _ in range(2):
+    # The second pause is longer than the 2 s of the chapter, so that a fixed pause fails.
+    for shortest in (0.25, 2.2):
         topic = f"/{context.random.word()}"
         first = context.random.integer(1000, 9000)
         numbers = [{"data": first + step} for step in range(1000)]
         publisher = context.publish(topic, "std_msgs/UInt32", numbers, every=0.03)
-        pause = context.random.number(0.25, 0.4)
-        done = context.run("count_missed", topic, pause, within=4.0, hints=_no_numbers(publisher))
+        pause = context.random.number(shortest, shortest + 0.15)
+        done = context.run("count_missed", topic, pause, within=4.0 + pause, hints=_no_numbers(publisher))
         before, after, missed = _three_numbers(context, done.returned())
         sent = publisher.sent
         context.require(
@@ -239,15 +239,8 @@ def count_what_was_missed(context: CheckContext) -> None:
             if before > after
             else (
                 "The time between these two numbers is too short. After the first number, pause "
-                "with time.sleep."
+                "for `pause` seconds with time.sleep."
             ),
-        )
-        context.require(
-            "the second number is received after the pause",
-            holds=sent[after - first] - sent[before - first] < pause + at_this_load(1.0),
-            expected=f"{pause} s between the two numbers",
-            actual=f"{before} and {after}",
-            hints=TOO_LONG,
         )
         if 0 not in publisher.subscribers[before - first : after - first]:
             context.fail(
