@@ -158,8 +158,6 @@ replace("str(error)", '"it does not work"')
 replace("success=False", "success=True")
 # %% 08.2 wrong: any response is a success | hint: A response does not prove
 replace('success=state == ("ON" if request.data else "OFF")', "success=True")
-# %% 08.2 wrong: looks for the wanted state in the message | hint: A response does not prove
-replace('state == ("ON" if request.data else "OFF")', '("ON" if request.data else "OFF") in state')
 # %% 08.2 wrong: the wanted state | hint: not the wanted state
 replace("message=state", 'message="ON" if request.data else "OFF"')
 # %% 08.2 wrong: success compares with True | hint: The lamp has the wanted state
