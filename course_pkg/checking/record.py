@@ -101,7 +101,7 @@ class StudentRecord:
             path.rename(aside)
             return None, (
                 f"The earlier result of this part could not be read ({error}). The old file "
-                f"has the new name {aside}, and the result above is stored."
+                f"was renamed to {aside}, and the new result was stored."
             )
 
     def _read(self, check: str) -> PartRecord | None:

@@ -121,4 +121,6 @@ def _report(prefix: Prefix, version: Path, busy: list[Path]) -> None:
     if str(prefix.bin) not in os.environ.get("PATH", "").split(os.pathsep):
         sys.stdout.write(f"Add the folder {prefix.bin} to your PATH.\n")
     for old in busy:
-        sys.stdout.write(f"Version {old.name} is still in use; the next `course install` removes it.\n")
+        sys.stdout.write(
+            f"Version {old.name} is still in use. The next `course install` removes this version.\n"
+        )

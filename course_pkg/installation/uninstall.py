@@ -26,8 +26,9 @@ def uninstall(path: Path | None, *, force: bool) -> int:
     busy = sorted(users_of(prefix.versions))
     if busy and not force:
         raise SetupError(
-            f"Users work with {prefix.path} (processes {', '.join(map(str, busy))}), so nothing was removed. "
-            "Wait until they have ended `course lab`, or add --force."
+            f"Users work with {prefix.path} (processes {', '.join(map(str, busy))}), so "
+            "nothing was removed. Wait until these users have ended `course lab`, or add "
+            "--force."
         )
     try:
         prefix.remove()

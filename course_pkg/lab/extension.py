@@ -113,7 +113,7 @@ def _prepare_ros(server: Server) -> None:
     try:
         master = Roscore().start()
     except CourseError as error:
-        server.log.warning("%s Each notebook starts its own master.", error)
+        server.log.warning("%s Therefore, each notebook starts its own master.", error)
         return
     atexit.register(master.stop)
     os.environ["ROS_MASTER_URI"] = master.uri

@@ -142,7 +142,7 @@ def _answering(uri: str, host: str, port: int) -> Finding:
     try:
         socket.create_connection((host, port), timeout=2).close()
     except OSError as error:
-        remedy = "Start the master at this address, or unset ROS_MASTER_URI."
+        remedy = "Start the master at the address in ROS_MASTER_URI, or unset ROS_MASTER_URI."
         return Finding("ROS_MASTER_URI", f"{uri}: {error}", remedy)
     return Finding("ROS_MASTER_URI", f"{uri} answers")
 

@@ -129,7 +129,9 @@ def pip_command() -> list[str]:
     own = [sys.executable, "-m", "pip"]
     if subprocess.run([*own, "--version"], capture_output=True, check=False).returncode == 0:
         return own
-    raise SetupError(f"{sys.executable} has no pip. Install the package python3-pip-whl, and start again.")
+    raise SetupError(
+        f"{sys.executable} has no pip. Install the package python3-pip-whl, and start the set-up again."
+    )
 
 
 def _exists(place: str) -> bool:

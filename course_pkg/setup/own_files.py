@@ -38,8 +38,9 @@ def make_own_files(places: Places) -> None:
         ) from error
     if kept:
         sys.stderr.write(
-            f"There is a new version of {', '.join(kept)}. Your file contains your work, so it "
-            "was not changed. To get the new version, rename your file, and start again.\n"
+            f"There is a new version of {', '.join(kept)}. Your version contains your work, so "
+            "it was not changed. To get the new version, rename your version, and start "
+            "again.\n"
         )
 
 

@@ -156,7 +156,9 @@ def become_root(names: Sequence[str]) -> list[str]:
     if os.geteuid() == 0:
         return []
     if not shutil.which("sudo"):
-        raise SetupError(f"Packages are missing, and only root can install them. {advice}\nand start again.")
+        raise SetupError(
+            f"Packages are missing, and only root can install packages. {advice}\nand start again."
+        )
     if subprocess.run(["sudo", "-n", "true"], capture_output=True, check=False).returncode == 0:
         return ["sudo", "-n"]
     if not sys.stdin.isatty() or subprocess.run(["sudo", "-v"], check=False).returncode:

@@ -42,8 +42,9 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
         return
     if places.installed:
         raise SetupError(
-            f"The installation in {places.checkout.parent} does not fit this machine any more, for example "
-            "because Python or ROS was updated. As an administrator, type\n  course install\nagain."
+            f"The installation in {places.checkout.parent} does not work on this machine any "
+            "more, for example because Python or ROS was updated. As an administrator, type\n  "
+            "course install\nagain."
         )
     places.make_cache()
     progress = Progress()

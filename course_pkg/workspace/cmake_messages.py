@@ -148,7 +148,7 @@ FROM_CMAKE: tuple[Row, ...] = (
     (
         r"(?P<name>add_\w+)\(\) called with unused arguments: (?P<rest>.+)",
         "",
-        "{name} does not know the argument {rest}.",
+        "The command {name} does not know the argument {rest}.",
         "Write FILES before the names of files.",
     ),
     (
@@ -190,18 +190,20 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"PROJECT_NAME is set to 'Project'",
         "",
         "CMakeLists.txt has no line with project().",
-        "Write project(NAME) near the top, with the same name as in package.xml.",
+        "Write project(NAME) near the top of the file. Use the name in package.xml.",
     ),
     (
         r"DEPENDS on the catkin package '(?P<name>[^']+)' which must therefore be listed as a run dependency",
         "",
-        "catkin_package lists {name}, but package.xml does not list it as a package that is needed to run.",
+        "catkin_package lists {name}, but package.xml does not list {name} as a package that "
+        "is needed to run.",
         "Add <exec_depend>{name}</exec_depend> to package.xml, or remove {name} from catkin_package.",
     ),
     (
         r"the catkin package '(?P<name>[^']+)' has been find_package\(\)-ed but is not listed as a build dep",
         "",
-        "find_package needs {name}, but package.xml does not list it as a package that is needed to build.",
+        "find_package needs {name}, but package.xml does not list {name} as a package that is "
+        "needed to build.",
         "Add <build_depend>{name}</build_depend> to package.xml.",
     ),
     (

@@ -15,12 +15,13 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     (
         r"(?P<name>\S+): No such file or directory",
         "The compiler does not find the header {name}.",
-        "Compare the spelling of the header, and add its package to the COMPONENTS of find_package. "
-        "Write include_directories(${{catkin_INCLUDE_DIRS}}) above add_executable.",
+        "Compare the spelling of the header, and add the header's package to the COMPONENTS of "
+        "find_package. Write include_directories(${{catkin_INCLUDE_DIRS}}) above "
+        "add_executable.",
     ),
     (
         r"no matching function for call to .*advertiseService",
-        "The function that is passed to advertiseService is not a handler.",
+        "advertiseService got a function that is not a handler.",
         "Write bool NAME(TYPE::Request& request, TYPE::Response& response), with the same type in both "
         "parameters, and with both &.",
     ),
@@ -36,7 +37,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     ),
     (
         r"no return statement in function returning|control reaches end of non-void",
-        "This function must return a value, but it can end without a return statement.",
+        "This function must return a value, but the function can end without a return statement.",
         "Write return true or return false at the end of every branch of the function.",
     ),
     (

@@ -25,8 +25,8 @@ FROM_BUILD: tuple[Row, ...] = (
         r"The manifest contains invalid XML:\s*(?P<what>[^\n]*?): line (?P<line>\d+)",
         "package.xml",
         "The file is not valid XML: {what}.",
-        "Write <?xml in the first column of the first line, and close every tag. Use straight "
-        "quotes, and write &amp; for &.",
+        "Write <?xml in the first column of line 1, and close every tag. Use straight quotes, "
+        "and write &amp; instead of &.",
     ),
     (
         r"The manifest .*?\(with format version (?P<format>\d)\) "
@@ -39,7 +39,7 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r'must contain (?:exactly|at least) one "(?P<tag>\w+)" tag',
         "package.xml",
-        "The tag {tag} is missing, or it occurs twice.",
+        "The tag {tag} is missing, or the file contains this tag twice.",
         "Write <{tag}>…</{tag}> exactly once.",
     ),
     (
@@ -63,14 +63,14 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r'Invalid email "(?P<email>[^"]*)"',
         "package.xml",
-        "{email} is not an address of the form name@example.com.",
-        "Write a whole address, such as you@example.com.",
+        "{email} is not an e-mail address of the form name@example.com.",
+        "Write a whole e-mail address, such as you@example.com.",
     ),
     (
         r'Package name "(?P<package>[^"]*)" does not follow naming conventions',
         "package.xml",
         "{package} is not a valid name for a package.",
-        "Use only lower-case letters, digits and _, begin with a letter, and use no spaces.",
+        "Use only lower-case letters, digits and _, without spaces. The first character has to be a letter.",
     ),
     (
         r'Package version "(?P<version>[^"]*)" does not follow version conventions',
@@ -88,20 +88,21 @@ FROM_BUILD: tuple[Row, ...] = (
     (
         r"package name '(?P<name>[^']+)' is illegal and cannot be used in message generation",
         "package.xml",
-        "{name} cannot be the name of a package with messages, because Python uses it as the "
-        "name of a module.",
-        "Use lower-case letters, digits and _, and begin with a letter, in package.xml and in project().",
+        "{name} cannot be the name of a package with messages, because the name is not valid "
+        "for a Python module.",
+        "In package.xml and in project(), use a name of lower-case letters, digits and _ that "
+        "begins with a letter.",
     ),
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[-\N{EN DASH}\N{EM DASH}][^\n]*)",
         "",
-        "A .srv file has the line {text!s} instead of the three dashes.",
+        "A .srv file contains the line {text!s} instead of the three dashes.",
         "Write a line that contains only ---.",
     ),
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[^\n]*)",
         "",
-        "A .srv file has the line {text}. A field needs a type, one space, and a name.",
+        "A .srv file contains the line {text}. A field needs a type, one space, and a name.",
         "Write the field as in this example: float32 length.",
     ),
     (
@@ -146,8 +147,9 @@ FROM_TOOLS: tuple[Row, ...] = (
     (
         r"No module named '(?P<name>numpy|matplotlib)'",
         "",
-        "The Python that runs the program does not have the library {name}.",
-        "Write #!/usr/bin/env python3 as the first line. This line selects the Python that has the library.",
+        "The library {name} is not installed for the Python that runs the program.",
+        "Write #!/usr/bin/env python3 as the first line. This line selects the Python in which "
+        "the library is installed.",
     ),
     (
         r"No module named '(?P<name>\w+)'",
@@ -197,7 +199,7 @@ FROM_TOOLS: tuple[Row, ...] = (
     (
         r"(?P<tool>ros\w+) args\tprint service arguments|Usage: (?P<other>ros\w+) ",
         "",
-        "{tool}{other} does not know this command. The output lists the known commands.",
+        "{tool}{other} does not know this command. The output of {tool}{other} lists all commands.",
         "Use one of the commands in the output. For example, rossrv show prints the fields of a type.",
     ),
 )

@@ -306,7 +306,7 @@ def test_the_nodes_wait_for_a_master(name: str, monkeypatch: pytest.MonkeyPatch)
     """Without a master, a node waits and prints a message, and Ctrl-C ends the node."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", name]) as process:
-        eventually(lambda: "Waiting for a master" in process.output())
+        eventually(lambda: "The program waits for a master" in process.output())
         process.interrupt()
         assert process.wait(20) == 0
         assert "Traceback" not in process.output()

@@ -253,7 +253,7 @@ def test_servers_wait_for_a_master(program: str, monkeypatch: pytest.MonkeyPatch
     """Without a master, a server waits and prints a message, and Ctrl-C ends the server."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", program]) as process:
-        eventually(lambda: "Waiting for a master" in process.output())
+        eventually(lambda: "The program waits for a master" in process.output())
         process.interrupt()
         assert process.wait(5) == 0
         assert "Traceback" not in process.output()

@@ -159,7 +159,7 @@ SERVING = (
     Row(
         "Serving",
         "handler raises ServiceException('x')",
-        (Shows("refuses", f"{REPLY}'service cannot process request: a person", "refused this request"),),
+        (Shows("refuses", f"{REPLY}'service cannot process request: a person", "to refuse this request"),),
     ),
     Row(
         "Serving",

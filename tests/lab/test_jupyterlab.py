@@ -188,7 +188,7 @@ def test_a_killed_server_ends_the_command(notebook: str) -> None:
         (["--port", "99999"], "Omit --port"),
         (["--ip", "203.0.113.7"], "JupyterLab cannot listen on 203.0.113.7"),
         (["no-such.ipynb"], "There is no notebook no-such.ipynb"),
-        (["/etc/hostname"], "JupyterLab serves only that folder"),
+        (["/etc/hostname"], "JupyterLab serves only this folder"),
     ],
 )
 def test_wrong_options_are_refused_at_once(words: list[str], message: str) -> None:

@@ -123,7 +123,7 @@ def test_server_ends_while_it_waits_for_a_master(monkeypatch: pytest.MonkeyPatch
     """Ctrl-C stops a server that waits for a master."""
     monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
-        eventually(lambda: "Waiting for a master" in process.output())
+        eventually(lambda: "The program waits for a master" in process.output())
         process.interrupt()
         assert process.wait(5) == 0
         assert "Traceback" not in process.output()

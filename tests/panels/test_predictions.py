@@ -90,7 +90,7 @@ def test_a_broken_file_raises_an_error_with_its_path(store: PredictionStore) -> 
     """The error message contains the path of the damaged file, and the file does not change."""
     store.path.parent.mkdir()
     store.path.write_text("{")
-    with pytest.raises(InvalidPredictions, match=r"predictions\.json.*Move the file to"):
+    with pytest.raises(InvalidPredictions, match=r"predictions\.json.*Move this file to"):
         store.read()
     assert store.path.read_text() == "{"
 
@@ -235,7 +235,7 @@ def test_a_changed_case_is_open_again(choices_model: ChoicesModel, choice_store:
 @pytest.mark.parametrize(
     ("cases", "stretch"),
     [
-        ([("One", "a topci", "So.")], "case 1 expects 'a topci'"),
+        ([("One", "a topci", "So.")], "the answer 'a topci' of case 1"),
         ([CASES[0], CASES[0]], "is given twice"),
         ([("One", "a topic")], r"Write each case as \(case, answer, reason\)"),
     ],
@@ -252,7 +252,7 @@ def test_a_broken_file_of_choices_raises_an_error_with_its_path(choice_store: Ch
     """The error message contains the path of the damaged file, and the file does not change."""
     choice_store.path.parent.mkdir()
     choice_store.path.write_text('{"03.cases": {"colour": 3}}')
-    with pytest.raises(InvalidPredictions, match=r"choices\.json does not contain valid.*Move the file"):
+    with pytest.raises(InvalidPredictions, match=r"choices\.json does not contain valid.*Move this file"):
         choice_store.read()
 
 

@@ -221,7 +221,7 @@ def test_a_service_that_changes_its_type_gets_a_new_form(harness: Harness) -> No
     harness.model.offer([Offer("/getGeometry", "a/Empty", "/other")])
     form = harness.state["form"]
     assert form["request"]["fields"] == []
-    assert "was course_pkg/geometry and is now a/Empty" in form["problem"]
+    assert "has changed from course_pkg/geometry to a/Empty" in form["problem"]
     assert harness.model.draft == {}
     assert harness.caller.closed
 

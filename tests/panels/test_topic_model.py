@@ -213,11 +213,11 @@ PUBLISHER: PublisherReport = {
     ("change", "words"),
     [
         ({"published": 0}, "Nothing is published yet. The first message creates the publisher."),
-        ({}, "Message 3 went to this panel and /listener."),
-        ({"reached": 1}, "Message 3 went to 1 subscriber."),
+        ({}, "Message 3 was sent to this panel and /listener."),
+        ({"reached": 1}, "Message 3 was sent to 1 subscriber."),
         (
             {"reached": 0},
-            "Message 3 reached no subscriber: no subscriber was connected when it was published.",
+            "Message 3 reached no subscriber, because no subscriber was connected at that time.",
         ),
         (
             {"reached": 0, "latch": True, "deliveries": []},
@@ -226,7 +226,7 @@ PUBLISHER: PublisherReport = {
         ),
         (
             {"reached": 0, "latch": True, "deliveries": PUBLISHER["deliveries"][:1]},
-            "Message 3 was kept, and went to this panel as soon as it was connected.",
+            "Message 3 was stored, and was sent to this panel after the connection.",
         ),
         ({"advertised": False}, "The publisher was stopped. The next message creates a new publisher."),
         ({"rate": 10.0, "statistics": {"rate": 9.987}}, "Publishing at 10 Hz (measured: 9.987 Hz)."),
@@ -281,4 +281,4 @@ def test_one_name_with_two_definitions_is_a_mismatch() -> None:
 def test_a_type_that_is_unknown_here_is_a_mismatch_by_name() -> None:
     """If the MD5 sum is unknown, the panel compares the names of the types."""
     said = mismatches(FLOAT, seen(subscriber="their_pkg/Other"), "/panel", message_type)
-    assert "subscribes to their_pkg/Other, this panel" in said[0]
+    assert "subscribes to their_pkg/Other, but this panel" in said[0]

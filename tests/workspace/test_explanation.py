@@ -167,7 +167,7 @@ SLIPS = {
     "a line above the XML": (
         {**GOOD, X: "\n" + GOOD[X]},
         "my_services/package.xml, line 2",
-        "in the first column of the first line",
+        "in the first column of line 1",
     ),
     "a tag of format 1": (
         spoilt(X, ("exec_depend", "run_depend")),
@@ -193,7 +193,11 @@ SLIPS = {
         "has no maintainer",
     ),
     "no address": (spoilt(X, (' email="me@example.com"', "")), "package.xml", "has no attribute email"),
-    "half an address": (spoilt(X, ("me@example.com", "me")), "my_services/package.xml", "a whole address"),
+    "half an address": (
+        spoilt(X, ("me@example.com", "me")),
+        "my_services/package.xml",
+        "a whole e-mail address",
+    ),
     "a dash in the name": (
         {**spoilt(X, ("my_services", "my-services")), C: LISTS.replace("my_services", "my-services")},
         "package.xml",

@@ -67,7 +67,7 @@ replace(".volume", "")
 replace("service, geometry", '"/getGeometry", geometry')
 # %% 00.2 wrong: forgets to return | hint: without a return line
 replace("return measure", "measure")
-# %% 00.2 wrong: the arguments in another order | hint: The order of the sides is wrong
+# %% 00.2 wrong: the arguments in another order | hint: The order of the sides
 replace("measure(length, width, height)", "measure(height, width, length)")
 # %% 00.2 wrong: rounds it | hint: Do not round the volume.
 replace("measure(length, width, height).volume", "round(measure(length, width, height).volume)")

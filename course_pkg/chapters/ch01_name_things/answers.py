@@ -11,9 +11,9 @@ def measurer_command(room):
 
 # %% 01.1 right: quoted, and with a namespace without a slash
 replace('f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"', "\"rosrun course_pkg server 'getGeometry:=measure' __ns:=\" + room + \" '__name:=measurer'\"")
-# %% 01.1 wrong: a global name | hint: The name of the service is
+# %% 01.1 wrong: a global name | hint: The name of the service is /measure for
 replace("getGeometry:=measure", "getGeometry:=/measure")
-# %% 01.1 wrong: no namespace | hint: The name of the service is
+# %% 01.1 wrong: no namespace | hint: The name of the service is /measure for
 replace("__ns:=/{room} ", "")
 # %% 01.1 wrong: the service is not renamed | hint: The service is in the namespace
 replace(" getGeometry:=measure", "")
@@ -24,7 +24,7 @@ replace(" __name:=measurer", "")
 # %% 01.1 wrong: only the service is in the room's namespace | hint: The node is not in the namespace of the room
 replace("__ns:=/{room} ", "")
 replace("getGeometry:=measure", "getGeometry:=/{room}/measure")
-# %% 01.1 wrong: always the kitchen | hint: The name of the service has to be `measure`
+# %% 01.1 wrong: always the kitchen | hint: The name of the service is wrong.
 replace("{room}", "kitchen")
 # %% 01.1 wrong: = instead of := | hint: The service still has its old
 replace(":=", "=", times=3)
@@ -141,7 +141,7 @@ replace("None", "0")
 replace("length, width, height).volume\n", "length, width, height).volume or None\n")
 # %% 01.3 wrong: a volume of 0 becomes text | hint: This service responds with the volume 0.
 replace("length, width, height).volume\n", 'length, width, height).volume or "nothing"\n')
-# %% 01.3 wrong: another order | hint: The order of the sides is wrong
+# %% 01.3 wrong: another order | hint: The order of the sides
 replace("length, width, height).volume\n    return None", "width, length, height).volume")
 # %% 01.3 wrong: the area | hint: Your function returned the area.
 replace("for service … return None", """for name in rosservice.get_service_list():
@@ -197,7 +197,7 @@ replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers 
 # %% 01.4 wrong: fails for a topic without publishers | hint: A topic without a publisher
 replace("\n    names = dict(publishers).get(topic, [])", "")
 replace("names", "dict(publishers)[topic]")
-# %% 01.4 wrong: pings without a limit | hint: rosnode_ping does not return, because it
+# %% 01.4 wrong: pings without a limit | hint: rosnode_ping does not return, because
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name))")
 # %% 01.4 wrong: the number of nodes | hint: Your function returned the number

@@ -37,7 +37,7 @@ def count_aloud(topic, rate, count):
 replace("\n    wait_until(publisher.get_num_connections, 2.0)", "")
 # %% 02.1 wrong: waits for a subscriber without a limit | hint: Wait for a subscriber for
 replace("wait_until(publisher.get_num_connections, 2.0)", "while publisher.get_num_connections() == 0:\n        time.sleep(0.01)")
-# %% 02.1 wrong: publishes nothing if there is no subscriber | hint: Even without a subscriber, the function
+# %% 02.1 wrong: publishes nothing if there is no subscriber | hint: The function failed without a
 replace("connections, 2.0)", """connections, 2.0)
     if publisher.get_num_connections() == 0:
         raise RuntimeError("nobody listens")""")
@@ -79,7 +79,7 @@ replace("pace.sleep()", "if number % 5 == 4:\n            time.sleep(5 / rate)")
 replace("UInt32", "Float64")
 # %% 02.1 wrong: a fixed topic | hint: Create a rospy.Publisher for the given topic.
 replace("topic, UInt32", '"/count", UInt32')
-# %% 02.1 wrong: waits half a second | hint: A subscriber that connects in the first
+# %% 02.1 wrong: waits half a second | hint: The wait for a subscriber
 replace("2.0", "0.5")
 # %% 02.1 wrong: strings | hint: Publish each number as an int,
 replace("publish(number)", "publish(str(number))")
@@ -466,7 +466,7 @@ replace("\n        self.last = None", "")
 replace("self.last = time.monotonic()", "global last\n        last = time.monotonic()")
 replace("self.last is None", "last is None")
 replace("self.last", "last")
-# %% 02.5 wrong: with capital letters | hint: Write the string exactly as in the exercise
+# %% 02.5 wrong: with capital letters | hint: The spelling of the string
 replace('return "waiting"\n        return "running" if time.monotonic() - self.last <= 1.0 else "ended"', '''return "Waiting"
         return "Running" if time.monotonic() - self.last <= 1.0 else "Ended"''')
 # %% 02.5 wrong: another type | hint: In `__init__`, create a rospy.Subscriber
@@ -493,7 +493,7 @@ class Watch:
     def state(self):
         return self._state
 
-# %% 02.5 wrong: a number for each state | hint: Return one of the three strings
+# %% 02.5 wrong: a number for each state | hint: state() did not return one
 replace('return "waiting"', "return 0")
 # %% 02.5 wrong: waits for the first message | hint: state() waits for a message.
 replace('if self.last is None:\n            return "waiting"', "while self.last is None:\n            time.sleep(0.01)")
@@ -514,7 +514,7 @@ replace("pace.", "pause.")
 # %% 02.1 wrong: pauses that are too short | hint: The pauses between the numbers
 based_on("time.sleep in place of a rate")
 replace("sleep(1 / rate)", "sleep(0.8 / rate)")
-# %% 02.1 wrong: publishes nothing without a subscriber, but waits as long | hint: Without a subscriber, wait 2 s, and then
+# %% 02.1 wrong: publishes nothing without a subscriber, but waits as long | hint: If there is no subscriber, wait 2
 replace("2.0)", "2.0)\n    if not publisher.get_num_connections():\n        time.sleep(count / rate)\n        return")
 
 # %% 02.3 wrong: compares by truth | hint: The same value was published again

@@ -134,7 +134,7 @@ def will_talk(server, client):
 # %% 04.2 wrong: the order does not matter | hint: The order of the fields
 based_on("the lines without comments and blanks")
 replace("[words for words in lines if words]", "sorted(words for words in lines if words)")
-# %% 04.2 wrong: forgets the line between the halves | hint: One field has moved to
+# %% 04.2 wrong: forgets the line between the halves | hint: One field is on different
 based_on("the lines without comments and blanks")
 replace("if words", 'if words and words != ["---"]')
 # %% 04.2 wrong: the types only | hint: One letter of a field's
@@ -214,7 +214,7 @@ replace("</name>", "")
 replace("<build_depend>std_msgs … std_msgs</exec_depend>", "<exec_depend>message_runtime</exec_depend>\n  <depend>std_msgs</depend>")
 # %% 04.3 wrong: the program's own library not named | hint: lamp_server.py imports rospy
 replace("\n  <exec_depend>rospy</exec_depend>", "")
-# %% 04.3 wrong: a blank line on top | hint: in the first column of the first line
+# %% 04.3 wrong: a blank line on top | hint: Write <?xml in the first
 replace("<?xml", "\n<?xml")
 # %% 04.3 wrong: std_msgs only as a build_export_depend | hint: . Also add
 replace("exec_depend>std_msgs</exec_depend", "build_export_depend>std_msgs</build_export_depend")
@@ -351,7 +351,7 @@ script = Path("src/lamp_services/scripts/lamp_server.py")
 script.write_text("#!/usr/bin/env python3\nimport rospy\n")
 script.chmod(0o644)
 
-# %% 04.5 wrong: the types of the other package | hint: Your program imports the type
+# %% 04.5 wrong: the types of the other package | hint: from a package that does not exist
 replace("from lamp_services … .seconds))\n", "from my_services.srv import Lamp")
 replace("handle_lamp", "lambda request: (True, [0, 0, 0], 0)")
 # %% 04.5 wrong: the type in lower case | hint: Compare {name} with the name
@@ -404,7 +404,7 @@ replace("    lit = known", '    if not known:\n        raise rospy.ServiceExcept
 replace("#!/usr/bin/env python3", "#!python3")
 # %% 04.5 wrong: the class of the request | hint: Your program passed the class
 replace('"/lamp", Lamp,', '"/lamp", LampRequest,')
-# %% 04.5 wrong: imports the type from the package | hint: not from lamp_services itself
+# %% 04.5 wrong: imports the type from the package | hint: Your program imports the type from the
 replace("lamp_services.srv", "lamp_services")
 # %% 04.5 wrong: line ends of Windows | hint: The file has Windows line endings
 replace("python3", "python3\r")

@@ -148,9 +148,9 @@ replace("self.count += 1", "count = 0\n        count += 1")
 replace("str(self.count)", "str(count)")
 # %% 05.2 wrong: leaves success out | hint: success is False, because a
 replace("success=True, message", "message")
-# %% 05.2 wrong: wraps at 9 | hint: After 9, the message has only
+# %% 05.2 wrong: wraps at 9 | hint: After the number 9, the
 replace("self.count += 1", "self.count = self.count % 9 + 1")
-# %% 05.2 wrong: only the last digit | hint: After 9, the message has only
+# %% 05.2 wrong: only the last digit | hint: After the number 9, the
 replace("(self.count)", "(self.count)[-1]")
 # %% 05.2 wrong: more text than the number | hint: The message contains more than the number
 replace("str(self.count)", 'f"{self.count} calls"')
@@ -316,7 +316,7 @@ replace("self.on = request.data", "self.on = not request.data")
 replace("self.on = request.data", "self.on = not self.on")
 # %% 05.4 wrong: on at the start | hint: A new switch was not off.
 replace("False", "True")
-# %% 05.4 wrong: None at the start | hint: in __init__
+# %% 05.4 wrong: None at the start | hint: A new switch was not
 replace("False", "None")
 # %% 05.4 wrong: the message is a sentence | hint: The message contains more than "on"
 replace('"on" if self.on else "off"', '"It is on" if self.on else "It is off"')

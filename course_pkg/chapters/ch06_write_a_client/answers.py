@@ -120,7 +120,7 @@ replace("return False", 'return "False"')
 # %% 06.2 wrong: True in any case | hint: The function returned True for a
 replace("return False", "pass")
 
-# %% 06.2 wrong: calls the service | hint: so the server had to do its work
+# %% 06.2 wrong: calls the service | hint: Wait for the service without a call
 replace("timeout=seconds)", "timeout=seconds)\n        rospy.ServiceProxy(service, geometry)(1, 1, 1)")
 
 # %% 06.3 right: ServiceException

@@ -164,9 +164,9 @@ replace("message=state", 'message="ON" if request.data else "OFF"')
 replace('state == ("ON" if request.data else "OFF")', "state is request.data")
 # %% 08.2 wrong: the message is a sentence | hint: The message is wrong. Return
 replace("message=state", 'message=f"the lamp is {state}"')
-# %% 08.2 wrong: the other number | hint: The number is wrong. Send
+# %% 08.2 wrong: the other number | hint: The number in the request is
 replace("1 if request.data else 0", "0 if request.data else 1")
-# %% 08.2 wrong: other numbers | hint: The number has to be
+# %% 08.2 wrong: other numbers | hint: The number in the request has
 replace("1 if request.data else 0", "2 if request.data else 3")
 # %% 08.2 wrong: calls twice | hint: The handler called /on_off more than once
 replace("state = on_off", "on_off(0)\n        state = on_off")

@@ -54,7 +54,7 @@ class Folder:
         reply = self._channel.ask("start", timeout=SLACK, argv=argv, folder=self._number)
         number = reply.get("process")
         if not isinstance(number, int):
-            raise CheckError("The kernel did not start a command of the check. Restart the kernel.")
+            raise CheckError("The kernel could not start a command of the check. Restart the kernel.")
         return Running(self._channel, number, lambda: self._doing(worded or " ".join(argv)))
 
 

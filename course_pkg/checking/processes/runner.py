@@ -43,7 +43,7 @@ def run_check(channel: Channel, store: Store | None = None, only: str = "") -> R
     check = str(hello.get("check"))
     try:
         if hello.get("protocol") != PROTOCOL:
-            raise CourseError("The kernel runs another release of the course. Restart the kernel.")
+            raise CourseError("The kernel runs a different release of the course. Restart the kernel.")
         if only and check != only:
             raise CourseError(f"The kernel requested the check {check[:20]!r} instead of {only!r}.")
         report = _run(find(check), channel, seed)
@@ -127,8 +127,8 @@ def _unchanged(part: Part, channel: Channel) -> str:
     if now is None or str(now).strip() != text.strip():
         return ""
     return (
-        f"{path} is unchanged. Repair this file in the cell above, run that cell, and then run this "
-        "cell again."
+        f"The file {path} was not changed. Repair this file in the cell above, run that cell, "
+        "and then run this cell again."
     )
 
 

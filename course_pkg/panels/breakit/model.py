@@ -240,7 +240,11 @@ def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -
         return {"state": "half", "words": words, "reason": ""}
     other = fault_with(diagnosis)
     reason = f"The fault that you chose would look different: {other.reason}" if other else ""
-    return {"state": "wrong", "words": "This is not the fault.", "reason": reason}
+    return {
+        "state": "wrong",
+        "words": "Your diagnosis is wrong: the graph has a different fault.",
+        "reason": reason,
+    }
 
 
 def _solution(fault: Fault, state: Literal["right", "shown"], words: str) -> Verdict:

@@ -54,7 +54,7 @@ class ChoiceRecord:
     def standing(self) -> str:
         """One sentence with the number of choices, or of expected options in the first choices."""
         if not self.compared:
-            return f"{len(self.chosen)} of {self.cases} cases decided."
+            return f"{len(self.chosen)} of {self.cases} cases are decided."
         return f"{self.fit} of {len(self.first)} of your first choices fit."
 
 
@@ -140,8 +140,8 @@ class ChoicesModel:
         for number, case in enumerate(self.cases, start=1):
             if case.answer not in self.options:
                 raise NotAChoice(
-                    f"choose({self.key!r}): case {number} expects {case.answer!r}, which is not one of the "
-                    f"options {', '.join(map(repr, self.options))}."
+                    f"choose({self.key!r}): the answer {case.answer!r} of case {number} is not "
+                    f"one of the options {', '.join(map(repr, self.options))}."
                 )
             if texts.count(case.text) > 1:
                 raise NotAChoice(

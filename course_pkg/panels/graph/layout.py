@@ -108,7 +108,8 @@ def _drawn(picture: Picture, direction: str, timeout: float) -> Layout:
     dot = shutil.which("dot")
     if not dot:
         raise DrawingFailed(
-            "graphviz is not installed, so the graph is shown as a list. Install it: apt install graphviz"
+            "graphviz is not installed, so the graph is shown as a list. To install graphviz, "
+            "type: apt install graphviz"
         )
     try:
         done = subprocess.run(

@@ -100,11 +100,13 @@ def published(report: PublisherReport, own: str) -> str:
     peers = [_peer(each["peer"], own) for each in report["deliveries"]]
     if report["reached"]:
         same = len(peers) == report["reached"]
-        return f"Message {count} went to {_all(peers) if same else _count(report['reached'], 'subscriber')}."
+        return (
+            f"Message {count} was sent to {_all(peers) if same else _count(report['reached'], 'subscriber')}."
+        )
     if not report["latch"]:
-        return f"Message {count} reached no subscriber: no subscriber was connected when it was published."
+        return f"Message {count} reached no subscriber, because no subscriber was connected at that time."
     if peers:
-        return f"Message {count} was kept, and went to {_all(peers)} as soon as it was connected."
+        return f"Message {count} was stored, and was sent to {_all(peers)} after the connection."
     return (
         f"Message {count} has reached no subscriber yet. The message is latched, so the next "
         "subscriber gets it."

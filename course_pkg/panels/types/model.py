@@ -38,10 +38,10 @@ CHANGED = (
     "which the panel shows. Build the type again with catkin_make, and restart the kernel."
 )
 UNBUILT = (
-    "This type is not built yet. ROS's tools show it from its file, but Python can import it only after "
-    "catkin_make, in a terminal or kernel that has sourced the workspace."
+    "This type is not built yet: ROS tools can show the type, but Python cannot import it. Run "
+    "catkin_make, and source the workspace."
 )
-NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH, so the panel shows the built type."
+NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH. Therefore, the panel shows the built type."
 
 
 class FieldNode(TypedDict):

@@ -80,7 +80,7 @@ def _draw_offers(paper: Paper, state: State, name: str, half: str) -> None:
     paper.y += 6
     paper.write("On the graph now", HEADING)
     if not rows:
-        paper.write(f"No {'service' if half == 'srv' else 'topic'} of this type.", FAINT)
+        paper.write(f"No {'service' if half == 'srv' else 'topic'} has this type.", FAINT)
     for row in rows:
         ends = [f"{label} {', '.join(nodes) or 'nobody'}" for label, nodes in row.items() if label != "name"]
         paper.write(f"{row['name']}  {', '.join(ends)}", CODE)

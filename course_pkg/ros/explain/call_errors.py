@@ -7,7 +7,7 @@ from course_pkg.ros.explain.handler_errors import Row
 FROM_CALLS: tuple[Row, ...] = (
     (
         r"timeout exceeded while waiting for service",
-        "No node provided this service before the timeout of wait_for_service().",
+        "No node provided this service before the timeout of wait_for_service() was over.",
         "Start the server, or compare the name of the service with the output of `rosservice list`.",
         "06",
     ),
@@ -21,8 +21,8 @@ FROM_CALLS: tuple[Row, ...] = (
         r"service \[.{0,300}\] unavailable|(?i:unknown service)|Service \[.{0,300}\] is not available",
         "No node provides a service with this name: the server never started, has ended, or "
         "uses a different name.",
-        "Start the server, or compare the name with `rosservice list`. After a restart of the master, start "
-        "the servers again.",
+        "Start the server, or compare the name with the output of `rosservice list`. After a "
+        "restart of the master, start the servers again.",
         "06",
     ),
     (
@@ -60,8 +60,8 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"CallTimeout.{0,300}accepts connections, but sends nothing",
-        "The server did not answer in time. Its process is stopped, or a connection that sends "
-        "nothing blocks the server.",
+        "The server did not answer in time. The server's process is stopped, or a connection "
+        "without data blocks the server.",
         (
             "If the server's process is stopped, resume it with `kill -CONT`. Otherwise, start "
             "the server again."
@@ -70,13 +70,15 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"CallTimeout|TimesUp",
-        "The server did not answer in time. Its handler is slow, waits for something, or never returns.",
+        "The server did not answer in time. The server's handler is slow, waits for something, "
+        "or never returns.",
         "Find out what the handler waits for. Use a longer timeout only if you know that the work is slow.",
         "12",
     ),
     (
         r"CallCancelled",
-        "You cancelled the call, but the server does not know this. Its handler continues to its end.",
+        "You cancelled the call, but the server does not know this. The server's handler "
+        "continues to its end.",
         "Find out what the handler waits for before you call again.",
         "12",
     ),
@@ -95,7 +97,7 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"Incompatible arguments to call service",
-        "The arguments on the command line do not fit the request of the service.",
+        "The arguments in the command line do not fit the fields of the request.",
         "Show the fields of the request with `rosservice args`, and press Tab to complete the request.",
         "08",
     ),

@@ -16,7 +16,7 @@ _TRACEBACK = "Traceback (most recent call last)"
 _BUILD = re.compile(r"^(?:CMake Error|-- |Base path:|Invoking \"|\[rospack\])", re.MULTILINE)
 
 NOTHING = Explanation(
-    "There is no error message. A call that waits prints nothing, because rospy has no time limit for calls.",
+    "There is no error message. A call that waits prints nothing, because a call in rospy has no time limit.",
     (
         "Find the node of the server with `rosservice info`. Then check with `rosnode ping` "
         "whether this node answers."
@@ -26,8 +26,8 @@ NOTHING = Explanation(
 )
 UNKNOWN = Explanation(
     "The course has no explanation for this error message.",
-    "Read the last line first, because this line contains the error. In a traceback, begin "
-    "with the lowest line that contains the name of your own file.",
+    "Read the last line first, because this line contains the error. In a traceback, look for "
+    "the last line that contains the name of your own file.",
     known=False,
 )
 

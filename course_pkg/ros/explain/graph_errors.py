@@ -27,10 +27,10 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"MasterSilent|accepts connections, but did not answer within|the master at \S+ does not answer",
-        "The master accepts connections, but does not answer. Its process is stopped or blocked.",
+        "The master accepts connections, but does not answer. The master's process is stopped or blocked.",
         (
-            "Resume the stopped process with `kill -CONT` and its process id. Otherwise, end "
-            "the process, and restart the master and all nodes."
+            "If the process of the master is stopped, resume this process with `kill -CONT`. "
+            "Otherwise, restart the master and all nodes."
         ),
         "12",
     ),
@@ -56,7 +56,8 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"\[Errno 98\]|Address already in use|PortBusy",
-        "Another program already uses the port. A rosmaster that prints this error does not end by itself.",
+        "Another program already uses the port. After this error, a rosmaster continues to "
+        "run, but it is of no use.",
         "End rosmaster with Ctrl-C. Find the other program with `ss -tlnp`, or use a different port.",
         "01",
     ),

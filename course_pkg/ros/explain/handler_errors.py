@@ -50,7 +50,8 @@ FROM_HANDLERS: tuple[Row, ...] = (
     ),
     (
         r"[Ee]rror processing request",
-        "The handler raised an exception. Its traceback is in the server's terminal, or below its cell.",
+        "The handler raised an exception. The traceback is in the terminal of the server, or "
+        "below the server's cell.",
         "Find the line in the traceback and correct this line. To refuse a request, raise "
         "rospy.ServiceException.",
         "05",
@@ -66,20 +67,20 @@ FROM_HANDLERS: tuple[Row, ...] = (
     ),
     (
         r"service cannot process request",
-        "The handler refused this request: it raised ServiceException.",
+        "The handler raised ServiceException to refuse this request.",
         "Read the reason in the error message, and send a request that the service accepts.",
         "05",
     ),
     (
         r"responded with an error: b''",
-        "The server refused the request without a reason. A handler in C++ does this when it returns false.",
+        "The server refused the request without a reason. For example, a handler in C++ returned false.",
         "Look for the reason in the server's output.",
         "05",
     ),
     (
         r"has no attribute '_request_class'|is the (?:request|response) of a service type",
         "The class of the request or of the response was used instead of the type of the service.",
-        "Use the type itself, for example SetBool instead of SetBoolRequest or SetBoolResponse.",
+        "Use the type of the service, for example SetBool instead of SetBoolRequest or SetBoolResponse.",
         "05",
     ),
     (

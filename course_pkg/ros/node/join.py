@@ -229,8 +229,8 @@ def _require_same_name(full: str) -> None:
     if rospy.core.is_initialized() and rospy.get_name() != full:
         base = rospy.get_name().removeprefix("/")
         raise NotJoined(
-            f"This kernel is already the node {rospy.get_name()}, and one process can be only one node. Use "
-            f"join({base!r}), or restart the kernel before you join as {full}."
+            f"This kernel is already the node {rospy.get_name()}, and one process can be only "
+            f"one node. Call join({base!r}), or restart the kernel to use the name {full}."
         )
 
 
@@ -244,8 +244,8 @@ def _apply_environment() -> None:
 
         if not environment.apply():
             raise SetupError(
-                "The course's workspace is not built on this machine. Run `./course doctor` in a terminal, "
-                "install what it reports as missing, and run this cell again."
+                "The course's workspace is not built on this machine. Run `./course doctor` in "
+                "a terminal, and install the missing programs. Then run this cell again."
             )
         # The extended path contains the generated package course_pkg.srv.
         course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)

@@ -163,6 +163,7 @@ class Node:
             )
         if rospy.core.is_shutdown():
             raise NotJoined(
-                "This kernel's node has been shut down by rospy.signal_shutdown(), an interrupt of "
-                "rospy.spin(), or another node with its name. Run the set-up cell with join() again."
+                "This kernel's node has been shut down: by rospy.signal_shutdown(), by an "
+                "interrupt of rospy.spin(), or by another node with the same name. Run the "
+                "set-up cell with join() again."
             )

@@ -43,8 +43,9 @@ def message_class(kind: MessageKind) -> MessageClass:
         kind = message_type(kind)
     cls = getattr(kind, "cls", kind)
     if not _is_message(cls):
-        text = "is not a message type. Pass a class such as std_msgs.msg.UInt32."
-        raise NotAMessageType(f"{_name(cls)} {text}")
+        raise NotAMessageType(
+            f"{_name(cls)} is not a message type. Pass a class such as std_msgs.msg.UInt32."
+        )
     return cls
 
 

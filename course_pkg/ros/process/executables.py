@@ -31,8 +31,8 @@ def package_folder(package: str) -> Path:
         return Path(rospkg.RosPack().get_path(package))
     except rospkg.ResourceNotFound as error:
         raise UnknownExecutable(
-            f"There is no package {package!r} on ROS_PACKAGE_PATH. Check the name, then build the package's "
-            "workspace and source it."
+            f"There is no package {package!r} on ROS_PACKAGE_PATH. Check the name. Then build "
+            "the package's workspace, and source this workspace."
         ) from error
 
 
@@ -61,5 +61,8 @@ def _missing(package: str, name: str, others: list[str]) -> str:
     if others:
         alike = difflib.get_close_matches(name, others, n=1)
         message += f" Did you mean {alike[0]!r}?" if alike else f" The package has: {', '.join(others)}."
-    needed = "A script also needs chmod +x and a first line such as #!/usr/bin/env python3."
+    needed = (
+        "A script has to be executable (chmod +x), and it has to begin with a line such as "
+        "#!/usr/bin/env python3."
+    )
     return f"{message} {needed}"

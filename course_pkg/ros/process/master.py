@@ -128,7 +128,10 @@ def wait_for_master(warn: Callable[[str], object], interval: float = 0.5) -> Non
             client.pid()
         except (MasterUnreachable, MasterSilent):
             if not warned:
-                warn(f"No ROS master answers at {client.uri}. Waiting for a master; Ctrl-C ends the wait.")
+                warn(
+                    f"No ROS master answers at {client.uri}. The program waits for a master; "
+                    "Ctrl-C ends the wait."
+                )
             warned = True
             time.sleep(interval)
         else:

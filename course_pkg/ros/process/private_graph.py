@@ -44,8 +44,8 @@ class PrivateGraph:
         if ready and process.running:
             return process
         raise NodeFailed(
-            f"{package}/{executable} has ended, or is not on this private graph after {READY:g} s. "
-            f"Its output: {process.output() or 'none'}",
+            f"{package}/{executable} has ended, or is not on this private graph after "
+            f"{READY:g} s. The output of the program: {process.output() or 'none'}",
             process.output(),
             process.returncode,
         )

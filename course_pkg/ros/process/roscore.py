@@ -71,7 +71,7 @@ class Roscore(PrivateMaster):
 
         if wait_until(settled, at_this_load(READY), INTERVAL) != "met":
             raise NodeFailed(
-                f"The node {ROSOUT} has ended, or does not appear on the graph. Start it again.",
+                f"The node {ROSOUT} has ended, or does not appear on the graph. Start this node again.",
                 "",
                 rosout.returncode,
             )

@@ -117,4 +117,4 @@ def _missing(records: Iterable[tuple[str, ProcessRecord]], start: float) -> Iter
             yield f"{name} does not record {unsupported}."
         if record["complete_from"] > start:
             late = record["complete_from"] - start
-            yield f"The memory of {name} was full: its records of the first {late:.3g} s are missing."
+            yield f"The memory of {name} was full, so the records of the first {late:.3g} s are missing."

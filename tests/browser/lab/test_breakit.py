@@ -79,7 +79,7 @@ def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
     form.get_by_label(shown(other)).check()
     form.get_by_label(shown(named("stale").remedy)).check()
     form.get_by_role("button", name="Check").click()
-    expect(form.get_by_text("This is not the fault.")).to_be_visible()
+    expect(form.get_by_text("Your diagnosis is wrong: the graph has a different fault.")).to_be_visible()
     expect(form.get_by_text("The fault that you chose would look different")).to_be_visible()
     picture(form, "breakit-wrong")
     answer(form, named("stale"))

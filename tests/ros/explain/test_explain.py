@@ -42,7 +42,7 @@ HANDLER_FAILED = f"{RESPONDED}b'error processing request: "
 UNABLE = "ServiceException: unable to connect to service: "
 MESSAGES = {
     f"{SERVER_REFUSED}service handler returned None'": "reached its end without a return",
-    f"{SERVER_REFUSED}no fuel'": "refused this request",
+    f"{SERVER_REFUSED}no fuel'": "to refuse this request",
     f"{SERVER_REFUSED}handler returned invalid value: Invalid number'": "cannot create a response",
     f"{SERVER_REFUSED}handler returned wrong number of values'": "a list or tuple of the wrong length",
     f"{SERVER_REFUSED}sucess is not an attribute of TriggerResponse'": "is misspelt",
@@ -105,7 +105,7 @@ def test_errors_of_the_course_are_explained() -> None:
     silent = MasterSilent(
         "The program at http://localhost:1 accepts connections, but did not answer within 2 s."
     )
-    assert "Its process is stopped" in explain(silent).cause
+    assert "process is stopped" in explain(silent).cause
     assert explain(str(silent)) == explain(silent)
     assert explain(NodeFailed("The node fell over. Stand it up.")).cause == "The node fell over. Stand it up."
 
@@ -157,8 +157,8 @@ def test_an_explanation_in_a_notebook() -> None:
     assert repr(found).splitlines() == [
         "Cause: No node provides a service with this name: the server never started, has ended, or uses "
         "a different name.",
-        "What to do: Start the server, or compare the name with `rosservice list`. After a restart of the "
-        "master, start the servers again.",
+        "What to do: Start the server, or compare the name with the output of `rosservice list`. "
+        "After a restart of the master, start the servers again.",
         "Taught in: chapter 06, Write a client",
     ]
     assert "<code>rosservice list</code>" in found._repr_html_()

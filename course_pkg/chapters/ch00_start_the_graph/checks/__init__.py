@@ -22,8 +22,8 @@ NODE, SERVICE, TYPE = (
     "Find the type of the service.",
 )
 TOO_LONG = "The pause is too long. Pause for `pause` seconds, and receive only one number after the pause."
-RECEIVED = "Return a number from the topic, and another number that was published after the pause."
-MISSED = "Return how many numbers were published between these two numbers."
+RECEIVED = "Return two numbers from the topic: one number before the pause, and one number after the pause."
+MISSED = "Return how many numbers were published between the two received numbers."
 
 
 @part(
@@ -208,8 +208,8 @@ def _other_sides(sides: dict[str, float]) -> Hints:
         ),
         (
             ANYTHING,
-            "The order of the sides is wrong. Compare your order with the output of `rossrv show "
-            "course_pkg/geometry`.",
+            "The order of the sides in the request is wrong. Compare this order with "
+            "the output of `rossrv show course_pkg/geometry`.",
         ),
     ]
 

@@ -10,7 +10,7 @@ LOOKS_LIKE_IT = (
     "Your function called the wrong service, because the names are similar. Compare the whole "
     "text after the last slash with the given text."
 )
-FOUND = "Find the service, call it, and return the volume."
+FOUND = "Find the service, call this service, and return the volume."
 RUNNING = "Return the sorted names of the running publishers of a topic."
 
 
@@ -18,8 +18,8 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
     "01.3",
     points=3,
     goal=(
-        "Find the service whose name has the given text after the last slash, call this "
-        "service, and return the volume. If there is no such service, return None."
+        "Find the service that has the given text after the last slash of its name. Call this "
+        "service and return the volume, or return None if there is no such service."
     ),
     needs=["ask_wherever"],
     deadline=25.0,
@@ -93,8 +93,8 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
                 ),
                 (
                     ANYTHING,
-                    "The order of the sides is wrong. Compare your order with the output of `rossrv show "
-                    "course_pkg/geometry`.",
+                    "The order of the sides in the request is wrong. Compare this order with "
+                    "the output of `rossrv show course_pkg/geometry`.",
                 ),
             ],
         )
@@ -164,7 +164,7 @@ _LOST = [
 _NOBODY = [
     (
         matches("^(ServiceException|ROS|LookupError|ValueError|RuntimeError|Exception)"),
-        "In this exercise, a missing service is not an error. Do not raise an exception: return None.",
+        "In this exercise, a missing service is not an error. Return None, and do not raise an exception.",
     )
 ]
 
@@ -244,7 +244,7 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
             (
                 lambda actual: set(actual) < set(living),
-                "Some running nodes are missing. Ping every publisher of the topic.",
+                "Some running nodes are missing in your list. Ping every publisher of the topic.",
             ),
             (
                 ANYTHING,
@@ -270,7 +270,7 @@ def _living(context: CheckContext, topic: str) -> object:
             (
                 matches("TimesUp"),
                 (
-                    "rosnode_ping does not return, because it sends one ping after another without "
+                    "rosnode_ping does not return, because rosnode_ping sends pings without "
                     "end. Pass max_count=1 to rosnode_ping."
                 ),
             ),

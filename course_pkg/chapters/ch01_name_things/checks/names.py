@@ -175,7 +175,10 @@ def _astray(room: str, found: str) -> str:
             "A name that begins with ~ is private, so the service is in the namespace of the node. "
             "Remove the ~ from the name."
         )
-    return "The name of the service has to be `measure`, in the namespace of the room that the function gets."
+    return (
+        "The name of the service is wrong. The service has to be `measure` in the namespace of the "
+        "given room."
+    )
 
 
 def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:

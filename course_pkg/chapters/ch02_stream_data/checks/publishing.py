@@ -18,13 +18,10 @@ WAITS_FOR_EVER = (
 # These times in s are for a count without a subscriber. The student's function waits 2 s, and then publishes
 # 11 numbers in 1.1 s. The subscriber connects 2.3 s after the publisher.
 NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
-NO_NUMBERS = "Without a subscriber, wait 2 s, and then publish all numbers at the given rate."
+NO_NUMBERS = "If there is no subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.
 AT_ONCE = 0.3  # AT_ONCE is the maximum duration in s of the fastest of several calls.
-TOO_SOON = (
-    "A subscriber that connects in the first 2 s would not receive the value 0. If there "
-    "is no subscriber, wait for the full 2 s."
-)
+TOO_SOON = "The wait for a subscriber is too short. If there is no subscriber, wait for the full 2 s."
 TOO_EARLY = (
     "The first number was published before a subscriber was connected. Create the publisher, "
     "and then wait for a connection."
@@ -105,7 +102,10 @@ def _counts_alone(context: CheckContext, topic: str) -> None:
         within=8.0,
         hints=[
             (matches("TimesUp"), WAITS_FOR_EVER),
-            (matches("^(?!TimesUp)"), "Even without a subscriber, the function has to publish all numbers."),
+            (
+                matches("^(?!TimesUp)"),
+                "The function failed without a subscriber. Even without a subscriber, publish all numbers.",
+            ),
         ],
     )
     comes.join()

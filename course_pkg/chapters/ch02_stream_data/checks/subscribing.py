@@ -490,8 +490,8 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
             ),
             (
                 lambda actual: set(actual) == set(numbers),
-                "The orders were prepared in the wrong sequence. Prepare them one after the "
-                "other, in the sequence in which they arrive.",
+                "The orders were prepared in the wrong sequence. Prepare one order after the "
+                "other, in the sequence of arrival.",
             ),
             (
                 lambda actual: set(actual) < set(numbers),

@@ -158,8 +158,15 @@ def _says(
 
 _NO_WORD: Hints = [
     (None, NO_RETURN),
-    (matches("waiting|running|ended"), "Write the string exactly as in the exercise, in small letters."),
-    (ANYTHING, "Return one of the three strings of the exercise."),
+    (
+        matches("waiting|running|ended"),
+        "The spelling of the string is wrong. Write the string in small letters, exactly as in the exercise.",
+    ),
+    (
+        ANYTHING,
+        'state() did not return one of the three strings in the exercise. Return "waiting", '
+        '"running" or "ended".',
+    ),
 ]
 _RETURNS = [
     (
@@ -169,7 +176,7 @@ _RETURNS = [
     ),
     (
         matches("TypeError.*NoneType"),
-        "Before the first message, no time is stored. Handle this case before you compare times.",
+        "Before the first message, no time is stored, so a comparison fails. Test for this case first.",
     ),
 ]
 _BEFORE: Hints = [

@@ -25,7 +25,7 @@ WRONG: Mapping[tuple[str, str], str] = {
         "service",
     ): (
         "With a service, the client would make fifty calls per second and wait for each "
-        "response. Choose a design in which the receiver makes no calls."
+        "response. Choose a design without calls."
     ),
     (
         "open the gripper",
@@ -48,7 +48,7 @@ WRONG: Mapping[tuple[str, str], str] = {
         "tidy the room",
         "topic",
     ): "With a topic, the sender gets no result of its job, and no progress messages. Choose a "
-    "design that has both.",
+    "design with a result and progress messages.",
     (
         "free space on disk",
         "topic",

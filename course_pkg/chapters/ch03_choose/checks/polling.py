@@ -17,8 +17,8 @@ SLACK = 0.7  # On a busy machine, a poll may take this many s longer.
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "Pause for 1 / rate seconds between two calls."
 NO_END = (
-    "poll() continues after the end of its time. Before each call, compare the current time "
-    "with the end: the start time plus `seconds`."
+    "poll() continues after the end of its time. The end is the start time plus `seconds`: "
+    "compare the current time with this end before each call."
 )
 
 COUNTED = (
@@ -146,7 +146,7 @@ def _nobody(context: CheckContext) -> None:
         holds=len(counter.asked) <= seconds * rate + 2,
         expected=f"at most {seconds * rate + 1:g} calls in {seconds:g} s, at {rate:g} per second",
         actual=f"{len(counter.asked)} calls",
-        hints=f"poll() made too many calls, which cost processor time. {NO_PAUSE}",
+        hints=f"poll() made too many calls, and each call costs processor time. {NO_PAUSE}",
     )
     context.require(
         "it does not give up early",
@@ -227,13 +227,19 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
         "`patience` is 0 in the request",
         expected=0.0,
         actual=server.requests[0]["patience"],
-        hints=("With this value of `patience`, the detector itself waits for a customer. Use patience=0."),
+        hints=(
+            "The value of `patience` in the request is wrong, so the detector waits for a "
+            "customer. Use patience=0."
+        ),
     )
     context.expect(
         "`after` is 0 in the request",
         expected=0,
         actual=server.requests[0]["after"],
-        hints="With this value of `after`, the detector ignores some customers. Use after=0.",
+        hints=(
+            "The value of `after` in the request is wrong, so the detector ignores some customers. "
+            "Use after=0."
+        ),
     )
 
 

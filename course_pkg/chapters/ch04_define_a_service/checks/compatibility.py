@@ -114,8 +114,8 @@ def _pairs(context: CheckContext) -> list[Pair]:
         differs(
             "a field moved from request to response",
             _text(top, above[:2], [above[2], *below]),
-            "One field has moved to the other side of the line ---, so the texts are not "
-            "compatible. This line separates the request from the response.",
+            "One field is on different sides of the line --- in the two texts, so the texts "
+            "are not compatible. The line --- separates the request from the response.",
         ),
         differs(
             "another value of a constant",

@@ -12,7 +12,7 @@ from course_pkg.types import MessageType, ServiceType, compile_service
 from course_pkg.types.definition import lines
 
 FILE = f"{PACKAGE}/srv/Lamp.srv"
-FIELDS = "Write the fields of the request and of the response, with their types."
+FIELDS = "Write the fields of the request and the response, and the types of these fields."
 
 
 @part(

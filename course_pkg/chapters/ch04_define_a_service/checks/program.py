@@ -42,7 +42,8 @@ ENDINGS = (  # Each entry contains a pattern for the program's output, and a hin
     ),
     (
         r"cannot import name '\w+' from 'lamp_services' ",
-        "Import the type from lamp_services.srv, not from lamp_services itself.",
+        "Your program imports the type from the wrong module. Import the type from "
+        "lamp_services.srv, not from lamp_services.",
     ),
 )
 
@@ -53,7 +54,8 @@ FAULTS = [
     ),
     (
         matches("process request: (?!service handler)"),
-        "The handler refused a request with an unknown mode. Return a response with success=False instead.",
+        "The handler refused a request with an unknown mode. For an unknown mode, return a "
+        "response with success=False.",
     ),
 ]
 
@@ -85,10 +87,10 @@ def the_program(context: CheckContext) -> None:
         ),
         elsewhere="The shebang is in the wrong place. Write the shebang in the first column of line 1.",
         another="The shebang names the wrong program. Write a shebang that names python3.",
-        windows="The file has Windows line endings (CRLF). Save it with Linux line endings (LF).",
+        windows="The file has Windows line endings (CRLF). Save the file with Linux line endings (LF).",
         mark=(
-            "The file begins with an invisible character, the byte order mark (BOM), which "
-            "Windows editors add. Save the file as UTF-8 without BOM."
+            "The file begins with an invisible character, the byte order mark (BOM). Save the "
+            "file as UTF-8 without BOM."
         ),
         assertion="its first line is a shebang that asks for Python 3",
         program="python",

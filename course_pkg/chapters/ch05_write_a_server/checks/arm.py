@@ -187,7 +187,7 @@ def _is_closed(context: CheckContext, address: ServiceSeen | None) -> None:
         holds=not context.look().service(MOVE),
         expected=f"no {MOVE}",
         actual=f"{MOVE} is registered",
-        hints="The service still exists. Store the rospy.Service object, and call its method shutdown().",
+        hints="The service still exists. Store the rospy.Service object, and call shutdown() of this object.",
     )
     probes = [service_probe(MOVE, address.uri)] if address else []
     ask_all(probes, 1.0)

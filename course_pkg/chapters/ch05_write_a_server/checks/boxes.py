@@ -55,7 +55,7 @@ def area_and_volume(context: CheckContext) -> None:
 
 def _about_volume(area: float, height: float) -> Hints:
     return [
-        (0.0, "The volume is 0: a field without a value is 0. Set the field `volume`."),
+        (0.0, "The volume is 0, because a field without a value is 0. Set the field `volume`."),
         (area + height, "Your volume is area + height. Multiply by the height; do not add the height."),
         (area * height * 1e6, "Your volume is in cubic centimetres. Do not convert the metres."),
         (round(area * height), "Your volume is rounded. Return all digits of the volume."),
@@ -66,7 +66,7 @@ def _about_volume(area: float, height: float) -> Hints:
 
 def _about_area(width: float, length: float, height: float) -> Hints:
     return [
-        (0.0, "The area is 0: a field without a value is 0. Set the field `area`."),
+        (0.0, "The area is 0, because a field without a value is 0. Set the field `area`."),
         (width + length, "Your area is width + length. Multiply the two sides; do not add them."),
         (
             width * height,
@@ -107,8 +107,8 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
         hints=[
             (
                 matches(OWN_TEXT),
-                "This box has no negative side, but the handler refused it. Refuse only values "
-                "below zero, and not zero itself.",
+                "The handler refused a box without a negative side. Refuse only values below "
+                "zero, and not zero itself.",
             )
         ],
     )
@@ -163,8 +163,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
         hints=[
             (
                 matches("error processing request"),
-                "The handler raised an exception of the wrong type, so the client concludes that the "
-                "server has a bug. Raise rospy.ServiceException.",
+                "The handler raised an exception of the wrong type. Raise "
+                "rospy.ServiceException to refuse a request.",
             ),
             (
                 matches("returned None"),

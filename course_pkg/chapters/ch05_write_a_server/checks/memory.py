@@ -47,7 +47,7 @@ NO_REFUSAL = (
     "A request for the current position is not an error. Return success=False and the position in "
     "the response."
 )
-STARTS_ON = "A new switch was not off. Set its position to False in __init__."
+STARTS_ON = "A new switch was not off. Set the position of the switch to False in `__init__`."
 SHARES = (
     "A new Switch() was on, because it shares a variable with the switch at /switch. Store the "
     "position in `self`, not in the class or in a global variable."
@@ -139,7 +139,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
                     ),
                     (
                         _lost_a_digit(number),
-                        "After 9, the message has only one digit. Return all digits of the number.",
+                        "After the number 9, the message has only one digit. Return all digits "
+                        "of the number.",
                     ),
                     (
                         _follows(before),
@@ -164,8 +165,8 @@ def a_counter_that_resets(context: CheckContext) -> None:
         expected=str(int(before) + 1),
         actual=context.run("another_client", worded="a call from another client").value,
         hints=(
-            "Each client got a different count. Store one number in `self`, which the calls of all "
-            "clients change."
+            "Each client got a different count. Use the same number for all clients: store "
+            "this number in `self`."
         ),
     )
     _starts_from_zero(context)

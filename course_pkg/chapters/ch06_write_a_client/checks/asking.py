@@ -109,7 +109,7 @@ def the_geometry_client(context: CheckContext) -> None:
 _UNAVAILABLE = [
     (
         matches("unavailable"),
-        "The given service exists, but your function called a different name. Create the "
+        "The given service exists, but your function called a different service. Create the "
         "proxy with the name in `service`.",
     )
 ]

@@ -287,7 +287,9 @@ def _about_calls(calls: int, case: Case, done: Finished, elsewhere: bool) -> str
     if calls > case.calls > 0:
         return "The program called the service more than once. Call the service once, and store the response."
     if calls:
-        return "The arguments were wrong, but the program sent a request. Check the arguments first."
+        return (
+            "The arguments were wrong, but the program sent a request. Check the arguments before the call."
+        )
     if case.late and done.status == 3:
         return (
             "The service started while the program ran, but the program did not call the "

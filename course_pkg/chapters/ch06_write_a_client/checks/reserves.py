@@ -11,8 +11,11 @@ from course_pkg.checking.result import Result
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
 # A right function may wait 1 s for each of the two services; LONGEST is the maximum delay in s.
 LONGEST = 1.75
-FIRST = "If the first service responds, return its volume."
-NEXT = "If a service does not exist or refuses the request, call the next service, and return its volume."
+FIRST = "If the first service responds, return the volume in its response."
+NEXT = (
+    "If a service does not exist or refuses the request, call the next service, and return the "
+    "volume in its response."
+)
 
 
 @part(
@@ -86,7 +89,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         expected=0.0,
         actual=_first_of(context, names, "flat", "second").returned(),
         hints=(
-            "The first service responded with the volume 0.0, which is false in a condition. "
+            "The first service responded with the volume 0.0, and Python treats 0.0 as false. "
             "Test for an empty list or for None instead."
         ),
     )

@@ -39,8 +39,8 @@ def is_anybody_there(context: CheckContext) -> None:
             (None, NO_RETURN),
             (
                 False,
-                "The service exists, but the result was False. wait_for_service returns None "
-                "if the service exists, so do not test its return value.",
+                "The service exists, but the result was False. Do not test the return value of "
+                "wait_for_service: this function always returns None.",
             ),
             (
                 lambda actual: isinstance(actual, str),
@@ -78,8 +78,8 @@ def is_anybody_there(context: CheckContext) -> None:
             expected="no request",
             actual=f"{len(server.requests)} request(s)",
             hint=(
-                "The function called the service, so the server had to do its work. Wait for "
-                "the service without a call."
+                "The function called the service, and this call started the server's work. "
+                "Wait for the service without a call."
             ),
         )
     _never_there(

@@ -93,7 +93,10 @@ def _hint(half: str, asked: MessageType, given: MessageType, other: MessageType)
             "this line, and the response below this line."
         )
     if missing and (near := difflib.get_close_matches(missing[0], extra, n=1, cutoff=0.5)):
-        return f"Compare the name {near[0]} with the name in the exercise, letter by letter."
+        return (
+            f"The name {near[0]} is misspelt. Compare this name with the name in the exercise, "
+            "letter by letter."
+        )
     if missing:
         return f"The {half} has no field {missing[0]}. Add this field."
     if extra:

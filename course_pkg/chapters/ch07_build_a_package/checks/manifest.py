@@ -99,4 +99,4 @@ def _about_dependency(text: str, package: str, tag: str) -> str:
         )
     if package == "message_runtime":
         return "The name of a package is missing. Look for this name in the warning of catkin_create_pkg."
-    return f"The package uses {package}, but package.xml has no tag for it. Add this tag."
+    return f"The package uses {package}, but package.xml has no tag for {package}. Add this tag."

@@ -28,7 +28,9 @@ REPLACED = (
     "bash has replaced $HOME with a path. Use shlex.quote, because bash replaces nothing inside its quotes."
 )
 NO_YAML = "YAML cannot read a dict from the fields in your line. Use json.dumps, and then shlex.quote."
-CALLED_BEFORE = "Your function called the service. Return the line as a string, because the check runs the line."
+CALLED_BEFORE = (
+    "Your function called the service. Return the line as a string, because the check runs the line."
+)
 TWICE = "The line calls the service more than once. Write only one call."
 COMPLAINTS = [
     (

@@ -92,8 +92,8 @@ def find_the_cause(context: CheckContext) -> None:
         expected=0,
         actual=len(server.requests),
         hints=(
-            "Your function called the service, so the server did its work. Use only "
-            "get_service_uri and get_service_headers."
+            "Your function called the service, and this call started the server's work. Use "
+            "only get_service_uri and get_service_headers."
         ),
     )
     for name in others:

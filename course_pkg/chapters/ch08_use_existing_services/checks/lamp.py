@@ -67,13 +67,14 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
             ),
             (
                 [{"number": int(not data)}],
-                "The number is wrong. Send 1 to switch the lamp on, and 0 to switch the lamp off.",
+                "The number in the request is wrong. Send 1 to switch the lamp on, and 0 to "
+                "switch the lamp off.",
             ),
             (
                 lambda actual: len(actual) > 1,
                 "The handler called /on_off more than once. Call /on_off only once, and store the response.",
             ),
-            (ANYTHING, "The number has to be 1 or 0. Send 1 for True, and 0 for False."),
+            (ANYTHING, "The number in the request has to be 1 or 0. Send 1 for True, and 0 for False."),
         ],
     )
     context.expect(

@@ -69,8 +69,8 @@ def find_by_type(context: CheckContext) -> None:
             expected="no request",
             actual="a request to each service",
             hint=(
-                "The function called the services to find their type, so the servers did their "
-                "work. Use get_service_type instead."
+                "The function called the services to find their types, and these calls started "
+                "the work of the servers. Use get_service_type instead."
             ),
         )
     context.fulfilled(FOUND)
