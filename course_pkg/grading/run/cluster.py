@@ -57,8 +57,9 @@ class Cluster:
             return self._lost()
         if isinstance(error, (ImportError, RuntimeError)):
             return GradingError(
-                f"The dask workers cannot run the course ({type(error).__name__}: {error}). Start the scheduler "
-                f"and the workers with `./course run dask …`, and use the same version of the course. {AGAIN}"
+                f"The dask workers cannot run the course ({type(error).__name__}: {error}). Start the "
+                "scheduler and the workers with `./course run dask …`, and use the same version of the course. "
+                f"{AGAIN}"
             )
         return GradingError(
             "Several dask workers ended while they graded the same notebook. Read the workers' "

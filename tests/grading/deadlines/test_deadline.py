@@ -125,8 +125,8 @@ def test_the_note_says_when() -> None:
     late, early = lateness.applied([_submission("s01"), _submission("s02")])
     assert late.late == pytest.approx(1.0)
     assert late.notes == (
-        "This chapter was handed in at 2026-11-03 23:59 +01:00. The deadline was 2026-11-02 23:59 +01:00, with an extension "
-        "of 1 day.",
+        "This chapter was handed in at 2026-11-03 23:59 +01:00. The deadline was 2026-11-02 23:59 +01:00, "
+        "with an extension of 1 day.",
     )
     assert (early.late, early.notes) == (0.0, ())
 
@@ -176,6 +176,7 @@ def test_the_best_attempt_counts_after_lateness(tmp_path: Path) -> None:
     (best,) = best_attempts([full, last])
     assert best.origin == names[2]
     assert best.notes[-1] == (
-        f"This chapter was handed in 2 times: {names[2]} has the most points and counts. These do not count: {names[0]}."
+        f"This chapter was handed in 2 times: {names[2]} has the most points and counts. These do not "
+        f"count: {names[0]}."
     )
     assert best_attempts([grade]) == [grade]

@@ -137,8 +137,8 @@ def _answer(context: CheckContext, assertion: str, response: Message, success: b
             (
                 lambda actual: actual[0] is not success and actual[1] == message,
                 (
-                    "The message is right, but the field `success` is wrong. In this case, success "
-                    f"must be {success}."
+                    "The message is right, but the field `success` is wrong. In this case, "
+                    f"`success` must be {success}."
                 ),
             ),
             (

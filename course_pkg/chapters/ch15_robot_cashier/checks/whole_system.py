@@ -86,7 +86,7 @@ NOT_RECOVERED = (
 RESPAWN = 'roslaunch did not start a node again. Add respawn="true" to the <node> tag of each of your nodes.'
 AFTERWARDS = (
     "After all nodes were killed and started again, the next customer was not greeted. Start the "
-    "system, kill a node, and read the output after this."
+    "system, kill a node, and read the new output."
 )
 
 
@@ -173,8 +173,8 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
                 hint=NOT_LAUNCHED
                 if status is not None
                 else (
-                    f"The node {node} is missing, or the node has no {name}. Check the exercise in "
-                    "which you wrote this node again."
+                    f"The node {node} is missing, or the node has no {name}. Repeat the check of "
+                    "the exercise for this node."
                 ),
             )
         time.sleep(POLL)
