@@ -249,7 +249,7 @@ def test_a_time_that_was_set_back_is_listed(
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK)
     run(homes, tmp_path / "out")
     printed = capsys.readouterr().out
-    assert f"anna/{NOTEBOOK}: the time is 2023-11-1" in printed
+    assert f"anna/{NOTEBOOK}: the time of the file is 2023-11-1" in printed
     assert f"ben/{NOTEBOOK}" not in printed
 
 

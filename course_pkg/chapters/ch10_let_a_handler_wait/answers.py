@@ -177,7 +177,7 @@ replace("\n        customer = watch.next(request.after)", "")
 replace("\n        watch.changed … customer.arrived", """
         customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
     return customer is not None, customer.number, customer.arrived""")
-# %% 10.2 wrong: returns None if there is no customer | hint: The handler has a path without a `return` line
+# %% 10.2 wrong: returns None if there is no customer | hint: The handler can end without a `return` line
 based_on("fails if there is no customer")
 replace("return customer is not None", "if customer:\n        return True")
 # %% 10.2 wrong: waits without holding the condition | hint: The methods `wait` and `wait_for` need the lock
@@ -313,7 +313,7 @@ replace("with self.changed:\n            while", "if True:\n            while")
 replace("message=str(self.items)", "message=self.items", times=2)
 # %% 10.3 wrong: empty as an error | hint: An empty basket is not an error
 replace('return TriggerResponse(success=False, message="empty")', 'raise rospy.ServiceException("empty")')
-# %% 10.3 wrong: no response after the limit | hint: A handler has a path without a `return` line
+# %% 10.3 wrong: no response after the limit | hint: A handler can end without a `return` line
 replace('return TriggerResponse(success=False, message="empty")', "return None")
 # %% 10.3 wrong: another word for empty | hint: No item came, but the response is wrong
 replace('"empty"', '"nothing there"')

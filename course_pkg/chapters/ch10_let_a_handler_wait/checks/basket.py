@@ -78,7 +78,7 @@ ERRORS = [
     ),
     (
         matches("returned None"),
-        "A handler has a path without a `return` line. Return a response in every case.",
+        "A handler can end without a `return` line. Return a response in every case.",
     ),
     (
         matches("cannot process request"),

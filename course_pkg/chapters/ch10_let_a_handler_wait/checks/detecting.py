@@ -67,7 +67,7 @@ ERRORS = [
     ),
     (
         matches("returned None"),
-        "The handler has a path without a `return` line. Return a response even if no customer came.",
+        "The handler can end without a `return` line. Return a response even if no customer came.",
     ),
     (
         matches("'NoneType' object has no attribute"),
