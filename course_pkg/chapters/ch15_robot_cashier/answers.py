@@ -851,7 +851,7 @@ change_node("robot_cashier", """import random
 mirror = robot_cashier.RobotCashier.mirror
 robot_cashier.RobotCashier.mirror = lambda self, joints: random.random() < 0.05 and mirror(self, joints)""")
 
-# %% 15.11 wrong: a guess without a camera | hint: No frame came for more than 1 s, but detect_customer does not refuse each
+# %% 15.11 wrong: a guess without a camera | hint: No frame came for more than 1 s, but detect_customer accepted a call
 change_node("customer_detector", "customer_detector.await_customer = lambda eye, patience: bool(eye._seen)")
 
 # %% 15.11 wrong: silent for ever | hint: New frames came after a pause, but detect_customer still refuses
