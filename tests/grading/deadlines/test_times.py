@@ -139,7 +139,7 @@ def test_the_table_of_collected_files(tmp_path: Path) -> None:
         ("student,days\n", "student,submitted"),
         ("student,submitted\nsecret,soon\n", "line 2: this is not a time"),
         ("student,submitted\n,2026-11-01T10:00Z\n", "line 2: the student is missing"),
-        ("student,chapter,submitted\nsecret,five,2026-11-01T10:00Z\n", "line 2: .*the chapter is not a number"),
+        ("student,chapter,submitted\nsecret,five,2026-11-01T10:00Z\n", "line 2: .*chapter is not a number"),
         ("student,submitted\nsecret,2026-11-01T10:00Z\nsecret,2026-11-01T10:00Z\n", "line 3: .*twice"),
         ("student,submitted\nsecret,2026-11-01T10:00\n", "line 2: the time has no time zone"),
     ],
