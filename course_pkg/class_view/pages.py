@@ -211,7 +211,10 @@ class Results(Handler):
     async def post(self) -> None:
         """Store results; answer with the ids that need not be sent again."""
         if len(self.request.body) > LARGEST:
-            self.refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"A request has at most {LARGEST} bytes.")
+            self.refuse(
+                HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
+                f"The request is too large. A request can have at most {LARGEST} bytes.",
+            )
             return
         if (student := await self.student()) is None:
             return

@@ -129,8 +129,8 @@ def _collect_one(
     found.packages += len({file.package for file in files if file.package})
     found.set_back += [
         (
-            f"{student}/{file.place}: the time is {iso_time(file.modified)}, but the file was written "
-            f"or moved at {iso_time(file.changed)}"
+            f"{student}/{file.place}: the time of the file is {iso_time(file.modified)}, but the "
+            f"file was written or moved at {iso_time(file.changed)}"
         )
         for file in files
         if file.changed - file.modified > SET_BACK

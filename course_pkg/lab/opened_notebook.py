@@ -25,7 +25,8 @@ def notebook_to_open(root: Path, asked: str | None) -> str:
         raise SetupError(f"There is no notebook {asked}. The chapters are in {root / 'notebooks'}.")
     if not path.is_relative_to(root):
         raise SetupError(
-            f"{path} is not in {root}, and JupyterLab serves only that folder. Copy the notebook there."
+            f"{path} is not in {root}, and JupyterLab serves only this folder. Copy the "
+            "notebook to this folder."
         )
     return str(path.relative_to(root))
 

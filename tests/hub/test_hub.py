@@ -76,7 +76,7 @@ def test_a_second_hub_is_refused(address: str, folder: Path) -> None:
     [
         (["Zoë"], [], "'Zoë'"),
         (["anna.berg"], [], "These are not names of accounts"),
-        (["anna"], ["--cert", "missing.pem"], "Give both options"),
+        (["anna"], ["--cert", "missing.pem"], "The options --cert and --key belong together"),
         (["anna"], ["--ip", "somewhere"], "is not an IP address"),
     ],
 )

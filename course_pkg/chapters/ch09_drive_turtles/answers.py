@@ -132,7 +132,7 @@ replace('        rate.sleep()\n', '        rate.sleep()\n    rospy.Service("togg
 replace('"toggle_forward"', '"toggle"')
 # %% 09.2 wrong: another topic | hint: The node does not publish on /turtle1/cmd_vel
 replace('"turtle1/cmd_vel"', '"turtle1/cmd_velocity"')
-# %% 09.2 wrong: also to the side | hint: A field is not 0, although it has to be 0
+# %% 09.2 wrong: also to the side | hint: A field of the velocity is not 0, but it has to be 0
 replace('        if forward:\n', '        message.linear.y = 0.5\n        if forward:\n')
 # %% 09.2 wrong: the loop toggles, once per message | hint: The second call changed nothing
 replace('    global forward\n    forward = not forward', '    global called\n    called = True')
@@ -409,5 +409,5 @@ replace('if="$(arg addturtle)" ', '')
 replace('type="improved_pubvel_toggle.py"', 'type="improved_pubvel_toggle"')
 # %% 09.6 wrong: turtlesim as the program | hint: roslaunch does not find a program
 replace('type="turtlesim_node"', 'type="turtlesim"')
-# %% 09.6 wrong: in a namespace | hint: The three programs start, but their topics and services have different names
+# %% 09.6 wrong: in a namespace | hint: The three programs start, but they use different names for the same topics or
 replace('name="turtlesim" />', 'name="turtlesim">\n    <remap from="/turtle1/cmd_vel" to="/other/cmd_vel" />\n  </node>')

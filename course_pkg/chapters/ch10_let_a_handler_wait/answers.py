@@ -186,7 +186,7 @@ replace("\n        customer = watch.next(request.after)", "")
 replace("\n        watch.changed … customer.arrived", """
         customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
     return customer is not None, customer.number, customer.arrived""")
-# %% 10.2 wrong: returns None if there is no customer | hint: The handler has a path without a `return` line
+# %% 10.2 wrong: returns None if there is no customer | hint: The handler can end without a `return` line
 based_on("fails if there is no customer")
 replace("return customer is not None", "if customer:\n        return True")
 # %% 10.2 wrong: waits without holding the condition | hint: The methods `wait` and `wait_for` need the lock
@@ -227,7 +227,7 @@ replace("if time.monotonic … sleep(0.1)", "time.sleep(0.1)\n    return False, 
 # %% 10.2 wrong: looks, sleeps, and looks again | hint: the handler continued to wait
 based_on("looks without waiting")
 replace("None:", "None:\n        time.sleep(request.patience)\n        customer = watch.next(request.after)\n    if customer is None:")
-# %% 10.2 wrong: leaves detected out | hint: The number is right, but detected is False
+# %% 10.2 wrong: leaves detected out | hint: The number is right, but `detected` is False
 based_on("what wait_for returns")
 replace("detected=True, number", "number")
 # %% 10.2 wrong: the number of customers | hint: The response contains a wrong number
@@ -329,7 +329,7 @@ replace("with self.changed:\n            while", "if True:\n            while")
 replace("message=str(self.items)", "message=self.items", times=2)
 # %% 10.3 wrong: empty as an error | hint: An empty basket is not an error
 replace('return TriggerResponse(success=False, message="empty")', 'raise rospy.ServiceException("empty")')
-# %% 10.3 wrong: no response after the limit | hint: A handler has a path without a `return` line
+# %% 10.3 wrong: no response after the limit | hint: A handler can end without a `return` line
 replace('return TriggerResponse(success=False, message="empty")', "return None")
 # %% 10.3 wrong: another word for empty | hint: No item came, but the response is wrong
 replace('"empty"', '"nothing there"')
@@ -406,7 +406,7 @@ replace("with self.lock:", """if not self.lock.acquire(blocking=False):
         try:""")
 replace("(count - 1)\n        ", "(count - 1)\n            ")
 replace("1))", "1))\n        finally:\n            self.lock.release()")
-# %% 10.4 wrong: does not check that something is left | hint: The shelf was empty, but success is True
+# %% 10.4 wrong: does not check that something is left | hint: The shelf was empty, but `success` is True
 replace("count = self … count - 1))", """count = self.shelf.read() - 1
             self.shelf.write(count)
         return TriggerResponse(success=True, message=str(count))""")
@@ -569,11 +569,11 @@ replace("self.cents).receipt", "100 * self.cents).receipt")
 replace("rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt", "uuid.uuid4()")
 # %% 10.5 wrong: a sentence in place of the number | hint: The message of /left is wrong
 replace("message=str(self.shelf.read())", 'message=f"{self.shelf.read()} are left"')
-# %% 10.5 wrong: leaves success out | hint: The till has taken the money, but success is False
+# %% 10.5 wrong: leaves success out | hint: The till has taken the money, but `success` is False
 replace("success=True, message=str(receipt)", "message=str(receipt)")
 # %% 10.5 wrong: the stock in place of the receipt | hint: The message of /buy is wrong
 replace("str(receipt)", "str(count - 1)")
-# %% 10.5 wrong: a success although the till failed | hint: The till did not take the money, but success is True
+# %% 10.5 wrong: a success although the till failed | hint: The till did not take the money, but `success` is True
 replace('success=False, message=f"not paid', 'success=True, message=f"not paid')
 # %% 10.5 wrong: replaces the methods of the shelf | hint: The number on the shelf is different from the number that /left returns
 replace("        self.shelf = shelf", """        self.shelf = shelf
@@ -701,7 +701,7 @@ causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
 # %% 10.7 wrong: A and B exchanged | hint: The cause "lock order" needs two threads and two locks … Follow the calls from thread to thread
 replace('"A": "lock across a call"', '"A": "lock order"')
 replace('"B": "lock order"', '"B": "lock across a call"')
-# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: If a thread holds a lock during a call, threads wait in two services … Each of the two threads holds the lock of one shelf and
+# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: With the cause "lock across a call", threads wait in two services … Each of the two threads holds the lock of one shelf and
 replace('"lock order"', '"lock across a call"')
 # %% 10.7 wrong: C and E exchanged | hint: The cause "no notify" means that a thread sleeps although an item is there … The clients have ended, but the number of waiting threads still grows
 replace('"C": "no limit"', '"C": "no notify"')

@@ -26,7 +26,7 @@ replace("<", "!", times=2)
 replace('struct.pack("<I", len(body)) + body', "body")
 # %% 11.1 wrong: counts its own length | hint: The first length is too large by 4
 replace("(body)", "(body) + 4")
-# %% 11.1 wrong: counts the fields | hint: The first number is the number of fields
+# %% 11.1 wrong: counts the fields | hint: The header begins with the number of its fields
 replace('b""', 'struct.pack("<I", len(fields))')
 replace('struct.pack("<I", len(body)) + body', "body")
 # %% 11.1 wrong: counts letters | hint: A length is a number of bytes, and the letter ü has two bytes
@@ -106,7 +106,7 @@ replace('    data = b""\n', '    sock.settimeout(0.1)\n    data = b""\n')
 replace("            raise", "            sock.close()\n            raise")
 # %% 11.2 wrong: calls recv once | hint: The function returned too few bytes
 replace('data = b"" … return data', "return sock.recv(count)")
-# %% 11.2 wrong: never notices the end | hint: The function never returned after the connection was closed
+# %% 11.2 wrong: never notices the end | hint: The function did not return after the other program had closed the connection
 replace('\n        if not piece:\n            raise ConnectionError("the other end has closed")', "")
 # %% 11.2 wrong: reads ahead | hint: The function returned more than `count` bytes, so these bytes are missing in the
 replace("count - len(data)", "4096")
@@ -272,7 +272,7 @@ replace("receive(sock, 5)", """reply = sock.recv(4096)
         if reply[0] == 0:
             raise rospy.ServiceException(reply[5:].decode())""")
 replace("receive(sock, 8)", "reply[5:]")
-# %% 11.3 wrong: * as the MD5 | hint: The value "*" matches every definition, even a wrong one
+# %% 11.3 wrong: * as the MD5 | hint: The value "*" matches every definition, even a wrong definition
 based_on("no length in front of the request")
 replace("geometry._md5sum", '"*"')
 replace('"<3f"', '"<I3f", 12')
@@ -352,7 +352,7 @@ replace('"<3f", length, width', '"<3f", width, length')
 replace("(host, int(port))", '("localhost", 11311)')
 # %% 11.3 wrong: no MD5 | hint: The field `md5sum` is missing
 replace(', "md5sum": geometry._md5sum', "")
-# %% 11.3 wrong: the MD5 of the request | hint: The MD5 sum belongs to another type, or only to the request
+# %% 11.3 wrong: the MD5 of the request | hint: The MD5 sum is not the sum of the whole service type
 replace("geometry._md5sum", "geometry._request_class._md5sum")
 # %% 11.3 wrong: no field callerid | hint: The field `callerid` is missing
 replace('"callerid": node.name, ', "")
@@ -607,7 +607,7 @@ class Remembering:
         self.uri = rosgraph.Master("/me").lookupService(self.service)
         return ask(self.uri, self.service, length, width, height)
 
-# %% 11.6 wrong: looks up for each call | hint: Your method looked up the address again, but the master does not know the
+# %% 11.6 wrong: looks up for each call | hint: Your method looked up the address again, but the master no longer knows the
 class Remembering:
     def __init__(self, service):
         self.service = service

@@ -315,7 +315,7 @@ replace("def", "request_id = str(uuid.uuid4())\ndef")
 replace("\n    request_id = str(uuid.uuid4())", "")
 # %% 12.3 wrong: no id | hint: The field `request_id` is empty
 replace("Charge), request_id, cents", 'Charge), "", cents')
-# %% 12.3 wrong: repeats a refusal | hint: The till refused, but pay() called the till again
+# %% 12.3 wrong: repeats a refusal | hint: The till refused the payment, but pay() called the till again
 replace("raise", "pass")
 # %% 12.3 wrong: None for a refusal | hint: The till refused the payment, but pay() did not raise an error
 replace("raise", "return None")

@@ -48,17 +48,17 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, and all other points are very
+# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, so this frame shows a customer
 replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * frame.width * frame.height")
 # %% 15.1 wrong: any dark point | hint: Only a twentieth of the points is dark
 replace("10 * dark >= frame.width * frame.height", "dark > 0")
 # %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, and this is enough
 replace(">= frame.width", "> frame.width")
-# %% 15.1 wrong: rounded | hint: One dark point is missing for a tenth of the points, so this frame
+# %% 15.1 wrong: rounded | hint: The number of dark points is one less than a tenth, so this frame
 replace("10 * dark >= frame.width * frame.height", "round(dark / (frame.width * frame.height), 2) >= 0.1")
 # %% 15.1 wrong: 96 is dark | hint: Some points have the value 96, but a point is dark only if its
 replace("point < 96", "point <= 96")
-# %% 15.1 wrong: the padding counts | hint: Some bytes of a row are padding
+# %% 15.1 wrong: the padding counts | hint: Each row has frame.step bytes, but only the first frame.width bytes are points
 replace("frame.data[start : start + frame.width]", "frame.data[start : start + frame.step]")
 # %% 15.1 wrong: always True | hint: All points are light
 replace("10 * dark >= frame.width * frame.height", "dark >= 0")
@@ -125,7 +125,7 @@ def main():
     rospy.Service("detect_customer", AwaitCustomer, handle)
     rospy.spin()""")
 replace('rospy.init_node("customer_detector")\n    Detector()\n    rospy.spin()', "main()")
-# %% 15.2 wrong: remembers a customer | hint: The newest message reports no customer, but found is True in the response
+# %% 15.2 wrong: remembers a customer | hint: The newest message reports no customer, but `found` is True in the response
 replace("self.customer = message.data", "self.customer = self.customer or message.data")
 # %% 15.2 wrong: does not wait | hint: The response came too early
 based_on("a loop that looks again and again")
@@ -134,7 +134,7 @@ replace("while not newest and", "while False and")
 replace("timeout=request.patience)", "timeout=min(request.patience, 1.0))")
 # %% 15.2 wrong: waits without a limit | hint: The response came too late
 replace(", timeout=request.patience)", ", timeout=30)")
-# %% 15.2 wrong: always False | hint: The newest message reports a customer, but found is False in the response
+# %% 15.2 wrong: always False | hint: The newest message reports a customer, but `found` is False in the response
 based_on("a loop that looks again and again")
 replace("found=bool(newest)", "")
 # %% 15.2 wrong: waits before it looks | hint: A customer was there before the call
@@ -146,7 +146,7 @@ replace("        with self.changed:\n            end", "        with self.turn, 
 replace("        self.customer = False", "        self.customer = False\n        self.turn = threading.Lock()")
 # %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but one of these
 replace("            self.customer = message.data\n            self.changed.notify_all()", "            if message.data and not self.customer:\n                self.changed.notify()\n            self.customer = message.data")
-# %% 15.2 wrong: no limits | hint: The handler accepted an impossible `patience`
+# %% 15.2 wrong: no limits | hint: The handler accepted an impossible value of `patience`
 replace("if not 0 <= request.patience <= 60:", "if False:")
 replace("timeout=request.patience)", "timeout=max(0, request.patience))")
 # %% 15.2 wrong: accepts nan | hint: The handler accepted nan (not a number), because each comparison with nan is False
@@ -284,7 +284,7 @@ replace("        mirrored.publish(", "        joints.header.frame_id = ''\n     
 replace("                effort=joints.effort,\n", "")
 # %% 15.5 wrong: any number of positions | hint: The numbers of names and positions are different
 replace("len(joints.position) != count or ", "")
-# %% 15.5 wrong: any number of velocities | hint: The number of velocities is neither 0 nor equal to the number of names
+# %% 15.5 wrong: any number of velocities | hint: The number of velocities has to be 0 or equal to the number of
 replace(" or len(joints.velocity) not in (0, count)", "")
 # %% 15.5 wrong: nan is mirrored | hint: A position or velocity was nan or inf, which is not valid
 replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "True")
@@ -397,11 +397,11 @@ replace('''        rospy.logwarn("till/reset: %s", error)''', '''        raise''
 replace('"~wait", 2.0', '"~wait", 5.0')
 # %% 15.6 wrong: a fixed patience | hint: The field `patience` has a wrong value
 replace('rospy.get_param("~wait", 2.0)', '2.0')
-# %% 15.6 wrong: waits for the next customer at once | hint: In the last response, found was True, so a customer is there
+# %% 15.6 wrong: waits for the next customer at once | hint: In the last response, `found` was True, so a customer is there
 replace("    there = True\n", "    there = False\n")
 # %% 15.6 wrong: a refusal ends a visit | hint: A failed call does not end a visit
 replace("while there is not False and", "while there and")
-# %% 15.6 wrong: calls with 0 after a visit | hint: In the last response, found was False, so no customer is there
+# %% 15.6 wrong: calls with 0 after a visit | hint: In the last response, `found` was False, so no customer is there
 replace("there = is_there(0)", "there = is_there(0)\n    is_there(0)")
 # %% 15.6 wrong: no pause during a visit | hint: wait 0.2 s between two calls
 replace("        rospy.sleep(0.2)\n", "")
@@ -418,9 +418,9 @@ replace("return detect(patience).found", """results = []
         return results[0] if results else False""")
 # %% 15.6 wrong: no greeting | hint: A customer came, but the node sent no greeting
 replace('    greetings.publish("Good day!")\n', "")
-# %% 15.6 wrong: greets again | hint: There were more greetings than visits
+# %% 15.6 wrong: greets again | hint: The node published more than one greeting in a visit
 replace("        there = is_there(0)\n", "        there = is_there(0)\n        if there:\n            greetings.publish('Good day!')\n")
-# %% 15.6 wrong: the response as a truth value | hint: found was False, but the node acted as if a customer was there
+# %% 15.6 wrong: the response as a truth value | hint: `found` was False, but the node acted as if a customer was there
 replace("return detect(patience).found", "return bool(detect(patience))")
 # %% 15.6 wrong: another greeting | hint: The text of the greeting is wrong
 replace("Good day!", "Hello")
@@ -440,7 +440,7 @@ replace('    there = True\n', """    there = True
 """)
 # %% 15.6 wrong: waits for a till | hint: The service till/reset does not exist, and the node stopped calling detect_customer
 replace("        reset()\n", '        rospy.wait_for_service("till/reset")\n        reset()\n')
-# %% 15.6 wrong: resets before and after | hint: more often than there were visits
+# %% 15.6 wrong: resets before and after | hint: The node called till/reset more than once after a visit
 replace('    greetings.publish("Good day!")\n', '    greetings.publish("Good day!")\n    try:\n        reset()\n    except rospy.ServiceException:\n        pass\n')
 # %% 15.6 wrong: mirrors nothing during a visit | hint: During a visit, the node mirrored nothing
 replace("def is_valid", "visiting = False\n\n\ndef is_valid")
@@ -487,7 +487,7 @@ replace('response.found', 'patience')
 replace('else "nobody")', 'else "nobody")\n    rospy.spin()')
 # %% 15.4 wrong: prints nothing | hint: The program printed nothing
 replace('print("customer" if', '("customer" if')
-# %% 15.4 wrong: the response as a truth value | hint: found was False, but the program printed "customer"
+# %% 15.4 wrong: the response as a truth value | hint: `found` was False, but the program printed "customer"
 replace("if response.found", "if response")
 # %% 15.4 wrong: prints the response | hint: The program printed a wrong line
 replace('"customer" if response.found else "nobody"', "response")
@@ -559,9 +559,9 @@ replace('f"{request.item}: {request.cents} cents are negative"', '"an item canno
 replace("if not request.item:", "if False:")
 # %% 15.7 wrong: stores before it refuses | hint: The till refused the call, but its content has changed
 replace('    if not request.item:', '    prices[request.item] = request.cents\n    if not request.item:')
-# %% 15.7 wrong: 32 bits | hint: A sum above 2147483647 is wrong
+# %% 15.7 wrong: 32 bits | hint: The till returned a wrong sum above 2147483647
 replace("    prices[request.item] = request.cents\n", "    prices[request.item] = min(request.cents, 2**31 - 1)\n")
-# %% 15.7 wrong: small letters | hint: Two items such as milk and MILK are different items
+# %% 15.7 wrong: small letters | hint: The items milk and MILK are two different items
 replace("prices[request.item]", "prices[request.item.lower()]")
 # %% 15.7 wrong: refuses 0 cents | hint: The till refused a valid item
 replace("request.cents < 0", "request.cents <= 0")
@@ -799,9 +799,9 @@ replace(' respawn="true"', "", times=4)
 replace('name="till" respawn="true"', 'name="till"')
 # %% 15.11 wrong: no valid XML | hint: roslaunch ended. Type
 replace('name="robot" />', 'name="robot" >')
-# %% 15.11 wrong: no vision | hint: Check the exercise in which you wrote this node again … Check the exercise in which you wrote this node again
+# %% 15.11 wrong: no vision | hint: Repeat the check of the exercise for this node … Repeat the check of the exercise for this node
 replace('  <node pkg="my_cashier" type="vision.py" name="vision" respawn="true" />\n', "")
-# %% 15.11 wrong: another name | hint: Check the exercise in which you wrote this node again
+# %% 15.11 wrong: another name | hint: Repeat the check of the exercise for this node
 replace('name="till"', 'name="cash_register"')
 
 # %% 15.11 wrong: a blind vision | hint: The frames show a customer, but detect_customer does not find a customer
@@ -865,7 +865,7 @@ change_node("robot_cashier", """import random
 mirror = robot_cashier.RobotCashier.mirror
 robot_cashier.RobotCashier.mirror = lambda self, joints: random.random() < 0.05 and mirror(self, joints)""")
 
-# %% 15.11 wrong: a guess without a camera | hint: No frame came for more than 1 s, but detect_customer does not refuse each
+# %% 15.11 wrong: a guess without a camera | hint: No frame came for more than 1 s, but detect_customer accepted a call
 change_node("customer_detector", "customer_detector.await_customer = lambda eye, patience: bool(eye._seen)")
 
 # %% 15.11 wrong: silent for ever | hint: New frames came after a pause, but detect_customer still refuses

@@ -146,7 +146,8 @@ def _table(rows: list[Row], zone: tzinfo | None) -> _Table:
         student, chapter = row.get("student"), row.get("chapter")
         if not student or (chapter and not (chapter.isdecimal() and len(chapter) <= 2)):
             raise GradingError(
-                f"{row.where}: each row needs a student, and a chapter has to be a number, such as 05."
+                f"{row.where}: the student is missing, or the chapter is not a number. Write a "
+                "student in each row, and a chapter such as 05."
             )
         moment = _moment(row, row.get(*SUBMITTED), zone)
         entry = _Entry(chapter.zfill(2) if chapter else "", row.get("file"), moment)

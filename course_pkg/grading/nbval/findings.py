@@ -11,9 +11,9 @@ LIMIT = re.compile(r"Timeout of (?P<seconds>\d+) seconds exceeded (?:while )?exe
 SENTENCES = (  # Each entry is a text of nbval 0.11 or pytest, and its meaning for a student.
     (
         "Missing output fields",
-        "The cell showed no output, or less output than with the right answers.",
+        "With the right answers, this cell shows more output.",
     ),
-    ("Unexpected output fields", "The cell showed more output than with the right answers."),
+    ("Unexpected output fields", "With the right answers, this cell shows less output."),
     (
         "dissimilar number of outputs",
         "With the right answers, this cell has a different number of outputs.",

@@ -98,7 +98,8 @@ def _columns(file: str, head: Sequence[str]) -> dict[str, int]:
     if not found.keys() - {"section"}:
         raise GradingError(
             f"{file}, line 1: the first line has to contain the names of the columns. Use name, id, "
-            "email, username and section, in any order. You need at least one of the first four."
+            "email, username and section, in any order. At least one of the first four is "
+            "necessary."
         )
     return found
 

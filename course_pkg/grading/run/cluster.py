@@ -58,7 +58,8 @@ class Cluster:
         if isinstance(error, (ImportError, RuntimeError)):
             return GradingError(
                 f"The dask workers cannot run the course ({type(error).__name__}: {error}). Start the "
-                f"scheduler and the workers with `./course run dask …`, and use the same version of the course. {AGAIN}"
+                "scheduler and the workers with `./course run dask …`, and use the same version of the "
+                f"course. {AGAIN}"
             )
         return GradingError(
             "Several dask workers ended while they graded the same notebook. Read the workers' "

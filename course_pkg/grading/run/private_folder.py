@@ -38,7 +38,7 @@ def require_names(folder: Path, chapters: Sequence[str]) -> None:
         raise GradingError(f"{folder} contains no file that can be used. Add {EXPECTED}.")
     if empty := [path.name for path in used if not path.read_bytes().strip()]:
         raise GradingError(
-            f"{folder / empty[0]} is empty. Write the content of this file, or remove the file."
+            f"{folder / empty[0]} is empty. Add the missing content to this file, or remove the file."
         )
     if others := [path.name for path in files if path not in used]:
         sys.stderr.write(

@@ -37,7 +37,11 @@ def about_flags(grades: Sequence[Grade]) -> list[str]:
     """Return a line about students with flags, or no line if there are none."""
     count = len({grade.student for grade in grades if grade.flags})
     students = "1 student has" if count == 1 else f"{count} students have"
-    return [f"{students} flags, which change no points. See Flags in class.html."] if count else []
+    return (
+        [f"{students} flags. Flags do not change points: see the section Flags in class.html."]
+        if count
+        else []
+    )
 
 
 def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:

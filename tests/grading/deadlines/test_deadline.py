@@ -176,7 +176,7 @@ def test_the_best_attempt_counts_after_lateness(tmp_path: Path) -> None:
     (best,) = best_attempts([full, last])
     assert best.origin == names[2]
     assert best.notes[-1] == (
-        f"This chapter was handed in 2 times: {names[2]} has the most points and counts. "
-        f"These do not count: {names[0]}."
+        f"This chapter was handed in 2 times: {names[2]} has the most points and counts. These do not "
+        f"count: {names[0]}."
     )
     assert best_attempts([grade]) == [grade]

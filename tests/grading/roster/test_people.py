@@ -70,7 +70,7 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
     [
         ("", "line 1: the first line has to contain the names of the columns"),
         ("secret,17\n", "line 1: the first line has to contain the names of the columns"),
-        ("section\nsecret\n", "at least one of the first four"),
+        ("section\nsecret\n", "At least one of the first four is necessary"),
         ("name,id\n", "contains no student"),
         ("name,id,sid\nsecret,1,2\n", "line 1: columns 2 and 3 both contain the id"),
         ("name,id\nsecret,1\nother,1\n", "lines 2 and 3 have the same id"),

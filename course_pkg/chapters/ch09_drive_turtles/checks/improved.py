@@ -223,8 +223,9 @@ def _starts_and_stops(
                 (
                     ANYTHING,
                     (
-                        "After data=True, the turtle has to move in the same direction and at the same "
-                        "speed as before. Do not change these two variables when you stop the turtle."
+                        "After data=True, the turtle has to move in the same direction and at the "
+                        "same speed as before. When you stop the turtle, do not change the "
+                        "variables for direction and speed."
                     ),
                 ),
             ],

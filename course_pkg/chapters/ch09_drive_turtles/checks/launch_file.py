@@ -198,8 +198,8 @@ def _runs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
         expected="two turtles, each with a driver",
         actual=telling_line(printed),
         hints=(
-            "The three programs start, but their topics and services have different names. Remove "
-            'the attributes "ns" and "args" and all <remap> tags.'
+            "The three programs start, but they use different names for the same topics or "
+            'services. Remove the attributes "ns" and "args" and all <remap> tags.'
         ),
     )
 

@@ -147,7 +147,7 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
         expected=f"spawned {given}",
         actual=outcome(done),
         hints=(
-            "The program printed a different name. The simulator chooses the name, so print the field "
+            "The program printed a wrong name. The simulator chooses the name, so print the field "
             "`name` of the response."
         ),
     )

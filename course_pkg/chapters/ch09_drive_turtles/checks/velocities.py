@@ -80,7 +80,7 @@ class Stream:
             assertion,
             expected=[0.0] * 4,
             actual=_other_fields(arrival),
-            hints="A field is not 0, although it has to be 0. Set only linear.x and angular.z.",
+            hints="A field of the velocity is not 0, but it has to be 0. Set only linear.x and angular.z.",
         )
 
     def only(self, *wanted: tuple[float, float]) -> None:

@@ -85,7 +85,7 @@ ERRORS = [
     ),
     (
         matches("returned None"),
-        "A handler has a path without a `return` line. Return a response in every case.",
+        "A handler can end without a `return` line. Return a response in every case.",
     ),
     (
         matches("cannot process request"),
@@ -158,8 +158,8 @@ def _answer(context: CheckContext, assertion: str, response: Message, success: b
             (
                 lambda actual: actual[0] is not success and actual[1] == message,
                 (
-                    "The message is right, but the field `success` is wrong. In this case, success "
-                    f"must be {success}."
+                    "The message is right, but the field `success` is wrong. In this case, "
+                    f"`success` must be {success}."
                 ),
             ),
             (

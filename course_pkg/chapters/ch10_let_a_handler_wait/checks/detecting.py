@@ -35,8 +35,8 @@ BUSY = (
     "notification."
 )
 CHANGED = (
-    "The handler returned before the time was over. Not each change is a new customer, so wait "
-    "again after a change, or use `wait_for`."
+    "The handler returned before the time was over. A change can also mean that a customer has "
+    "left: check again after each change, or use `wait_for`."
 )
 FOREVER = (
     "The handler waits longer than request.patience seconds. Use request.patience as the timeout of the wait."
@@ -67,7 +67,7 @@ ERRORS = [
     ),
     (
         matches("returned None"),
-        "The handler has a path without a `return` line. Return a response even if no customer came.",
+        "The handler can end without a `return` line. Return a response even if no customer came.",
     ),
     (
         matches("'NoneType' object has no attribute"),
@@ -255,7 +255,7 @@ def _found(context: CheckContext, detect: Service, response: Message, number: in
         hints=[
             (
                 lambda actual: actual["number"] > 0,
-                "The number is right, but detected is False. Set detected to True.",
+                "The number is right, but `detected` is False. Set `detected` to True.",
             ),
             ((lambda _: context.read("shop.watch.left")), LEFT),
             (ANYTHING, HELD if detect.took > PATIENCE - 0.5 else CHANGED),

@@ -27,12 +27,12 @@ DECISIVE = {
 }
 ENTRIES = {
     "lock across a call": (
-        "If a thread holds a lock during a call, threads wait in two services. One of these "
-        "services calls the other."
+        'With the cause "lock across a call", threads wait in two services. One of these services '
+        "calls the other."
     ),
     "lock order": 'The cause "lock order" needs two threads and two locks.',
     "no limit": 'The cause "no limit" means that a wait never ends, even after the client has ended.',
-    "race": "In a race, no thread waits: only the data is wrong.",
+    "race": "In a race, no thread waits, but the data is wrong.",
     "no notify": 'The cause "no notify" means that a thread sleeps although an item is there.',
     "no loop": (
         'The cause "no loop" means that a thread continues after it has woken up, even if no item is there.'

@@ -40,8 +40,8 @@ STUCK = (
 )
 ERRORS = [*SHELF_ERRORS, (matches("TimesUp"), STUCK)]
 TORN = (
-    "Two threads changed the shelf at the same time, so one change was lost. Hold one lock while "
-    "you read, decide and write, also when you put a thing back."
+    "Two threads changed the shelf at the same time, so one change was lost. Hold the same lock "
+    "while you sell a thing and while you put a thing back."
 )
 SOLD_OUT = (
     '"Sold out" is a normal response of /buy, not an error. Return success=False instead of '
@@ -231,7 +231,7 @@ def _not_reserved(count: int) -> Hints:
 
 
 NOT_SOLD: Hints = [
-    (matches("False"), "The till has taken the money, but success is False. Set success to True."),
+    (matches("False"), "The till has taken the money, but `success` is False. Set `success` to True."),
     (ANYTHING, "The message of /buy is wrong. Return the number of the receipt, as a string."),
 ]
 
@@ -283,7 +283,7 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
             expected=False,
             actual=response.success,
             hints=(
-                "The till did not take the money, but success is True. If the call of the till "
+                "The till did not take the money, but `success` is True. If the call of the till "
                 "fails, return success=False."
             )
             if asked == 1

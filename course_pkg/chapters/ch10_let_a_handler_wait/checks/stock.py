@@ -116,8 +116,8 @@ def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
             (
                 True,
                 (
-                    "The shelf was empty, but success is True. Check the number of things before you sell a "
-                    "thing."
+                    "The shelf was empty, but `success` is True. Check the number of things before "
+                    "you sell a thing."
                 ),
             ),
             (False, "A thing was there, but `success` has its default value, False. Set `success` to True."),

@@ -49,7 +49,7 @@ STORED = "Look up the address once, and use the stored address for all calls."
     points=3,
     goal=(
         "Use one connection for all calls. If the connection breaks, open a new connection and call "
-        "once more."
+        "the service once more."
     ),
     needs=["Keeper"],
     deadline=20.0,
@@ -214,8 +214,8 @@ LOST = [
     (
         matches("unknown service|no provider|Master|unavailable"),
         (
-            "Your method looked up the address again, but the master does not know the service now. Use "
-            "the stored address."
+            "Your method looked up the address again, but the master no longer knows the service. "
+            "Use the stored address."
         ),
     )
 ]

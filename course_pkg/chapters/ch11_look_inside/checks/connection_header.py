@@ -151,7 +151,7 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed(fields, total=lambda _: len(fields)),
-            ("The first number is the number of fields. Instead, write the number of bytes that follow."),
+            ("The header begins with the number of its fields. Begin with the number of bytes that follow."),
         ),
         (
             _packed(fields, count=len),
@@ -194,8 +194,8 @@ NOT_RAISED: Hints = [
     (
         matches("^TimesUp"),
         (
-            "The function never returned after the connection was closed: recv() then returns b'' each "
-            "time. Check for b'', and raise ConnectionError."
+            "The function did not return after the other program had closed the connection. In this "
+            "case, recv() returns b'': check for b'', and raise ConnectionError."
         ),
     ),
     (

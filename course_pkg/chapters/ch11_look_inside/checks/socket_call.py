@@ -84,7 +84,7 @@ MISTAKES = {
 }
 SLOWLY = (
     "The function fails if the bytes arrive one after the other. Call `receive()` for all bytes, "
-    "also for the first byte and the lengths."
+    "including the first byte and the lengths."
 )
 BYTES = "The error message is a bytes object, not a string. Convert the bytes with decode()."
 OPEN = (
@@ -250,7 +250,7 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
 WRONG_MD5: Hints = [
     (
         "*",
-        'The value "*" matches every definition, even a wrong one. Send the MD5 sum of your type.',
+        ('The value "*" matches every definition, even a wrong definition. Send the MD5 sum of your type.'),
     ),
     (
         "none",
@@ -259,7 +259,7 @@ WRONG_MD5: Hints = [
             "with the MD5 sum of its own type."
         ),
     ),
-    (ANYTHING, "The MD5 sum belongs to another type, or only to the request. Use geometry._md5sum."),
+    (ANYTHING, "The MD5 sum is not the sum of the whole service type. Use geometry._md5sum."),
 ]
 
 

@@ -155,8 +155,8 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
         expected=1,
         actual=len(till.requests) - before,
         hints=(
-            'The till refused, but pay() called the till again. An error with "cannot process '
-            'request" but without "handler returned" is a refusal. Raise a refusal again.'
+            "The till refused the payment, but pay() called the till again. If an error contains "
+            '"cannot process request" but not "handler returned", raise this error again.'
         ),
     )
     result.raised(

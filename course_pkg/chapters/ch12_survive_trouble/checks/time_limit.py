@@ -157,8 +157,8 @@ def _responds(context: CheckContext, name: str, adder: Adder) -> None:
         expected="an immediate return",
         actual=f"a return after {result.took:.1f} s",
         hints=(
-            "The function still waited after the response had arrived. Use join(seconds), which "
-            "returns as soon as the thread has ended, instead of a sleep."
+            "The function still waited after the response had arrived. Replace the sleep by "
+            "join(seconds), which returns as soon as the thread has ended."
         ),
     )
 

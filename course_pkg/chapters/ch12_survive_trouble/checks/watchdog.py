@@ -71,7 +71,7 @@ REGISTERED = "Register the service again if the master does not know the service
     ),
     needs=["Watchdog"],
     deadline=60.0,
-    goals={REGISTERED: 2, "Poll with pauses, and end when stop() is called.": 1},
+    goals={REGISTERED: 2, "Poll the master at intervals, and end when stop() is called.": 1},
 )
 def a_watchdog(context: CheckContext) -> None:
     """Start, stop and restart a master; register another node; then stop the watchdog during a poll."""

@@ -49,7 +49,7 @@ NO_END = (
 )
 SILENT = 'The program printed nothing. Print one line: "customer" or "nobody".'
 FIELD = (
-    'found was False, but the program printed "customer". Test the field `found`: in an if '
+    '`found` was False, but the program printed "customer". Test the field `found`: in an if '
     "statement, a response object always counts as true."
 )
 OTHER_LINE = 'The program printed a wrong line. Print only the word "customer" or only the word "nobody".'

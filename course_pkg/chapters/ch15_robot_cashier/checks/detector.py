@@ -29,11 +29,11 @@ EARLY = 0.1  # Because of rounding, a call may seem to end this many s too early
 CALLERS = 4
 
 NOT_SEEN = (
-    "The newest message reports a customer, but found is False in the response. Use the newest message."
+    "The newest message reports a customer, but `found` is False in the response. Use the newest message."
 )
 REMEMBERED = (
-    "The newest message reports no customer, but found is True in the response. Use only the newest "
-    "message, and no older message."
+    "The newest message reports no customer, but `found` is True in the response. Use only the "
+    "newest message, and no older message."
 )
 NO_WAIT = "The response came too early. If no customer is there, wait for request.patience seconds."
 TOO_LONG = "The response came too late. Use request.patience as the limit of the wait."
@@ -46,7 +46,8 @@ NOT_WOKEN = (
     "In the callback, call notify_all() to wake up all waiting calls."
 )
 UNREFUSED = (
-    "The handler accepted an impossible `patience`. Raise rospy.ServiceException if it is not from 0 to 60 s."
+    "The handler accepted an impossible value of `patience`. Raise rospy.ServiceException if the "
+    "value is not from 0 to 60 s."
 )
 NAN = (
     "The handler accepted nan (not a number), because each comparison with nan is False. Write `if not "

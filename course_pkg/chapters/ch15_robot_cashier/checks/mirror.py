@@ -131,8 +131,8 @@ def _why_invalid(state: JointState) -> tuple[str, str]:
         return (
             f"an image of {len(state.velocity)} velocities for {len(state.name)} joints",
             (
-                "The number of velocities is neither 0 nor equal to the number of names. Compare both "
-                "lengths, and ignore such a message."
+                "The number of velocities has to be 0 or equal to the number of names. Ignore a "
+                "message with a different number of velocities."
             ),
         )
     return (

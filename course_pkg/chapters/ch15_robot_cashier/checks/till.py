@@ -92,7 +92,7 @@ TWICE = (
     "replace its old price."
 )
 FREE = "An item that costs 0 cents is missing. Store this item like all other items."
-CASE = "Two items such as milk and MILK are different items. Store each name as the request contains it."
+CASE = "The items milk and MILK are two different items. Do not change the names in the requests."
 COUNT = "The field `items` is wrong. Return the number of different items."
 SUM = (
     "The field `cents` of till/total is wrong. Return the same sum as the total in the last response of "
@@ -106,7 +106,10 @@ NAMELESS = "The till accepted an item with an empty name. Raise rospy.ServiceExc
 CHANGED = (
     "The till refused the call, but its content has changed. Check the request before you store anything."
 )
-BIG = "A sum above 2147483647 is wrong. Do not convert the numbers, because an int in Python has no limit."
+BIG = (
+    "The till returned a wrong sum above 2147483647. Do not convert the numbers, because an int in "
+    "Python has no limit."
+)
 SUMMED = "Store the price of each item, and return the sum."
 EMPTIED = "Remove all items, and return the sum that was paid."
 PRINTED = "Print one line for each item, and store the price only after the line was printed."

@@ -24,8 +24,8 @@ AGAIN = 0.03  # A wrong second message would arrive within this many s.
 SILENT = 0.25  # A wrong message after a malformed frame would arrive within this many s.
 
 AVERAGE = (
-    "A fifth of the points is dark, and all other points are very light. Count the dark points, and "
-    "do not use the average."
+    "A fifth of the points is dark, so this frame shows a customer. Count the dark points, and do "
+    "not use the average of all points."
 )
 NOISE = (
     "Only a twentieth of the points is dark, so this frame shows no customer. A frame shows a "
@@ -33,7 +33,7 @@ NOISE = (
 )
 TENTH = "Exactly a tenth of the points is dark, and this is enough. Compare with >=, not with >."
 ROUNDED = (
-    "One dark point is missing for a tenth of the points, so this frame shows no customer. Compare "
+    "The number of dark points is one less than a tenth, so this frame shows no customer. Compare "
     "without rounding: 10 * dark >= width * height."
 )
 LIMIT = (
@@ -41,8 +41,8 @@ LIMIT = (
     "not with <=."
 )
 PADDING = (
-    "Some bytes of a row are padding: only the first frame.width of its frame.step bytes are "
-    "points. Begin row r at byte r * frame.step."
+    "Each row has frame.step bytes, but only the first frame.width bytes are points. Begin row r at "
+    "byte r * frame.step."
 )
 EMPTY = "All points are light, so this frame shows no customer. Publish False."
 NOTHING = (

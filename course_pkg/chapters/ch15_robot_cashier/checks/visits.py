@@ -91,15 +91,15 @@ PARAMETER = (
     'rospy.get_param("~wait", 2.0).'
 )
 STILL_THERE = (
-    "In the last response, found was True, so a customer is there. Set the field `patience` of the "
-    "next call to 0."
+    "In the last response, `found` was True, so a customer is there. Set the field `patience` of "
+    "the next call to 0."
 )
 VISIT_GOES_ON = (
     "A failed call does not end a visit. After the failure, continue to call with `patience` 0 "
-    "until found is False."
+    "until `found` is False."
 )
 VISIT_OVER = (
-    "In the last response, found was False, so no customer is there. Set the field `patience` of "
+    "In the last response, `found` was False, so no customer is there. Set the field `patience` of "
     "the next call to the value of ~wait."
 )
 HASTY = "The next call came too early. While a customer is there, wait 0.2 s between two calls."
@@ -115,17 +115,19 @@ HUNG_UP = (
 NOT_GREETED = (
     'A customer came, but the node sent no greeting. Publish on the topic "greetings" when `found` is True.'
 )
-GREETED_AGAIN = "There were more greetings than visits. Publish only once, at the beginning of a visit."
+GREETED_AGAIN = (
+    "The node published more than one greeting in a visit. Publish only once, at the beginning of a visit."
+)
 NOT_FOUND = (
-    "found was False, but the node acted as if a customer was there. Test the field `found`: in an "
-    "if statement, a response object always counts as true."
+    "`found` was False, but the node acted as if a customer was there. Test the field `found`: in "
+    "an if statement, a response object always counts as true."
 )
 TEXT = "The text of the greeting is wrong. Compare it with the text in the exercise, letter by letter."
-NO_RESET = "The visit is over, but the node did not call till/reset. Call this service when found is False."
-EARLY_RESET = "The node called till/reset before the visit had ended. Call this service when found is False."
-RESETS = (
-    "The node called till/reset more often than there were visits. Call this service once after each visit."
+NO_RESET = "The visit is over, but the node did not call till/reset. Call this service when `found` is False."
+EARLY_RESET = (
+    "The node called till/reset before the visit had ended. Call this service when `found` is False."
 )
+RESETS = "The node called till/reset more than once after a visit. Call this service once after each visit."
 STANDS_STILL = (
     "The node publishes no mirror image while a call waits. Make the call in the main thread, and "
     "publish in the callback of the subscriber."

@@ -76,17 +76,14 @@ NO_MIRROR = (
     "Joint states arrived all the time, but the node published only a few mirror images. Check "
     "exercises 15.5 and 15.6 again."
 )
-SILENT = (
-    "No frame came for more than 1 s, but detect_customer does not refuse each call. Check exercise "
-    "15.3 again."
-)
+SILENT = "No frame came for more than 1 s, but detect_customer accepted a call. Check exercise 15.3 again."
 NOT_RECOVERED = (
     "New frames came after a pause, but detect_customer still refuses each call. Check exercise 15.3 again."
 )
 RESPAWN = 'roslaunch did not start a node again. Add respawn="true" to the <node> tag of each of your nodes.'
 AFTERWARDS = (
     "After all nodes were killed and started again, the next customer was not greeted. Start the "
-    "system, kill a node, and read the output after this."
+    "system, kill a node, and read the new output."
 )
 
 
@@ -173,8 +170,8 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
                 hint=NOT_LAUNCHED
                 if status is not None
                 else (
-                    f"The node {node} is missing, or the node has no {name}. Check the exercise in "
-                    "which you wrote this node again."
+                    f"The node {node} is missing, or the node has no {name}. Repeat the check of "
+                    "the exercise for this node."
                 ),
             )
         time.sleep(POLL)

@@ -13,7 +13,7 @@ from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
 SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this many s.
-NAME = "The name of the parameter is wrong. Build the name with the name of the robot: f'/{robot}/speed'."
+NAME = "The name of the parameter is wrong. Put the name of the robot into it: f'/{robot}/speed'."
 CHANGED = (
     "The parameter has changed, but the function returned the old value. Read the parameter in each call."
 )

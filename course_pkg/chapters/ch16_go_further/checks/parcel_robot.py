@@ -302,8 +302,8 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
         "a delivery of as many parcels as the capacity succeeds",
         GoalStatus.SUCCEEDED,
         (
-            "The robot refused a delivery that it can carry. Abort a goal only if it has more parcels "
-            "than the capacity."
+            "The robot refused an allowed delivery. Abort a goal only if it has more parcels than "
+            "the capacity."
         ),
     )
     _aborts_at_once(context, client, capacity, LONG)
