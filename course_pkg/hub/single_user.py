@@ -76,10 +76,9 @@ def _serve() -> None:
 
     os.environ["PATH"] = path
     with _without_database():
-        from jupyterhub.singleuser import main as serve
-
         # main() imports this module by its name.
         import jupyterhub.singleuser.extension  # noqa: F401
+        from jupyterhub.singleuser import main as serve
 
     serve()
 
@@ -89,7 +88,7 @@ def _without_database() -> Iterator[None]:
     """Import jupyterhub during the block without SQLAlchemy and the pages of the hub.
 
     The server of a student uses neither, and they need 30 MiB of memory in each server. jupyterhub imports
-    them only for names which the hub uses: its log, for example, has a special case for one of the hub's pages.
+    them only for names that the hub uses: its log, for example, compares each page with a page of the hub.
     """
     placeholders = {name: ModuleType(name) for name in (*ONLY_IN_HUB, *NAMES_ONLY_IN_HUB)}
     for name, defined in NAMES_ONLY_IN_HUB.items():
