@@ -29,6 +29,7 @@ CLEAR_TIMEOUT = 5.0  # All processes of a part have to end within this time in s
 MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the memory.
 # These lines of proc(5) contain the private memory, and the shared memory without a file (KiB).
 COUNTED = ("RssAnon:", "RssShmem:")
+OPEN = 4096  # No process of a sandbox has a file descriptor of this number or above.
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
 TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # These are exit statuses of a supervisor.
 
@@ -64,6 +65,7 @@ def supervise(
         wait_until(lambda: _listens(port), MASTER_TIMEOUT, 0.002)
         student = _start(lambda: _run_student(job, shell, messages, isolation))
         _start(lambda: _run_commands(commands, isolation))
+        os.close(commands)  # So the check runner notices at once if the command runner ends.
         descriptors = network.fileno(), listener.fileno()
         send(fork_server, {"supervisor": os.getpid(), "port": port}, descriptors)
     status = _watch(student, folder, isolation)
@@ -124,6 +126,7 @@ def run_master(port: int) -> None:
 
 
 def _run_master(port: int, isolation: Isolation) -> None:
+    os.closerange(3, OPEN)
     if isolation.users:
         users.become(isolation.users.trusted)
     run_master(port)
@@ -162,7 +165,7 @@ def _confine(work: Callable[[], None], isolation: Isolation, uid: int, *, may_wr
 def _close_all_but(descriptor: int) -> None:
     """Close all files except `descriptor` and 0 to 2, because the sandboxed process must not inherit them."""
     os.closerange(3, descriptor)
-    os.closerange(descriptor + 1, 4096)
+    os.closerange(descriptor + 1, OPEN)
 
 
 def _watch(student: int, folder: str, isolation: Isolation) -> int:

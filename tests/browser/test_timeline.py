@@ -52,9 +52,12 @@ def recording(*more: Event, open_end: bool = False) -> Recording:
 
 
 def show(page: Page, folder: Path, given: Recording, theme: str = "light") -> Locator:
-    """Open a saved page with the timeline of a recording."""
+    """Open a saved page with the timeline of a recording, and wait until the drawing has its size."""
     page.goto(save(Timeline(given), folder / "page.html", theme))
-    return panel(page, "Timeline")
+    timeline = panel(page, "Timeline")
+    if drawing(timeline).count():
+        expect(drawing(timeline)).to_have_attribute("style", re.compile("width: [1-9]"))
+    return timeline
 
 
 def drawing(timeline: Locator) -> Locator:
