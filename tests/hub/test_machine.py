@@ -12,8 +12,10 @@ from pathlib import Path
 import pytest
 
 from course_pkg.hub.accounts import home_problems
-from course_pkg.hub.start import reached_at
+from course_pkg.hub.start import data_folder, reached_at
 from course_pkg.hub.tools import self_signed
+from course_pkg.installed import RECORD
+from course_pkg.setup import Places
 from tests.hub.running import hub, passwords
 from tests.hub.student import Student
 from tests.support import terminal
@@ -71,6 +73,15 @@ def test_a_missing_home_is_reported_for_this_student_only() -> None:
     own = pwd.getpwuid(os.getuid()).pw_name
     (problem,) = home_problems([own, missing.pw_name])
     assert f"The student {missing.pw_name} cannot work here" in problem
+
+
+def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:
+    """An upgrade removes the old version, so the hub's folder is beside the versions."""
+    version = tmp_path / "versions" / "1"
+    version.mkdir(parents=True)
+    (version / RECORD).touch()
+    places = Places.of(version / "course")
+    assert data_folder(places, None) == tmp_path / "hub"
 
 
 def test_a_certificate_is_for_the_name_that_students_type(tmp_path: Path) -> None:
