@@ -1,6 +1,4 @@
-"""A student's server: `python -m course_pkg.hub.single_user FOLDER`, which the spawner runs as the student.
-
-It creates FOLDER for temporary files, which its supervisor deletes.
+"""A student's server: `python -m course_pkg.hub.single_user`, which the spawner runs as the student.
 
 It gets the released notebooks, starts the student's master, and becomes the JupyterLab of the hub.
 """
@@ -10,6 +8,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -38,11 +37,12 @@ def main() -> None:
     make_own_workspace()
     os.chdir(folder)
     cache = Path.home() / ".cache" / "ros-services-course"
-    scratch = Path(sys.argv[1])
-    scratch.mkdir(mode=0o700)
-    with graph_of_this_command(Which.NEW) as graph:
-        os.environ["JUPYTER_RUNTIME_DIR"] = str(scratch / "runtime")
-        settings = server_settings(folder, cache / "checkpoints", scratch / "workspaces")
+    with (
+        tempfile.TemporaryDirectory(prefix="course-hub-") as scratch,
+        graph_of_this_command(Which.NEW) as graph,
+    ):
+        os.environ["JUPYTER_RUNTIME_DIR"] = str(Path(scratch, "runtime"))
+        settings = server_settings(folder, cache / "checkpoints", Path(scratch, "workspaces"))
         settings |= settings_for(graph)
         sys.argv[1:] = [f"--{name}={value}" for name, value in settings.items()]
         if graph:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import pwd
-import secrets
 import shutil
 import sys
 from collections.abc import Callable
@@ -29,28 +28,11 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
     processes = Integer(500, help="processes and threads for each student").tag(config=True)
     _group: Path | None = None
 
-    def _command(self) -> list[str]:
-        """Return the command of one start, with a new folder for temporary files, which the server creates.
-
-        The supervisor deletes this folder, even if a signal has killed the server.
-        """
-        scratch = f"/tmp/course-hub-{secrets.token_hex(4)}"  # noqa: S108 -- the server creates it with mode 700
+    def _cmd_default(self) -> list[str]:
         # The supervisor writes a process id to descriptor 3, which nothing reads.
-        supervisor = [
-            sys.executable,
-            "-I",
-            "-S",
-            str(PROGRAM),
-            str(os.getpid()),
-            "3",
-            "",
-            scratch,
-            "",
-            "",
-            "",
-        ]
+        supervisor = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), "3", "", "", "", "", ""]
         shell = ["/bin/sh", "-c", 'exec "$0" "$@" 3>/dev/null']
-        return [*shell, *supervisor, sys.executable, "-m", "course_pkg.hub.single_user", scratch]
+        return [*shell, *supervisor, sys.executable, "-m", "course_pkg.hub.single_user"]
 
     @property
     def home(self) -> Path:
@@ -72,7 +54,6 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
             failure = HubError(f"Your server did not start: {error}")
             failure.jupyterhub_message = str(failure)  # type: ignore[attr-defined]  # JupyterHub shows it
             raise failure from error
-        self.cmd = self._command()
         return await super().start()
 
     async def stop(self, now: bool = False) -> None:
