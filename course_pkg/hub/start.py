@@ -8,6 +8,7 @@ import signal
 import socket
 import stat
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -20,7 +21,7 @@ from course_pkg.hub import limits
 from course_pkg.hub.accounts import check_names, home_problems, make_accounts
 from course_pkg.hub.delivery import write_repository
 from course_pkg.hub.passwords import Passwords, add_to_table
-from course_pkg.hub.settings import VARIABLE, Settings
+from course_pkg.hub.settings import SCRATCH, VARIABLE, Settings
 from course_pkg.hub.tools import DEPLOY, installed_proxy, self_signed
 from course_pkg.installed import version_folder
 from course_pkg.lab.jupyterlab import free_port
@@ -221,7 +222,10 @@ def _student_environment(places: Places, repository: Path) -> dict[str, str]:
     """Return the variables of the course for the students' servers."""
     variables = environment.merged(places, {"PATH": os.defpath})
     variables.pop("ROS_LOG_DIR")
-    return {**variables, "COURSE_RELEASED": str(repository)}
+    # A short name, because the names of the kernels' sockets are in it. The hub's supervisor deletes it.
+    scratch = Path(tempfile.mkdtemp(prefix="course-hub-", dir="/tmp"))
+    scratch.chmod(0o1777)  # as /tmp: each student can create a folder, and only its owner can delete it
+    return {**variables, "COURSE_RELEASED": str(repository), SCRATCH: str(scratch)}
 
 
 def _run(places: Places, settings: Settings) -> int:
@@ -237,7 +241,13 @@ def _run(places: Places, settings: Settings) -> int:
     log = Path(settings.state) / "hub.log"
     try:
         with log.open("ab") as output:
-            hub = SupervisedProcess(command, output=output, env=variables, cwd=Path(settings.state))
+            hub = SupervisedProcess(
+                command,
+                output=output,
+                env=variables,
+                cwd=Path(settings.state),
+                remove=Path(settings.environment[SCRATCH]),
+            )
             try:
                 while not received and not hub.wait(0.5):
                     pass
