@@ -6,7 +6,7 @@ import os
 import pwd
 import re
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from course_pkg.errors import HubError
@@ -30,7 +30,7 @@ def make_accounts(names: Iterable[str]) -> list[str]:
     """Create the accounts that are missing, each with a home folder, and return their names.
 
     The new accounts have no password for the login at the machine. Raises HubError before it creates an
-    account if a name belongs to the system, a home folder is missing, or this process is not root.
+    account if a name belongs to the system, or if this process is not root.
     """
     missing = []
     for name in names:
@@ -41,8 +41,6 @@ def make_accounts(names: Iterable[str]) -> list[str]:
             continue
         if account.pw_uid < FIRST_UID:
             raise HubError(f"{name} is an account of the system. Give this student another user name.")
-        if problem := home_problem(Path(account.pw_dir), account.pw_uid):
-            raise HubError(f"The student {name} cannot work here: {problem}")
     if missing and os.geteuid() != 0:
         raise HubError(
             f"These accounts are missing: {', '.join(missing)}. Only root can create accounts, so "
@@ -58,6 +56,13 @@ def make_accounts(names: Iterable[str]) -> list[str]:
                 "type the command again."
             )
     return missing
+
+
+def home_problems(names: Iterable[str]) -> Iterator[str]:
+    """Yield a line for each of the existing accounts `names` whose home folder cannot be used."""
+    for account in map(pwd.getpwnam, names):
+        if problem := home_problem(Path(account.pw_dir), account.pw_uid):
+            yield f"The student {account.pw_name} cannot work here: {problem}"
 
 
 def home_problem(home: Path, uid: int) -> str:

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 
 from course_pkg.hub.delivery import BRANCH, GIT_SETTINGS
-from course_pkg.hub.settings import FOLDER
+from course_pkg.hub.settings import FOLDER, SCRATCH
 from course_pkg.lab.graph.graph import Which, graph_of_this_command
 from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.graph.settings import settings_for
@@ -38,7 +38,7 @@ def main() -> None:
     os.chdir(folder)
     cache = Path.home() / ".cache" / "ros-services-course"
     with (
-        tempfile.TemporaryDirectory(prefix="course-hub-") as scratch,
+        tempfile.TemporaryDirectory(prefix="", dir=os.environ[SCRATCH]) as scratch,
         graph_of_this_command(Which.NEW) as graph,
     ):
         os.environ["JUPYTER_RUNTIME_DIR"] = str(Path(scratch, "runtime"))

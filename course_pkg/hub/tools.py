@@ -44,8 +44,10 @@ def self_signed(folder: Path, address: str) -> tuple[Path, Path]:
     Raises HubError if openssl is missing or fails.
     """
     cert, key = folder / f"{digest([address])}.crt", folder / f"{digest([address])}.key"
+    kind = "DNS" if address.strip(".0123456789") and ":" not in address else "IP"
     if not (cert.exists() and key.exists()):
         command = ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", f"/CN={address}"]
+        command += ["-addext", f"subjectAltName={kind}:{address}"]
         files = ["-days", str(CERTIFICATE_DAYS), "-keyout", str(key), "-out", str(cert)]
         _run([*command, *files], "openssl could not make a certificate")
         key.chmod(0o600)
