@@ -121,7 +121,7 @@ replace("before, after, after - before - 1", "after - before - 1")
 replace("before, after, after - before - 1", "before, after")
 # %% 00.3 wrong: no pause | hint: The time between the two
 replace("    time.sleep(pause)\n", "")
-# %% 00.3 wrong: the pause of the chapter | hint: The time between these two numbers
+# %% 00.3 wrong: the pause of the chapter | hint: The time between the two numbers
 replace("sleep(pause)", "sleep(2)")
 # %% 00.3 wrong: a pause in milliseconds | hint: The pause is too long
 replace("sleep(pause)", "sleep(1000 * pause)")

@@ -139,7 +139,7 @@ replace("\n    if customer is None:\n        return False, 0, rospy.Time()", "")
 replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None:
             if not watch.changed.wait(request.patience):
                 break""")
-# %% 10.2 wrong: remembers a customer who has left | hint: No customer is there, so the field `detected` has to be False
+# %% 10.2 wrong: remembers a customer who has left | hint: No customer is there. Set the field `detected` to False
 replace("def handle_detect", "seen = {}\n\n\ndef handle_detect")
 replace("        customer = watch.next(request.after)\n", "        customer = seen.get(request.after) or watch.next(request.after)\n    if customer:\n        seen[request.after] = customer\n")
 # %% 10.2 wrong: looks twice a second | hint: so it notices a customer late

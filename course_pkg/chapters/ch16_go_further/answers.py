@@ -354,5 +354,5 @@ replace("if goal.things … goal.things):", """for delivered in range(goal.thing
 replace("set_aborted(FetchResult(fetched=0)", "set_aborted(FetchResult(fetched=goal.things)")
 # %% 16.4 wrong: a pause before it aborts | hint: Compare goal.things with the capacity before the loop
 replace("            self.server.set_aborted", "            rospy.sleep(goal.seconds)\n            self.server.set_aborted")
-# %% 16.4 wrong: one parcel less | hint: The robot refused a delivery that it can carry
+# %% 16.4 wrong: one parcel less | hint: The robot refused an allowed delivery
 replace("goal.things > self.capacity", "goal.things >= self.capacity")
