@@ -24,7 +24,7 @@ TOOLS = {
 }
 # After a run of all tests, pytest lists the slowest tests.
 SLOWEST = ("--durations", "40", "--durations-min", "4")
-A_CORE = 3  # Each core has this many pytest workers, because most tests wait for nodes, browsers or builds.
+A_CORE = 2  # Each core has this many pytest workers, because most tests wait for nodes, browsers or builds.
 
 
 @dataclass

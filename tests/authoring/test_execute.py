@@ -101,7 +101,7 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
     first, headline, *report = str(ended.value.code).splitlines()
     assert first.startswith("course: 05_write_a_server: check 05.1 has not passed")
     assert headline == "  05.1 not yet: 0 of 2 points"
-    assert any("This is width + length" in line for line in report)
+    assert any("Your area is width + length" in line for line in report)
 
 
 def test_a_check_without_a_report_has_not_passed() -> None:

@@ -108,7 +108,7 @@ BUILDING = (
     Row(
         "Building",
         "wrong case",
-        (Builds("wrong case", "cannot import name 'box'", "has no box"),),
+        (Builds("wrong case", "cannot import name 'box'", "does not contain box"),),
     ),
     Row(
         "Building",

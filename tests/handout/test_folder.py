@@ -187,7 +187,7 @@ def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
     Without a record and without solutions, an error message says what the user needs.
     """
     assert released_chapters(tmp_path) is None
-    with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get that folder"):
+    with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get this folder"):
         require_solutions(tmp_path, "grade")
     write(tmp_path / "out", a="1")
     assert released_chapters(tmp_path / "out") == ("05",)

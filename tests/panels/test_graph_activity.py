@@ -100,7 +100,7 @@ def test_nodes_that_are_not_connected() -> None:
     wall = Wall()
     wall.model.count(Activity(0.0))
     assert wall.now["notes"]["topic /chatter"] == "unconnected"
-    assert "same type?" in wall.now["details"]["topic /chatter"][0][1]
+    assert "same type" in wall.now["details"]["topic /chatter"][0][1]
 
 
 def test_a_publisher_that_does_not_report_counts() -> None:

@@ -53,6 +53,6 @@ def test_what_outgoing_connections_need(kernel: Path, monkeypatch: pytest.Monkey
     resolver = kernel / "resolv.conf"
     monkeypatch.setattr(network, "RESOLVER", resolver)
     resolver.write_text("nameserver 127.0.0.53\n")
-    assert "names only 127.0.0.53" in network.outgoing_problem()[0]
+    assert "contains only 127.0.0.53" in network.outgoing_problem()[0]
     resolver.write_text("nameserver 192.0.2.1\n")
     assert network.outgoing_problem() == ("", "")

@@ -153,7 +153,7 @@ SLIPS = {
         "my_services/srv/Box.srv",
         "float is not a built-in type of ROS",
     ),
-    "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "has the line - - - instead of the"),
+    "dashes with blanks": (spoilt(S, ("---", "- - -")), "", "contains the line - - - instead of the"),
     "two dashes": (spoilt(S, ("---", "--")), "", "Write a line that contains only ---"),
     "a tab": (
         spoilt(S, ("float32 length", "float32\tlength")),

@@ -32,7 +32,7 @@ START = "\x1b[91mNotebook cell execution failed\x1b[0m\n\x1b[94mCell 3: "
         ),
         (
             f"{START}Cell outputs differ\n\nMissing output fields from running code: {{'text/plain'}}",
-            "The cell showed no output, or less output than with the right answers.",
+            "With the right answers, this cell shows more output.",
         ),
         (
             "pytest plugin exception: Kernel dead on test start",
