@@ -41,7 +41,7 @@ replace("[]", "[3]")
 replace("[3]", "[]")
 # %% 04.1 wrong: one value for an array | hint: is a single value in
 replace("float32[] seconds", "float32 seconds")
-# %% 04.1 wrong: the American spelling of colour | hint: Line 5: color should be colour … should be
+# %% 04.1 wrong: the American spelling of colour | hint: Line 5: color should be colour
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
 replace("\nuint8 mode", "uint8 mode")
 replace("colour", "color")
@@ -79,7 +79,7 @@ replace("[3] rgb", "[3]\trgb")
 replace(" total", "\ttotal")
 # %% 04.1 wrong: the three dots are not replaced | hint: Remove this line.
 replace("# What the lamp is to do.", "...")
-# %% 04.1 wrong: a field below the line | hint: Line 9: seconds … on the wrong side of the line … belongs to the request
+# %% 04.1 wrong: a field below the line | hint: Line 9: seconds is on the wrong side of the line … Move this field to the request
 replace("float32[] seconds\n---", "---\nfloat32[] seconds")
 # %% 04.1 wrong: an additional field | hint: message … is not part of the … response
 replace("float32 total", "float32 total\nstring message")
@@ -216,7 +216,7 @@ replace("<build_depend>std_msgs … std_msgs</exec_depend>", "<exec_depend>messa
 replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: a blank line on top | hint: Write <?xml in the first
 replace("<?xml", "\n<?xml")
-# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: . Also add
+# %% 04.3 wrong: std_msgs only as a build_export_depend | hint: Also add
 replace("exec_depend>std_msgs</exec_depend", "build_export_depend>std_msgs</build_export_depend")
 
 # %% 04.4 right: as in the chapter
@@ -264,7 +264,7 @@ replace("\nadd_service_files(FILES Lamp.srv)", "")
 replace("catkin_package", "add_service_files(FILES Lamp.srv)\ncatkin_package")
 # %% 04.4 wrong: the file in lower case | hint: including upper and lower case
 replace("Lamp.srv", "lamp.srv")
-# %% 04.4 wrong: generate_messages still a comment | hint: Line 7: generate_messages … is only a comment. Remove the
+# %% 04.4 wrong: generate_messages still a comment | hint: In line 7, generate_messages … is only a comment. Remove the
 replace("generate_messages(DEPENDENCIES std_msgs)\n", "# generate_messages()")
 # %% 04.4 wrong: does not depend on std_msgs | hint: Write generate_messages(DEPENDENCIES std_msgs)
 replace("(DEPENDENCIES std_msgs)", "()")
@@ -276,7 +276,7 @@ replace("(lamp_services)", "(my_services)")
 replace("\n\ncatkin_package(CATKIN_DEPENDS message_runtime std_msgs)", "")
 # %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without this command, the build passes but
 replace("\nfind_package … message_runtime std_msgs)", "find_package(catkin REQUIRED COMPONENTS std_msgs)\ncatkin_package()")
-# %% 04.4 wrong: builds geometry.srv in place of Lamp.srv | hint: There is no file geometry.srv
+# %% 04.4 wrong: builds geometry.srv in place of Lamp.srv | hint: The file geometry.srv is not in the folder
 replace("Lamp.srv", "geometry.srv")
 # %% 04.4 right: one find_package for each package
 replace("\nfind_package(catkin REQUIRED COMPONENTS message_generation std_msgs)\n", """find_package(catkin REQUIRED)
@@ -354,7 +354,7 @@ script.chmod(0o644)
 # %% 04.5 wrong: the types of the other package | hint: from a package that does not exist
 replace("from lamp_services … .seconds))\n", "from my_services.srv import Lamp")
 replace("handle_lamp", "lambda request: (True, [0, 0, 0], 0)")
-# %% 04.5 wrong: the type in lower case | hint: Compare {name} with the name
+# %% 04.5 wrong: the type in lower case | hint: Compare lamp with the name of the .srv file
 replace("from lamp_services … .seconds))\n", "from lamp_services.srv import lamp")
 replace("Lamp, handle_lamp", "lamp, lambda request: (True, [0, 0, 0], 0)")
 # %% 04.5 wrong: does not wait | hint: The program ended, so its service

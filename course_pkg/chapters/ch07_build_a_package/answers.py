@@ -92,7 +92,7 @@ catkin_package(
 
 # %% 07.3 wrong: no add_service_files | hint: , so the build passes but
 replace("\nadd_service_files(FILES geometry.srv)", "")
-# %% 07.3 wrong: generate_messages is a comment | hint: There is no command generate_messages, so the build passes
+# %% 07.3 wrong: generate_messages is a comment | hint: The command generate_messages is missing, so the build passes
 replace("generate_messages(DEP", "# generate_messages(DEP")
 replace("\nadd_custom_target(${PROJECT_NAME}_programs ALL)", "")
 replace("\nadd_dep", "\n# add_dep")
@@ -164,10 +164,10 @@ rospy.spin()""")
 replace("\n    rospy.spin()", "")
 # %% 07.4 wrong: the type of the course's package | hint: Import the type from your own
 replace("my_geometry.srv", "my_geometry_services.srv")
-# %% 07.4 wrong: misspelt type | hint: Compare {name} with the name
+# %% 07.4 wrong: misspelt type | hint: Compare Geometry with the name of the .srv file
 replace("import geometry, geometryResponse", "import Geometry, geometryResponse")
 replace('"/getGeometry", geometry', '"/getGeometry", Geometry')
-# %% 07.4 wrong: another service name | hint: The program serves … The program serves
+# %% 07.4 wrong: another service name | hint: The program serves … Change the name of the service
 replace('"/getGeometry"', '"/get_geometry"')
 # %% 07.4 wrong: the service is missing | hint: The program runs, but it
 replace('\n    rospy.Service("/getGeometry", geometry, handle_geometry)', "")

@@ -56,7 +56,7 @@ replace('"MyTurtle")', '"")')
 replace('"MyTurtle")', '"myturtle")')
 # %% 09.1 wrong: the angle first | hint: The numbers in the request are wrong
 replace('(3, 3, 0, "MyTurtle")', '(0, 3, 3, "MyTurtle")')
-# %% 09.1 wrong: outside of the main block | hint: Move init_node and all lines after it
+# %% 09.1 wrong: outside of the main block | hint: Move rospy.init_node and all lines after it
 replace('if __name__ == "__main__":\n    rospy.init_node("spawn_turtle")\n    sys.exit(main())', 'rospy.init_node("spawn_turtle")\nsys.exit(main())')
 # %% 09.1 wrong: an undefined variable | hint: The program stopped with an error
 replace('3, 3, 0, "MyTurtle")\n', 'x, 3, 0, "MyTurtle")\n')

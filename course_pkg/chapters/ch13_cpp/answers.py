@@ -44,7 +44,7 @@ replace("add_executable", "target_link_libraries(box_server ${catkin_LIBRARIES})
 replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")
 # %% 13.1 wrong: not linked | hint: Write target_link_libraries(PROGRAM ${catkin_LIBRARIES}) below add_executable
 replace("\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
-# %% 13.1 wrong: no headers | hint: write include_directories(${catkin_INCLUDE_DIRS}) above add_executable
+# %% 13.1 wrong: no headers | hint: Write include_directories(${catkin_INCLUDE_DIRS}) above add_executable
 replace("\ninclude_directories(${catkin_INCLUDE_DIRS})", "")
 # %% 13.1 wrong: another name for the program | hint: The program has the wrong name
 replace("box_server ", "server ", times=2)
@@ -105,7 +105,7 @@ replace(";\n  ros::spin();", ";")
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 # %% 13.2 wrong: a semicolon lost | hint: for a missing ; or bracket
 replace("request.width;", "request.width")
-# %% 13.2 wrong: a field misspelt | hint: There is no field or method high
+# %% 13.2 wrong: a field misspelt | hint: This object has no field or method high
 replace("request.height < 0", "request.high < 0")
 # %% 13.2 wrong: checks two sides only | hint: The server sent a response, but height was below 0
 replace("0 || request.height < 0", "0")
