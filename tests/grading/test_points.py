@@ -81,7 +81,10 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
         ('["05.1"]', "contains a list. Write an object"),
         ('{"05.33": 2}', "no part '05.33'. Did you mean '05.3'"),
         ('{"05.3": {"Fly.": 2}}', "'05.3' has no goal 'Fly.'. Its goals are"),
-        (json.dumps({"05.3": {MEASURED: 1, REFUSED: 1}}), "'05.3' has no points for the goal 'Write the name"),
+        (
+            json.dumps({"05.3": {MEASURED: 1, REFUSED: 1}}),
+            "'05.3' has no points for the goal 'Write the name",
+        ),
         ('{"05.3": -1}', "'05.3' has -1 points. Write a number from 0"),
         ('{"05.3": NaN}', "'05.3' has nan points"),
         ('{"05.3": 1e999}', "'05.3' has inf points"),
