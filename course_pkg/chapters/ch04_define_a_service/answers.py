@@ -41,7 +41,7 @@ replace("[]", "[3]")
 replace("[3]", "[]")
 # %% 04.1 wrong: one value for an array | hint: is a single value in
 replace("float32[] seconds", "float32 seconds")
-# %% 04.1 wrong: the American spelling of colour | hint: Line 5: color should be colour
+# %% 04.1 wrong: the American spelling of colour | hint: Line 5: color should be colour … should be
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
 replace("\nuint8 mode", "uint8 mode")
 replace("colour", "color")
@@ -79,7 +79,7 @@ replace("[3] rgb", "[3]\trgb")
 replace(" total", "\ttotal")
 # %% 04.1 wrong: the three dots are not replaced | hint: Remove this line.
 replace("# What the lamp is to do.", "...")
-# %% 04.1 wrong: a field below the line | hint: Line 9: seconds is on the wrong side of the line … Move this field to the request
+# %% 04.1 wrong: a field below the line | hint: Line 9: seconds … is on the wrong side of the line … Move this field to the request
 replace("float32[] seconds\n---", "---\nfloat32[] seconds")
 # %% 04.1 wrong: an additional field | hint: message … is not part of the … response
 replace("float32 total", "float32 total\nstring message")
