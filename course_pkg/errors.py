@@ -17,7 +17,6 @@ CourseError
 │   ├── NotAServiceType, NotAMessageType: the argument is not a service or message type
 │   ├── CallError: CallTimeout, CallCancelled: a call ended without a response
 │   ├── NothingHeard: too few messages within the time limit
-│   ├── TooFewSubscribers: too few subscribers within the time limit
 │   ├── PublisherStopped: this publisher was stopped
 │   ├── UnknownExecutable: no such package, or no such program or launch file in it
 │   └── NodeFailed: the process of a node ended; contains the end of its output
@@ -163,10 +162,6 @@ class CallCancelled(CallError):
 
 class NothingHeard(GraphError):
     """Fewer messages than requested arrived within the time limit."""
-
-
-class TooFewSubscribers(GraphError):
-    """Fewer subscribers than requested connected within the time limit."""
 
 
 class PublisherStopped(GraphError):

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser
 
 from course_pkg.ros.process.master import PrivateMaster
 from course_pkg.ros.process.node_process import NodeProcess
-from course_pkg.sandbox.bubblewrap import refusal
+from course_pkg.sandbox.linux.bubblewrap import refusal
 from tests.browser.chromium import chromium
 from tests.kernel import Kernel
 

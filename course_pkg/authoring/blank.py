@@ -57,7 +57,10 @@ def blank(source: str) -> str:
         return first + newline + _blank_python(rest)
     if magic == "%%writefile":
         return first + newline + _blank_text(rest)
-    raise AuthoringError(f"An exercise cell cannot begin with {magic}, because no rule removes its answer.")
+    raise AuthoringError(
+        f"An exercise cell cannot begin with {magic}, because the course cannot remove the answer from "
+        "such a cell."
+    )
 
 
 def _blank_text(text: str) -> str:

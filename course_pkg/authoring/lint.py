@@ -29,7 +29,7 @@ def _pairs(notebook: Notebook) -> Iterator[tuple[str, str]]:
         if (exercise or check) and cell["cell_type"] != "code":
             yield cell["id"], "only a code cell can be an exercise or a check"
         if exercise in exercises or check in checks:
-            yield cell["id"], f"an earlier cell of this kind has the id {exercise or check}, too"
+            yield cell["id"], f"an earlier cell of this kind also has the id {exercise or check}"
         if check and check not in exercises:
             yield cell["id"], f"check {check} has no exercise cell above it"
         if check and f'check("{check}")' not in cell["source"]:
@@ -60,7 +60,7 @@ def _exercises(notebook: Notebook, parts: Mapping[str, Part]) -> Iterator[tuple[
             if given.strip() == cell["source"].strip():
                 yield cell["id"], "this exercise contains no answer that can be removed"
             elif given.startswith("%%") and _first(given) != _first(cell["source"]):
-                yield cell["id"], f"the check hands out a cell that begins with {_first(given)}"
+                yield cell["id"], f"the check gives students a cell that begins with {_first(given)}"
         except AuthoringError as error:
             yield cell["id"], str(error)
 

@@ -72,7 +72,7 @@ def sync(*, check: bool = False, root: Path | None = None) -> int:
         sys.stdout.write(f"wrote {path.relative_to(store.root)}\n")
     for path in orphans:
         path.unlink()
-        sys.stdout.write(f"removed {path.relative_to(store.root)}, which has no solution\n")
+        sys.stdout.write(f"removed {path.relative_to(store.root)}, because it has no solution\n")
     if found := store.problems():
         raise AuthoringError("\n".join(["The solutions have problems; correct them:", *found]))
     return 0

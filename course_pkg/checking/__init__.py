@@ -10,10 +10,10 @@ from course_pkg.lazy import lazily
 
 if TYPE_CHECKING:
     from course_pkg.checking.assertions import ANYTHING, matches
-    from course_pkg.checking.client import check
     from course_pkg.checking.context import CheckContext, Its
     from course_pkg.checking.parts import part
     from course_pkg.checking.peers.scripted_server import HangUp, Late, Refuse, Silence
+    from course_pkg.checking.processes.client import check
 
 __all__ = [
     "ANYTHING",
@@ -31,7 +31,7 @@ __all__ = [
 __getattr__ = lazily(
     __name__,
     {
-        "client": "check",
+        "processes.client": "check",
         "context": "CheckContext Its",
         "assertions": "ANYTHING matches",
         "parts": "part",

@@ -50,10 +50,13 @@ def serve_class(options: SimpleNamespace) -> int:
                 storage.close()
     except TimeoutError as error:
         raise ClassViewError(
-            f"Another `course class` uses {data}. End it, or give another --data."
+            f"Another `course class` command uses {data}. End that command, or give another folder "
+            "with --data."
         ) from error
     except OSError as error:
-        raise ClassViewError(f"{data} cannot be used ({error.strerror}). Give another --data.") from error
+        raise ClassViewError(
+            f"{data} cannot be used ({error.strerror}). Give another folder with --data."
+        ) from error
     return 0
 
 
@@ -90,7 +93,8 @@ async def _serve(
         tokens.complete(names)
         if not tokens.names:
             raise ClassViewError(
-                "There are no students. Give --roster FILE with the usernames, or --students N for a number."
+                "There are no students. Give their usernames with --roster FILE, or the number of "
+                "students with --students N."
             )
         names = dict(tokens.names)
     identity = HubIdentity(hub) if hub else LocalIdentity(tokens, teacher_token)
@@ -103,7 +107,8 @@ async def _serve(
     except (OSError, OverflowError) as error:
         reason = getattr(error, "strerror", None) or error
         raise ClassViewError(
-            f"{ip}:{port} cannot be used ({reason}). Give another --port or --ip."
+            f"{ip}:{port} cannot be used ({reason}). Give another port with --port, or another "
+            "address with --ip."
         ) from error
     server = HTTPServer(application(service, prefix, secret, every_chapter()), max_body_size=2 * LARGEST)
     server.add_sockets(listening)

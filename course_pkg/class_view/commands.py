@@ -23,21 +23,31 @@ def _class(options: SimpleNamespace) -> int:
 
 def _arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
-        "--roster", type=Path, metavar="FILE", help="a CSV file with the columns username, name"
+        "--roster", type=Path, metavar="FILE", help="a CSV file with the columns username and name"
     )
     parser.add_argument(
-        "--students", type=_positive, metavar="N", help="make N tokens: student01, student02, …"
+        "--students", type=_positive, metavar="N", help="create N tokens: student01, student02, …"
     )
-    parser.add_argument("--teacher", metavar="NAME", help="the name that students see (your user name)")
     parser.add_argument(
-        "--port", type=int, default=8900, help="the port to listen on (8900; 0: any free port)"
+        "--teacher", metavar="NAME", help="the name of the teacher that students see (your user name)"
     )
-    parser.add_argument("--ip", default="127.0.0.1", help="the address to listen on (127.0.0.1)")
+    parser.add_argument(
+        "--port",
+        type=int,
+        default=8900,
+        help="the port on which the service listens (8900; 0: any free port)",
+    )
+    parser.add_argument(
+        "--ip", default="127.0.0.1", help="the address on which the service listens (127.0.0.1)"
+    )
     parser.add_argument(
         "--days",
         type=_days,
         default=30.0,
-        help="delete the results of a student this many days after the last result (30)",
+        help=(
+            "the number of days after the last result of a student; then all results of this student "
+            "are deleted (30)"
+        ),
     )
     parser.add_argument("--data", type=Path, metavar="DIR", help="the folder for results and tokens")
     parser.add_argument(

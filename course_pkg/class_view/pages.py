@@ -11,27 +11,15 @@ from dataclasses import dataclass
 from http import HTTPStatus
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader
-from tornado.web import Application, RequestHandler
+from jinja2 import Environment
+from tornado.web import Application
 
 from course_pkg.class_view.identity import HubIdentity, HubUnreachable
 from course_pkg.class_view.service import ClassService
 from course_pkg.class_view.storage import MOST, TooMany
-from course_pkg.types.fields import Plain
+from course_pkg.web_pages.handler import ASSETS, PageHandler, templates_in
 
 HERE = Path(__file__).parent
-ASSETS = {"page.js": "text/javascript", "page.css": "text/css"}
-HEADERS = {
-    "Content-Security-Policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; "
-        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-    ),
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Resource-Policy": "same-origin",
-    "Cross-Origin-Opener-Policy": "same-origin",
-    "Cache-Control": "no-store",
-}
 LARGEST = 500_000  # bytes of a request
 WAIT = 20.0  # s for which a request for changes waits
 SESSION, STATE = "course-class", "course-class-state"  # cookies
@@ -59,14 +47,11 @@ class Shared:
 
 def application(service: ClassService, prefix: str, secret: str, chapters: Sequence[Chapter]) -> Application:
     """Return the application; `secret` signs the cookies of teachers."""
-    templates = Environment(
-        loader=FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True
-    )
-    shared = {"shared": Shared(service, prefix, chapters, templates)}
+    shared = {"shared": Shared(service, prefix, chapters, templates_in(HERE))}
     return Application(
         [
             (prefix, Page, shared),
-            (prefix + r"(page\.js|page\.css)", Asset, shared),
+            (prefix + ASSETS, Asset, shared),
             (prefix + "changes", Changes, shared),
             (prefix + "about", About, shared),
             (prefix + "results", Results, shared),
@@ -79,33 +64,12 @@ def application(service: ClassService, prefix: str, secret: str, chapters: Seque
     )
 
 
-class Handler(RequestHandler):
-    """Adds the policies to each response."""
+class Handler(PageHandler):
+    """Knows the service, and finds the student whose token a request has."""
 
     def initialize(self, shared: Shared) -> None:
         """Keep what all handlers share."""
         self.shared, self.service = shared, shared.service
-
-    def set_default_headers(self) -> None:
-        """Add the policies, also to errors."""
-        self.clear_header("Server")
-        for name, value in HEADERS.items():
-            self.set_header(name, value)
-
-    def refuse(self, status: int, reason: str) -> None:
-        """Send an error as one sentence."""
-        self.set_status(status)
-        self.set_header("Content-Type", "text/plain; charset=utf-8")
-        self.finish(f"{reason}\n")
-
-    def write_error(self, status_code: int, **_: object) -> None:
-        """Send an error without details."""
-        self.refuse(status_code, f"{status_code}: {self._reason}.")
-
-    def answer(self, data: dict[str, Plain]) -> None:
-        """Send plain data as JSON."""
-        self.set_header("Content-Type", "application/json")
-        self.finish(json.dumps(data))
 
     async def student(self) -> str | None:
         """Return the student whose token the request has; else refuse the request and return None."""
@@ -126,7 +90,7 @@ class Unknown(Handler):
 
     def get(self) -> None:
         """Send 404."""
-        self.refuse(HTTPStatus.NOT_FOUND, "There is no such page.")
+        self.refuse_path()
 
 
 class TeacherHandler(Handler):
@@ -138,7 +102,7 @@ class TeacherHandler(Handler):
             self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
             and self.request.path != self.shared.prefix
         ):
-            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from another page.")
+            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from a page of a different server.")
             return
         given = self.get_query_argument("token", "")
         kept = (self.get_signed_cookie(SESSION, max_age_days=DAYS) or b"").decode()
@@ -193,8 +157,7 @@ class Asset(TeacherHandler):
 
     def get(self, name: str) -> None:
         """Send a file."""
-        self.set_header("Content-Type", f"{ASSETS[name]}; charset=utf-8")
-        self.finish((HERE / name).read_bytes())
+        self.send_asset(HERE / name)
 
 
 class Changes(TeacherHandler):
@@ -248,7 +211,10 @@ class Results(Handler):
     async def post(self) -> None:
         """Store results; answer with the ids that need not be sent again."""
         if len(self.request.body) > LARGEST:
-            self.refuse(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"A request has at most {LARGEST} bytes.")
+            self.refuse(
+                HTTPStatus.REQUEST_ENTITY_TOO_LARGE,
+                f"The request is too large. A request can have at most {LARGEST} bytes.",
+            )
             return
         if (student := await self.student()) is None:
             return
@@ -257,7 +223,10 @@ class Results(Handler):
         except (ValueError, RecursionError) as error:
             self.refuse(HTTPStatus.BAD_REQUEST, f"The request is not valid: {error}")
         except TooMany:
-            reason = f"There are {MOST} results of this student already. Ask your teacher to delete them."
+            reason = (
+                f"The service already has {MOST} results of this student. Ask your teacher to delete "
+                "these results."
+            )
             self.refuse(HTTPStatus.TOO_MANY_REQUESTS, reason)
         except sqlite3.Error as error:
             self.refuse(HTTPStatus.INSUFFICIENT_STORAGE, f"The results cannot be stored: {error}.")

@@ -38,7 +38,7 @@ def received(student: str, data: object, now: float, oldest: float) -> tuple[lis
     """
     sent = data.get("results") if isinstance(data, dict) else None
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST:
-        raise ValueError(f"A request contains a list of 1 to {MOST} results.")
+        raise ValueError(f"A request has to contain a list of 1 to {MOST} results.")
     items = [each for each in sent if isinstance(each, dict)]
     found = [_result(student, each, now, oldest) for each in items]
     return [each for each in found if each], [str(each.get("id")) for each in items]

@@ -43,8 +43,8 @@ class Storage:
             self._prepare()
         except (OSError, sqlite3.Error) as error:
             raise ClassViewError(
-                f"{self.path} cannot be used ({error}). Correct its permissions, or move it away if it is "
-                "damaged."
+                f"{self.path} cannot be used ({error}). Correct the permissions of this file, or "
+                "move the file away if it is damaged."
             ) from error
 
     def close(self) -> None:
@@ -115,8 +115,8 @@ class Storage:
         (tables,) = run("SELECT count(*) FROM sqlite_master").fetchone()
         if version != VERSION and tables:
             raise ClassViewError(
-                f"{self.path} was written by another version of the course, or by another program. Move it "
-                "away, or give another folder with --data."
+                f"{self.path} was written by another version of the course, or by another program. "
+                "Move this file away, or give another folder with --data."
             )
         for setting in ("journal_mode=WAL", "synchronous=FULL", "secure_delete=ON"):
             run(f"PRAGMA {setting}")

@@ -30,7 +30,10 @@ def names_from(roster: Path | None, students: int) -> dict[str, str]:
         raise ClassViewError(str(error)) from error
     if missing := [person.line for person in people if not person.username]:
         lines = ", ".join(map(str, missing[:5])) + (" and others" if len(missing) > 5 else "")
-        raise ClassViewError(f"{roster.name}: add a column username; it is empty in the lines {lines}.")
+        raise ClassViewError(
+            f"{roster.name}: the column username is missing or empty in the lines {lines}. Write the "
+            "usernames into this column."
+        )
     return {person.username: person.name or person.username for person in people}
 
 
@@ -87,8 +90,8 @@ class Tokens:
             self._students, self.names, self._state = {}, {}, None
         except (OSError, ValueError, KeyError, csv.Error) as error:
             raise ClassViewError(
-                f"{self.path} cannot be read ({error}). It needs the columns {', '.join(COLUMNS)}. Delete "
-                "it to get new tokens."
+                f"{self.path} cannot be read ({error}). The file needs the columns "
+                f"{', '.join(COLUMNS)}. Delete the file to get new tokens."
             ) from error
 
     def _write(self, rows: Iterable[tuple[str, str, str]]) -> None:

@@ -38,7 +38,7 @@ from course_pkg.grading.run.regrade import Regrade
 from course_pkg.grading.run.selection import Selection, selection
 from course_pkg.grading.run.summary import about_empty, about_flags, about_rest, last_line, status_of
 from course_pkg.grading.store import Store, handed_in
-from course_pkg.sandbox.bubblewrap import require_sandbox
+from course_pkg.sandbox.linux.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
@@ -80,7 +80,8 @@ def grade(options: Options) -> int:
     """Grade the selected submissions, and write the reports; return the exit status (see run/summary.py)."""
     if options.jobs < 0:
         raise GradingError(
-            f"--jobs {options.jobs} is not a valid number of notebooks. Leave it out, or give 1 or more."
+            f"--jobs {options.jobs} is not a valid number of notebooks. Leave out this option, or "
+            "give 1 or more."
         )
     require_references(options.chapters)
     policy = late_policy(options.late, options.late_per_day, options.late_max_days, options.deadlines)
@@ -217,7 +218,8 @@ def _dated(
     lateness = Lateness(due, times_of(str(times), options.source, zone) if asked else lambda _: None)
     if table and (strangers := table.strangers(found)):
         sys.stderr.write(
-            f"{strangers} in the table of late days handed in nothing. Check the spelling of the names.\n"
+            f"These students are in the table of late days, but handed in nothing: {strangers}. "
+            "Check the spelling of their names.\n"
         )
     dated = lateness.applied(attempts_to_grade(found, options.attempts, lateness.when))
     return table.applied(dated) if table else dated
@@ -228,7 +230,7 @@ def _handed_in(options: Options, selected: Selection) -> list[Submission]:
     if not found:
         raise GradingError(
             f"There is nothing to grade in {options.source}. Give a folder that contains "
-            "STUDENT/NN_topic.ipynb, or a zip of it."
+            "STUDENT/NN_topic.ipynb, or a zip of such a folder."
         )
     return found
 

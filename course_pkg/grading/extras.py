@@ -41,7 +41,7 @@ def read_extras(folder: Path | None) -> Extras:
         return Extras()
     if not folder.is_dir():
         raise GradingError(
-            f"{folder} is not a folder: give the folder that contains private_NN.py and points.json."
+            f"{folder} is not a folder. Give the folder that contains private_NN.py and points.json."
         )
     folder = folder.resolve()
     require_names(folder, chapters())

@@ -64,7 +64,7 @@ class Answers:
         """Return a sentence for each package that lacks a file that `part` needs."""
         named = {each.name for each in self.packages}
         return [
-            f"The package {name} that was handed in has no {' and no '.join(paths)}."
+            f"The package {name} in this submission has no {' and no '.join(paths)}."
             for name, paths in part.package_files.items()
             if name in named and not self._has(name, paths)
         ]

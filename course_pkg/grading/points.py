@@ -30,7 +30,7 @@ from course_pkg.files import write_atomically
 from course_pkg.grading.grade import Grade
 
 ALL_OR_NOTHING, EVERY = "all-or-nothing", "all parts"
-START = "`./course points FILE` writes a file to start from."
+START = "`./course points FILE` writes a file that you can change."
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,9 @@ def read_points(path: Path | None) -> PointsTable:
         like = f" Did you mean {near[0]!r}?" if near else ""
         raise _wrong(path, f"there is no part {unknown[0]!r}.{like} {START}")
     if EVERY in given and given[EVERY] != ALL_OR_NOTHING:
-        raise _wrong(path, f'{EVERY!r} can only be "{ALL_OR_NOTHING}". Give other points part by part.')
+        raise _wrong(
+            path, f'{EVERY!r} can only be "{ALL_OR_NOTHING}". To give other points, write them for each part.'
+        )
     worth = {
         check: _worth(part, given[check], path)
         if check in given
@@ -95,7 +97,7 @@ def write_points(path: Path, asked: Sequence[str] = ()) -> None:
     if unknown := sorted(set(asked) - set(chapters())):
         raise GradingError(f"There is no chapter {unknown[0]}. The chapters are {', '.join(chapters())}.")
     if path.exists():
-        raise GradingError(f"{path} exists already. Give another file, or delete it first.")
+        raise GradingError(f"{path} exists already. Give another file, or delete the old file first.")
     table = {
         part.check: {goal.text: goal.points for goal in part.goals} or part.points
         for chapter in asked or chapters()
@@ -113,14 +115,18 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         data = json.loads(path.read_text("utf-8-sig"), object_pairs_hook=_without_doubles)
     except OSError as error:
-        raise _wrong(path, f"it cannot be read ({error.strerror or error}). Correct the path.") from error
+        raise _wrong(
+            path, f"the file cannot be read ({error.strerror or error}). Correct the path."
+        ) from error
     except json.JSONDecodeError as error:
         place = f"line {error.lineno}, column {error.colno}: {error.msg}"
-        raise _wrong(path, f"it is not valid JSON ({place}). Correct this place. {START}") from error
+        raise _wrong(path, f"the file is not valid JSON ({place}). Correct this place. {START}") from error
     except (ValueError, RecursionError) as error:
-        raise _wrong(path, f"it cannot be read ({error}). {START}") from error
+        raise _wrong(path, f"the file cannot be read ({error}). {START}") from error
     if not isinstance(data, dict):
-        raise _wrong(path, f'it contains a {_kind(data)}. Write an object, such as {{"05.1": 4}}. {START}')
+        raise _wrong(
+            path, f'the file contains a {_kind(data)}. Write an object, such as {{"05.1": 4}}. {START}'
+        )
     return data
 
 
@@ -148,18 +154,26 @@ def _by_goal(part: Part, given: dict[str, Any], path: Path | None) -> Worth:
     texts = [goal.text for goal in part.goals]
     listed = ", ".join(map(repr, texts))
     if not texts:
-        raise _wrong(path, f"{part.check!r} has only one goal. Give it a number, such as {part.points}.")
+        raise _wrong(
+            path, f"{part.check!r} has only one goal. Give this part a number, such as {part.points}."
+        )
     if unknown := [text for text in given if text not in texts]:
         raise _wrong(path, f"{part.check!r} has no goal {unknown[0]!r}. Its goals are {listed}.")
     if missing := [text for text in texts if text not in given]:
-        raise _wrong(path, f"{part.check!r} lacks the goal {missing[0]!r}. Add it, with 0 or more points.")
+        raise _wrong(
+            path,
+            (
+                f"{part.check!r} has no points for the goal {missing[0]!r}. Add this goal, with 0 or more "
+                "points."
+            ),
+        )
     shares = [_points(given[text], f"the goal {text!r} of {part.check!r}", path) for text in texts]
     goals = _with_points(part, shares)
     if not total(goals):
         raise _wrong(
             path,
-            f"the goals of {part.check!r} have 0 points in total. Give one of them points, or write "
-            f'"{part.check}": 0 to leave the part out of the sum.',
+            f"the goals of {part.check!r} have 0 points in total. Give points to one of these goals, or "
+            f'write "{part.check}": 0 to leave the part out of the sum.',
         )
     return Worth(total(goals), goals)
 

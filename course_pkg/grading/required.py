@@ -23,9 +23,9 @@ def require_references(asked: Sequence[str] = (), root: Path | None = None) -> N
     if missing:
         more = f" and {len(missing) - SHOWN} more" if len(missing) > SHOWN else ""
         raise GradingError(
-            f"Nothing was graded, because these files are missing: {', '.join(missing[:SHOWN])}{more}. "
-            "Without them, students would get 0 points. Get them from the course's repository, or grade "
-            "other chapters with --chapters."
+            "Nothing was graded, because these files are missing: "
+            f"{', '.join(missing[:SHOWN])}{more}. Without these files, students would get 0 points. "
+            "Get the files from the course's repository, or grade other chapters with --chapters."
         )
 
 

@@ -72,8 +72,8 @@ class Store:
             write_json(self._folder / f"{grade.key}.json", nameless.as_dict())
         except OSError as error:
             raise GradingError(
-                f"The grades cannot be written ({error.strerror}). Free some disk space, and type the "
-                "same command again. The run then continues."
+                f"The grades cannot be written ({error.strerror}). Free some disk space, and type "
+                "the same command again. Then the run continues."
             ) from error
 
     def drop(self, key: str) -> None:

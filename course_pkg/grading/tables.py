@@ -58,4 +58,4 @@ def delimiter_of(text: str) -> str:
 
 
 def _unreadable(path: Path, what: str, why: str) -> GradingError:
-    return GradingError(f"The {what} {path.name} cannot be read: {why}. Save it as CSV in UTF-8.")
+    return GradingError(f"The {what} {path.name} cannot be read: {why}. Save the file as CSV in UTF-8.")

@@ -83,11 +83,18 @@ def collect(options: Options) -> int:
     # The call raises an error for a folder with other contents, before anything in the folder is changed.
     TimesTable(options.out)
     if os.geteuid() != 0:
-        sys.stderr.write("You are not root, so only files that your own account can read are collected.\n")
+        sys.stderr.write(
+            "You are not root, so the command collects only files that your own account can read.\n"
+        )
     found, out = Collected(), options.out
     try:
         out.mkdir(parents=True, exist_ok=True, mode=0o700)
-        with locked(out / LOCK, lambda: _note("Another collection is under way; waiting for it.")):
+        with locked(
+            out / LOCK,
+            lambda: _note(
+                "Another collection is running. This command waits until the other collection has ended."
+            ),
+        ):
             table = TimesTable(out)
             # The table is written first, so that a user can repeat an interrupted collection.
             table.replace((), ())
@@ -122,8 +129,8 @@ def _collect_one(
     found.packages += len({file.package for file in files if file.package})
     found.set_back += [
         (
-            f"{student}/{file.place}: the time is {iso_time(file.modified)}, but the file was written "
-            f"or moved at {iso_time(file.changed)}"
+            f"{student}/{file.place}: the time of the file is {iso_time(file.modified)}, but the "
+            f"file was written or moved at {iso_time(file.changed)}"
         )
         for file in files
         if file.changed - file.modified > SET_BACK
@@ -146,8 +153,8 @@ def _rows(student: str, files: Sequence[WorkFile], wanted: Wanted) -> Iterator[R
 def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
     if not found.students:
         yield (
-            f"Nothing was found in {homes} home folders below {options.homes}. Is {options.folder} the "
-            "course's folder in each of them?"
+            f"Nothing was found in {homes} home folders below {options.homes}. Check that "
+            f"{options.folder} is the course's folder in each home folder."
         )
     else:
         yield (
@@ -160,7 +167,10 @@ def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
     for title, lines in (
         ("Not collected:", found.problems),
         (
-            "These files were written or moved after their time. The owner of a file can change its time:",
+            (
+                "The times of these files are too early, because the files were written or moved later. "
+                "The owner of a file can change its time:"
+            ),
             found.set_back,
         ),
     ):
@@ -174,8 +184,8 @@ def _course_folder(given: str) -> str:
     path = Path(given)
     if path.is_absolute() or ".." in path.parts or not path.parts:
         raise HandoutError(
-            f"{given} is not a folder inside of a home folder. Give its path below the home folder, such as "
-            "ros-course."
+            f"{given} is not a folder inside a home folder. Give the folder's path below the home "
+            "folder, such as ros-course."
         )
     return path.as_posix()
 

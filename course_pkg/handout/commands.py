@@ -73,7 +73,11 @@ def _collect_arguments(parser: ArgumentParser) -> None:
         "out", metavar="SUBMISSIONS", type=Path, help="the folder to write, new or written by this command"
     )
     parser.add_argument(
-        "--homes", type=Path, default=Path("/home"), metavar="DIR", help="contains the home folders (/home)"
+        "--homes",
+        type=Path,
+        default=Path("/home"),
+        metavar="DIR",
+        help="the folder that contains the home folders (/home)",
     )
     parser.add_argument(
         "--students",
@@ -109,10 +113,19 @@ def _autograder_arguments(parser: ArgumentParser) -> None:
         help="the time limit of a run, which must be shorter than that of Gradescope (default: 9)",
     )
     parser.add_argument(
-        "--late-per-day", type=float, metavar="PERCENT", help="taken off for each day late that has begun"
+        "--late-per-day",
+        type=float,
+        metavar="PERCENT",
+        help=(
+            "the percentage of the points that is deducted for each late day. A day counts as soon as "
+            "it has begun"
+        ),
     )
     parser.add_argument(
-        "--late-max-days", type=float, metavar="N", help="the days late after which no points are left"
+        "--late-max-days",
+        type=float,
+        metavar="N",
+        help="the number of late days after which no points are left",
     )
 
 

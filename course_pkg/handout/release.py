@@ -48,7 +48,7 @@ def release(options: Options, hidden: Collection[str], root: Path | None = None)
     done = folder.write(files, f"Release {_described(released)}")
     write_zip(archive, out.name, files)
     for name in untracked_files(checkout):
-        sys.stderr.write(f"Not released, because git does not track it: {name}\n")
+        sys.stderr.write(f"This file was not released, because git does not track it: {name}\n")
     sys.stdout.write("".join(f"{line}\n" for line in _summary(folder, archive, len(files), released, done)))
     sys.stdout.write("".join(f"{line}\n" for line in _how_to_hand_out(folder, options, repository, link)))
     return 0
@@ -74,17 +74,22 @@ def _files(count: int) -> str:
 
 
 def _how_to_hand_out(folder: ReleaseFolder, options: Options, repository: str, link: str) -> Iterator[str]:
-    yield "Students unpack the zip or clone the repository, and type ./course lab in its folder."
+    yield "Students unpack the zip or clone the repository. Then they type ./course lab in the new folder."
     yield ""
     if link:
-        yield "For students on a JupyterHub with nbgitpuller, push the repository, and give them the link:"
+        yield (
+            "For students on a JupyterHub with nbgitpuller, push the repository, and give this link to "
+            "the students:"
+        )
         yield f"  git -C {shlex.quote(str(folder.path))} push {shlex.quote(repository)} {folder.branch}"
         yield f"  {link}"
         return
     missing = [] if options.hub else ["--hub https://YOUR.HUB"]
     missing += [] if repository else ["--repository https://YOUR.SERVER/COURSE.git"]
-    yield "For students on a JupyterHub with nbgitpuller, type the same command again with these options. It"
-    yield "then prints a link for them:"
+    yield (
+        "For students on a JupyterHub with nbgitpuller, type the same command again with these options. The"
+    )
+    yield "command then prints a link for the students:"
     yield f"  {' '.join(missing)}"
 
 
@@ -100,8 +105,9 @@ def pull_link(hub: str, repository: str, branch: str, notebook: str) -> str:
         parts = urlsplit(address)
         if parts.scheme not in ("http", "https") or not parts.netloc:
             raise HandoutError(
-                f"{option} {address} is not an address that nbgitpuller can use. Write one that begins with "
-                "https://, such as https://hub.example.edu or https://git.example.edu/ros/course.git."
+                f"nbgitpuller cannot use the address {option} {address}. Write an address that "
+                "begins with https://, such as https://hub.example.edu or "
+                "https://git.example.edu/ros/course.git."
             )
     # nbgitpuller clones the repository into this folder.
     folder = repository.rstrip("/").rpartition("/")[2].removesuffix(".git")

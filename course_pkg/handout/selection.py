@@ -23,8 +23,8 @@ def chosen_chapters(path: str = "", listed: Sequence[str] = ()) -> tuple[str, ..
     unknown = sorted(set(listed) - set(known))
     if unknown:
         raise HandoutError(
-            f"There is no chapter {', '.join(unknown)}. The chapters are {known[0]} to {known[-1]}: write "
-            "them with two digits and commas, such as --chapters 05,06."
+            f"There is no chapter {', '.join(unknown)}. The chapters are {known[0]} to {known[-1]}. "
+            "Write them with two digits and commas, such as --chapters 05,06."
         )
     return tuple(each for each in known if not listed or each in listed)
 
@@ -34,7 +34,9 @@ def _of_path(name: str) -> tuple[str, ...]:
     found = {number for each in paths if _plain(each.name) == _plain(name) for number in each.chapters}
     if not found:
         names = dict.fromkeys(f'"{each.name}"' for each in paths)
-        raise HandoutError(f'There is no path "{name}". Give --path one of {", ".join(names)}.')
+        raise HandoutError(
+            f'There is no path "{name}". Use one of these values for --path: {", ".join(names)}.'
+        )
     return tuple(sorted(found))
 
 

@@ -6,7 +6,7 @@ import os
 import pwd
 import re
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from course_pkg.errors import HubError
@@ -20,8 +20,9 @@ def check_names(names: Iterable[str]) -> None:
     wrong = [name for name in names if not NAME.fullmatch(name)]
     if wrong:
         raise HubError(
-            f"These are not names of accounts: {', '.join(map(repr, wrong))}. A name has 1 to 32 characters: "
-            "a to z, 0 to 9, _ and -, and begins with a letter. Change the names in the list."
+            f"These are not names of accounts: {', '.join(map(repr, wrong))}. A name has at most 32 "
+            "characters, begins with a letter, and contains only a to z, 0 to 9, _ and -. Change "
+            "the names in the list."
         )
 
 
@@ -29,7 +30,7 @@ def make_accounts(names: Iterable[str]) -> list[str]:
     """Create the accounts that are missing, each with a home folder, and return their names.
 
     The new accounts have no password for the login at the machine. Raises HubError before it creates an
-    account if a name belongs to the system, a home folder is missing, or this process is not root.
+    account if a name belongs to the system, or if this process is not root.
     """
     missing = []
     for name in names:
@@ -40,19 +41,28 @@ def make_accounts(names: Iterable[str]) -> list[str]:
             continue
         if account.pw_uid < FIRST_UID:
             raise HubError(f"{name} is an account of the system. Give this student another user name.")
-        if problem := home_problem(Path(account.pw_dir), account.pw_uid):
-            raise HubError(f"The student {name} cannot work here: {problem}")
     if missing and os.geteuid() != 0:
         raise HubError(
-            f"These accounts are missing: {', '.join(missing)}. Only root can create them: type the command "
-            "with sudo. To try the hub without accounts, add --without-accounts DIR."
+            f"These accounts are missing: {', '.join(missing)}. Only root can create accounts, so "
+            "type the command with sudo. To try the hub without accounts, add --without-accounts "
+            "DIR."
         )
     for name in missing:
         command = ["useradd", "--create-home", "-K", "HOME_MODE=0700", "--shell", "/bin/bash", name]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
-            raise HubError(f"The account {name} was not created: {done.stderr.strip()}. Correct the cause.")
+            raise HubError(
+                f"The account {name} was not created: {done.stderr.strip()}. Correct this problem, and "
+                "type the command again."
+            )
     return missing
+
+
+def home_problems(names: Iterable[str]) -> Iterator[str]:
+    """Yield a line for each of the existing accounts `names` whose home folder cannot be used."""
+    for account in map(pwd.getpwnam, names):
+        if problem := home_problem(Path(account.pw_dir), account.pw_uid):
+            yield f"The student {account.pw_name} cannot work here: {problem}"
 
 
 def home_problem(home: Path, uid: int) -> str:

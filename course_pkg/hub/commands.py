@@ -30,10 +30,14 @@ def _hub_arguments(parser: ArgumentParser) -> None:
         help="the students: one user name in each line, or a CSV file with a column `username`",
     )
     which.add_argument(
-        "--new-password", metavar="USER", help="print a new one-time password for USER, and start no hub"
+        "--new-password",
+        metavar="USER",
+        help="print a new one-time password for USER, but do not start a hub",
     )
-    parser.add_argument("--port", type=int, help="the port to listen on (8000, or the next free one)")
-    parser.add_argument("--ip", default="127.0.0.1", help="the address to listen on (127.0.0.1)")
+    parser.add_argument(
+        "--port", type=int, help="the port on which the hub listens (8000, or the next free port)"
+    )
+    parser.add_argument("--ip", default="127.0.0.1", help="the address on which the hub listens (127.0.0.1)")
     parser.add_argument("--cert", type=Path, metavar="FILE", help="the TLS certificate, in PEM format")
     parser.add_argument("--key", type=Path, metavar="FILE", help="the private key of the certificate")
     parser.add_argument("--teacher", default="", metavar="USER", help="a user who administers the hub")

@@ -10,6 +10,7 @@ from pathlib import Path
 from course_pkg.hub.passwords import write_private
 
 VARIABLE = "COURSE_HUB_SETTINGS"  # the path of the file
+SCRATCH = "COURSE_HUB_SCRATCH"  # the folder in which each student's server creates one for temporary files
 FOLDER = "ros-course"  # the course's folder in each home folder
 
 

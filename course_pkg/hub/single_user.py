@@ -9,10 +9,13 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import ModuleType
 
 from course_pkg.hub.delivery import BRANCH, GIT_SETTINGS
-from course_pkg.hub.settings import FOLDER
+from course_pkg.hub.settings import FOLDER, SCRATCH
 from course_pkg.lab.graph.graph import Which, graph_of_this_command
 from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.graph.settings import settings_for
@@ -20,6 +23,9 @@ from course_pkg.lab.jupyterlab import server_settings
 from course_pkg.workspace import make_own_workspace
 
 PULL_TIMEOUT = 60.0  # s
+# Modules that jupyterhub imports in a student's server, but uses only in the hub.
+ONLY_IN_HUB = ("jupyterhub.orm", "jupyterhub.roles", "sqlalchemy")
+NAMES_ONLY_IN_HUB = {"jupyterhub.handlers.pages": "HealthCheckHandler", "sqlalchemy.exc": "SQLAlchemyError"}
 
 
 def main() -> None:
@@ -32,7 +38,7 @@ def main() -> None:
     os.chdir(folder)
     cache = Path.home() / ".cache" / "ros-services-course"
     with (
-        tempfile.TemporaryDirectory(prefix="course-hub-") as scratch,
+        tempfile.TemporaryDirectory(prefix="", dir=os.environ[SCRATCH]) as scratch,
         graph_of_this_command(Which.NEW) as graph,
     ):
         os.environ["JUPYTER_RUNTIME_DIR"] = str(Path(scratch, "runtime"))
@@ -69,9 +75,31 @@ def _serve() -> None:
     import jupyterlab.labapp  # noqa: F401
 
     os.environ["PATH"] = path
-    from jupyterhub.singleuser import main as serve
+    with _without_database():
+        # main() imports this module by its name.
+        import jupyterhub.singleuser.extension  # noqa: F401
+        from jupyterhub.singleuser import main as serve
 
     serve()
+
+
+@contextmanager
+def _without_database() -> Iterator[None]:
+    """Import jupyterhub during the block without SQLAlchemy and the pages of the hub.
+
+    The server of a student uses neither, and they need 30 MiB of memory in each server. jupyterhub imports
+    them only for names that the hub uses. For example, its log has a special case for one page of the hub.
+    """
+    placeholders = {name: ModuleType(name) for name in (*ONLY_IN_HUB, *NAMES_ONLY_IN_HUB)}
+    for name, defined in NAMES_ONLY_IN_HUB.items():
+        setattr(placeholders[name], defined, type(defined, (Exception,), {}))
+    sys.modules.update(placeholders)
+    try:
+        yield
+    finally:
+        # An extension of the server may import the real modules.
+        for name in placeholders:
+            sys.modules.pop(name, None)
 
 
 if __name__ == "__main__":

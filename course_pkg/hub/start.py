@@ -5,8 +5,10 @@ from __future__ import annotations
 import ipaddress
 import os
 import signal
+import socket
 import stat
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -16,17 +18,21 @@ from pathlib import Path
 from course_pkg.errors import HubError
 from course_pkg.handout.homes.listing import read_students
 from course_pkg.hub import limits
-from course_pkg.hub.accounts import check_names, make_accounts
+from course_pkg.hub.accounts import check_names, home_problems, make_accounts
 from course_pkg.hub.delivery import write_repository
 from course_pkg.hub.passwords import Passwords, add_to_table
-from course_pkg.hub.settings import VARIABLE, Settings
+from course_pkg.hub.settings import SCRATCH, VARIABLE, Settings
 from course_pkg.hub.tools import DEPLOY, installed_proxy, self_signed
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.installed import version_folder
+from course_pkg.lab.jupyterlab import server_port
+from course_pkg.ports import free_port
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places, environment
+from course_pkg.setup.network import network_problem
 from course_pkg.state import locked
 
 PORTS = (*range(8000, 8020), 0)  # the ports to try; 0 means any free port
+ORDINARY = "nobody"  # an account with the rights of an ordinary user, which each system has
 GRACE = 20.0  # s for the hub to end the students' servers
 
 
@@ -63,16 +69,18 @@ def serve_hub(options: Options) -> int:
             _require_protection(places)
             for name in make_accounts(everybody):
                 sys.stdout.write(f"Created the account {name}.\n")
+            for problem in home_problems(everybody):
+                sys.stdout.write(f"{problem}\n")
         cert, key = _certificate(options, state)
-        port = free_port(options.ip, PORTS if options.port is None else [options.port])
-        url = f"http{'s' if cert else ''}://{_in_url(options.ip)}:{port}"
+        port = server_port(options.ip, PORTS if options.port is None else [options.port])
+        scheme = "https" if cert else "http"
         repository = base / "released" / "ros-course"
         write_repository(places, repository)
         settings = Settings(
             state=str(state),
             released=str(repository),
             proxy=str(installed_proxy(places)),
-            url=url,
+            url=f"{scheme}://{_in_url(options.ip)}:{port}",
             hub_port=free_port(),
             proxy_port=free_port(),
             students=tuple(everybody),
@@ -90,10 +98,17 @@ def serve_hub(options: Options) -> int:
         add_to_table(table, issued)
         chosen = limits.Limits(options.memory, options.processes)
         sys.stdout.write(f"{limits.describe(chosen, limits.group_of_hub(), not homes)}\n")
+        problem, remedy = network_problem(None if homes else ORDINARY)
+        if problem:
+            sys.stdout.write(
+                "The students get no private networks, so everybody who can log in here can call, replace "
+                f"and stop their nodes: {problem}. {remedy}.\n"
+            )
         if homes:
             sys.stdout.write("All servers run as you, so students can read each other's files.\n")
         sys.stdout.write(
-            f"One-time passwords: {table}\nThe hub of {len(students)} students starts at\n\n    {url}\n\n"
+            f"One-time passwords: {table}\nThe hub of {len(students)} students starts at\n\n"
+            f"    {scheme}://{_in_url(reached_at(options.ip))}:{port}\n\n"
             "Ctrl-C here ends the hub and all servers.\n"
         )
         sys.stdout.flush()
@@ -111,8 +126,12 @@ def renew_password(user: str, data: Path | None) -> int:
 
 
 def data_folder(places: Places, given: Path | None) -> Path:
-    """Return the folder of the hub's data. Students can read it, except for `private`."""
-    return (given or places.cache / "hub").absolute()
+    """Return the folder of the hub's data. Students can read it, except for `private`.
+
+    In a shared installation, an upgrade keeps it: it is beside the versions.
+    """
+    version = version_folder(places.checkout)
+    return (given or (version.parents[1] if version else places.cache) / "hub").absolute()
 
 
 def _private(data: Path) -> Path:
@@ -134,7 +153,7 @@ def _only_hub(state: Path) -> Iterator[None]:
             stack.enter_context(locked(state / "running", 0))
         except TimeoutError as error:
             raise HubError(
-                "Another hub of this installation is running. End it with Ctrl-C in its terminal first."
+                "Another hub of this installation is running. First end this hub with Ctrl-C in its terminal."
             ) from error
         yield
 
@@ -144,15 +163,17 @@ def _require_protection(places: Places) -> None:
     for folder in (places.python, places.environment, places.checkout / "course_pkg"):
         if closed := _closed(folder):
             raise HubError(
-                f"The students' accounts cannot read {closed}, but they need the files in it. Install the "
-                "course where everybody can read it, such as /opt/ros-course, with XDG_CACHE_HOME=/opt/cache."
+                f"The students' accounts need the files in {closed}, but cannot read them. Install "
+                "the course in a folder that everybody can read, such as /opt/ros-course, with "
+                "XDG_CACHE_HOME=/opt/cache."
             )
     for name in ("solutions", "tests"):
         folder = places.checkout / name
         if folder.exists() and not _closed(folder):
             raise HubError(
-                f"Students can read {folder}. Type `chmod 700 {folder}`, or start the hub in the folder "
-                "that `course release` wrote. Then start again."
+                f"Students can read {folder}, but this folder has to be private. Type `chmod 700 "
+                f"{folder}`, or start the hub in the folder that `course release` wrote. Then start "
+                "the hub again."
             )
 
 
@@ -168,7 +189,7 @@ def _closed(path: Path) -> Path | None:
 def _certificate(options: Options, state: Path) -> tuple[str, str]:
     """Return the files of the certificate and of its key; both are "" if the hub is bound to loopback."""
     if (options.cert is None) != (options.key is None):
-        raise HubError("Give both --cert and --key.")
+        raise HubError("The options --cert and --key belong together. Give both options.")
     if options.cert and options.key:
         missing = [str(path) for path in (options.cert, options.key) if not path.is_file()]
         if missing:
@@ -177,15 +198,25 @@ def _certificate(options: Options, state: Path) -> tuple[str, str]:
     try:
         loopback = ipaddress.ip_address(options.ip).is_loopback
     except ValueError as error:
-        raise HubError(f"--ip {options.ip} is not an IP address.") from error
+        raise HubError(
+            f"--ip {options.ip} is not an IP address. Give an address such as 127.0.0.1."
+        ) from error
     if loopback:
         return "", ""
-    cert, key = self_signed(state, options.ip)
+    cert, key = self_signed(state, reached_at(options.ip))
     sys.stdout.write(
-        "The hub uses a self-signed certificate, so browsers show a warning. For a course, get a certificate "
-        "for the machine's name, and give it with --cert and --key.\n"
+        "The hub uses a self-signed certificate, so browsers show a warning. For a course, get a "
+        "certificate for the machine's name, and use it with --cert and --key.\n"
     )
     return str(cert), str(key)
+
+
+def reached_at(ip: str) -> str:
+    """Return the address that students type for a hub that listens on `ip`.
+
+    If `ip` means all addresses of the machine, such as 0.0.0.0, the address is the machine's name.
+    """
+    return socket.getfqdn() if ipaddress.ip_address(ip).is_unspecified else ip
 
 
 def _in_url(ip: str) -> str:
@@ -196,7 +227,10 @@ def _student_environment(places: Places, repository: Path) -> dict[str, str]:
     """Return the variables of the course for the students' servers."""
     variables = environment.merged(places, {"PATH": os.defpath})
     variables.pop("ROS_LOG_DIR")
-    return {**variables, "COURSE_RELEASED": str(repository)}
+    # A short name, because the names of the kernels' sockets are in it. The hub's supervisor deletes it.
+    scratch = Path(tempfile.mkdtemp(prefix="course-hub-", dir="/tmp"))
+    scratch.chmod(0o1777)  # as /tmp: each student can create a folder, and only its owner can delete it
+    return {**variables, "COURSE_RELEASED": str(repository), SCRATCH: str(scratch)}
 
 
 def _run(places: Places, settings: Settings) -> int:
@@ -212,7 +246,13 @@ def _run(places: Places, settings: Settings) -> int:
     log = Path(settings.state) / "hub.log"
     try:
         with log.open("ab") as output:
-            hub = SupervisedProcess(command, output=output, env=variables, cwd=Path(settings.state))
+            hub = SupervisedProcess(
+                command,
+                output=output,
+                env=variables,
+                cwd=Path(settings.state),
+                remove=Path(settings.environment[SCRATCH]),
+            )
             try:
                 while not received and not hub.wait(0.5):
                     pass

@@ -28,8 +28,8 @@ def installed_proxy(places: Places) -> Path:
         return program
     if not shutil.which("npm"):
         raise HubError(
-            "JupyterHub needs a proxy, and npm installs it. As an administrator, type\n"
-            "  apt-get install --no-install-recommends nodejs npm\nand start again."
+            "JupyterHub needs a proxy, which npm installs. As an administrator, type\n  apt-get "
+            "install --no-install-recommends nodejs npm\nand start the hub again."
         )
     folder.mkdir(parents=True, exist_ok=True)
     for path in sources:
@@ -44,8 +44,10 @@ def self_signed(folder: Path, address: str) -> tuple[Path, Path]:
     Raises HubError if openssl is missing or fails.
     """
     cert, key = folder / f"{digest([address])}.crt", folder / f"{digest([address])}.key"
+    kind = "DNS" if address.strip(".0123456789") and ":" not in address else "IP"
     if not (cert.exists() and key.exists()):
         command = ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", f"/CN={address}"]
+        command += ["-addext", f"subjectAltName={kind}:{address}"]
         files = ["-days", str(CERTIFICATE_DAYS), "-keyout", str(key), "-out", str(cert)]
         _run([*command, *files], "openssl could not make a certificate")
         key.chmod(0o600)
@@ -56,6 +58,8 @@ def _run(command: Sequence[str], failure: str) -> None:
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
-        raise HubError(f"{failure}: {error.strerror}. Install {command[0]}, and start again.") from error
+        raise HubError(
+            f"{failure}: {error.strerror}. Install {command[0]}, and start the hub again."
+        ) from error
     if done.returncode:
         raise HubError(f"{failure}:\n{done.stderr.strip()}")

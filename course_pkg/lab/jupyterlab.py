@@ -10,7 +10,7 @@ import sys
 import tempfile
 import time
 import webbrowser
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager, suppress
 from http.client import HTTPConnection, HTTPException
 from pathlib import Path
@@ -22,6 +22,8 @@ from course_pkg.errors import CourseError, PortBusy, SetupError
 from course_pkg.lab.graph.graph import Which, graph_of_this_command
 from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.graph.settings import settings_for
+from course_pkg.lab.opened_notebook import notebook_to_open, write_workspace
+from course_pkg.ports import free_port
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
 from course_pkg.setup.own_files import make_own_files
@@ -31,8 +33,6 @@ PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ones
 READY = 60.0  # time limit for the start in s; it takes 2 s, or much longer with an empty disk cache
 LOOK = 0.01  # s between two checks whether the server answers
 KEPT_LINES = 12  # number of lines of the server's log in an error message
-# The file name of jupyterlab_server's workspace "default": the name, and the first digits of its SHA-256.
-WORKSPACE = "default-37a8.jupyterlab-workspace"
 
 
 def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, shared: bool = False) -> int:
@@ -47,9 +47,9 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     """
     places = Places.of()
     make_own_files(places)
-    notebook = _notebook(places.own, asked)
+    notebook = notebook_to_open(places.own, asked)
     _make_workspace()
-    chosen = free_port(ip, PORTS if port is None else [port])
+    chosen = server_port(ip, PORTS if port is None else [port])
     which = Which.SHARED if shared else Which.RUNNING if os.environ.get("ROS_MASTER_URI") else Which.NEW
     with (
         _stopping_on_signals(),
@@ -57,7 +57,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
         graph_of_this_command(which) as graph,
     ):
         scratch = Path(folder)
-        _write_workspace(scratch / "workspaces", notebook)
+        write_workspace(scratch / "workspaces", notebook)
         settings = _settings(places, ip, chosen, scratch) | settings_for(graph)
         # An author opens a notebook in solutions/, and needs to see all files of the checkout.
         settings["CourseContents.everything"] = bool(notebook) and not notebook.startswith("notebooks/")
@@ -81,22 +81,15 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
             return server.returncode or 0
 
 
-def free_port(ip: str = "127.0.0.1", candidates: Iterable[int] = (0,)) -> int:
-    """Return the first port of `candidates` on which a program can listen at `ip`; 0 means any port.
-
-    Raises PortBusy if no port is free.
-    """
-    reason, tried = "no port was given", 0
-    for tried in candidates:
-        with socket.socket(socket.AF_INET6 if ":" in ip else socket.AF_INET) as probe:
-            try:
-                probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-                probe.bind((ip, tried))
-                probe.listen()
-                return int(probe.getsockname()[1])
-            except (OSError, OverflowError) as error:
-                reason = getattr(error, "strerror", None) or str(error)
-    raise PortBusy(f"JupyterLab cannot listen on {ip}:{tried}: {reason}. Omit --port to get a free port.")
+def server_port(ip: str, candidates: Sequence[int]) -> int:
+    """Return the first free port of `candidates` at `ip`; raises PortBusy if there is none."""
+    try:
+        return free_port(ip, candidates)
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise PortBusy(
+            f"JupyterLab cannot listen on {ip}:{candidates[-1]}: {reason}. Omit --port to get a free port."
+        ) from error
 
 
 class _Address(NamedTuple):
@@ -206,26 +199,6 @@ def _user_settings() -> Path:
     return Path(given) if given else Path(config) / "lab" / "user-settings"
 
 
-def _notebook(root: Path, asked: str | None) -> str:
-    """Return the path of the notebook to open, relative to `root`, the folder with `notebooks`.
-
-    This path is `asked`; it is the first chapter if `asked` is None, or "" if there are no chapters. Raises
-    SetupError if `asked` is not a file in `root`.
-    """
-    if asked is None:
-        chapters = sorted((root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
-        return str(chapters[0].relative_to(root)) if chapters else ""
-    path = Path(asked).resolve()
-    if not path.is_file():
-        raise SetupError(f"There is no notebook {asked}. The chapters are in {root / 'notebooks'}.")
-    if not path.is_relative_to(root):
-        raise SetupError(
-            f"{path} is not in {root}, and JupyterLab serves only this folder. Copy the "
-            "notebook to this folder."
-        )
-    return str(path.relative_to(root))
-
-
 def _make_workspace() -> None:
     """Create the folder of the student's own packages; print a message on stderr if it cannot be used."""
     try:
@@ -234,27 +207,6 @@ def _make_workspace() -> None:
         sys.stderr.write(
             f"{error} The chapters about building packages do not work until you have solved this problem.\n"
         )
-
-
-def _write_workspace(folder: Path, notebook: str) -> None:
-    """Write the workspace that JupyterLab opens.
-
-    It has one tab for `notebook`, and no tabs of an earlier start.
-
-    JupyterLab would start a kernel for each restored tab before the page is usable. The page's address could
-    also contain the notebook and `?reset`, but JupyterLab reads the address 0.5 s later than the workspace.
-    """
-    tab = f"notebook:{notebook}"
-    dock = {"type": "tab-area", "currentIndex": 0, "widgets": [tab]}
-    left = {"collapsed": False, "visible": True, "current": "filebrowser", "widgets": ["filebrowser"]}
-    opened = {
-        "layout-restorer:data": {"main": {"dock": dock, "current": tab}, "left": left},
-        tab: {"data": {"path": notebook, "factory": "Notebook"}},
-        "file-browser-filebrowser:cwd": {"path": str(Path(notebook).parent)},
-    }
-    folder.mkdir()
-    workspace = {"data": opened if notebook else {}, "metadata": {"id": "default"}}
-    (folder / WORKSPACE).write_text(json.dumps(workspace))
 
 
 def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:

@@ -36,8 +36,7 @@ def _write(path: Path, content: str) -> None:
         write_atomically(path, content)
     except OSError as error:
         raise ExportFailed(
-            f"{path} cannot be written ({error.strerror}). Give the name of a file in a folder in which you "
-            "can write."
+            f"{path} cannot be written ({error.strerror}). Choose a file in a folder in which you may write."
         ) from error
     sys.stdout.write(f"{path.resolve()}\n")
 

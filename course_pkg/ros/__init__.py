@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from course_pkg.ros.node.preparation import guard_against_idle_connections, prepare_node
     from course_pkg.ros.node.proxy import BoundedProxy
     from course_pkg.ros.node.publisher import Publisher
-    from course_pkg.ros.node.service import HandledCall, Service
     from course_pkg.ros.node.subscription import Subscription
     from course_pkg.ros.process.master import PrivateMaster
     from course_pkg.ros.process.node_process import NodeProcess
@@ -41,7 +40,6 @@ __all__ = [
     "ActivityPoller",
     "BoundedProxy",
     "Event",
-    "HandledCall",
     "MasterClient",
     "Node",
     "NodeProcess",
@@ -52,7 +50,6 @@ __all__ = [
     "Recording",
     "Registration",
     "Roscore",
-    "Service",
     "ServiceCaller",
     "ServiceSeen",
     "Snapshot",
@@ -89,7 +86,6 @@ __getattr__ = lazily(
         "process.node_process": "NodeProcess",
         "trace.recording": "Event Recording",
         "protocol.master_api": "MasterClient SystemState master_uri",
-        "node.service": "Service HandledCall",
         "protocol.snapshot": "NodeSeen ServiceSeen Snapshot TopicSeen look",
         "node.publisher": "Publisher",
         "protocol.registrations": "Registration remove_stale",

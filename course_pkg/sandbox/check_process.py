@@ -9,13 +9,13 @@ from dataclasses import replace
 from typing import NoReturn
 
 from course_pkg.checking.parts import find
+from course_pkg.checking.processes.runner import record, run_check
 from course_pkg.checking.report import Report, Verdict
-from course_pkg.checking.runner import record, run_check
 from course_pkg.errors import ChannelError
-from course_pkg.sandbox import namespaces, users
 from course_pkg.sandbox.command_runner import SplitChannel
 from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.job import PartJob
+from course_pkg.sandbox.linux import namespaces, users
 
 
 def check_part(

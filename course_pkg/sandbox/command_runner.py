@@ -16,7 +16,7 @@ from course_pkg.checking.channel import Channel
 from course_pkg.checking.kernel.agent import KernelAgent
 from course_pkg.errors import ChannelError
 from course_pkg.ros.protocol.json_channel import Json
-from course_pkg.sandbox.namespaces import be_unreadable
+from course_pkg.sandbox.linux.namespaces import be_unreadable
 from course_pkg.types import Plain
 
 OWN = "/tmp"  # noqa: S108 -- only this process uses it, in its sandbox

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import NoReturn
 
 from course_pkg.checking.parts import secret_paths
-from course_pkg.sandbox import namespaces, users
 from course_pkg.sandbox.channel import end_all_below, fork, receive, send, share_memory_with_children
 from course_pkg.sandbox.isolation import Isolation
+from course_pkg.sandbox.linux import namespaces, users
 from course_pkg.sandbox.student_process import prepare
 from course_pkg.sandbox.supervisor import supervise
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from typing import NamedTuple
 
-from course_pkg.sandbox.users import Users
+from course_pkg.sandbox.linux.users import Users
 
 
 class Kind(str, Enum):

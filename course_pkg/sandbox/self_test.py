@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from course_pkg.sandbox import confinement, namespaces
+from course_pkg.sandbox.linux import confinement, namespaces
 
 
 def main() -> None:

@@ -63,7 +63,7 @@ def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
     for number, source in enumerate(job.answers, 1):
         _run(shell, f"answer {number}", source, job.answer_timeout, send)
     _run(shell, "after", job.after, job.setup_timeout, send)
-    from course_pkg.checking.client import check
+    from course_pkg.checking.processes.client import check
 
     check(job.check)
 

@@ -12,11 +12,12 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from course_pkg.sandbox import confinement, namespaces, users
+from course_pkg.ports import free_port
 from course_pkg.sandbox.channel import descendants, end_all_below, fork, send
 from course_pkg.sandbox.command_runner import OWN, run_commands
 from course_pkg.sandbox.isolation import Isolation
 from course_pkg.sandbox.job import PartJob, job_from
+from course_pkg.sandbox.linux import confinement, namespaces, users
 from course_pkg.sandbox.student_process import message_writer, run_part
 from course_pkg.waiting import wait_until
 
@@ -27,8 +28,9 @@ MASTER_PORT = 11311
 MASTER_TIMEOUT = 5.0  # The master has to start within this time in s.
 CLEAR_TIMEOUT = 5.0  # All processes of a part have to end within this time in s.
 MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the memory.
-# These lines of proc(5) contain the private memory, and the shared memory without a file (KiB).
-COUNTED = ("RssAnon:", "RssShmem:")
+# These lines of status and smaps_rollup in proc(5) contain the memory of a process without files (KiB).
+QUICK = ("RssAnon:", "RssShmem:")  # A page that processes share counts for each of these processes.
+EXACT = ("Pss_Anon:", "Pss_Shmem:")  # A page counts once; the processes that share it divide it.
 OPEN = 4096  # No process of a sandbox has a file descriptor of this number or above.
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
 TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # These are exit statuses of a supervisor.
@@ -54,7 +56,7 @@ def supervise(
     with os.fdopen(job_file, "rb") as file:
         job = job_from(file.read())
     folder = _make_folder(isolation)
-    port = MASTER_PORT if isolation.namespaces else _free_port()
+    port = MASTER_PORT if isolation.namespaces else free_port()
     with socket.create_server(("127.0.0.1", 0)) as listener, open("/proc/self/ns/net") as network:
         _set_environment(folder, port, listener.getsockname()[1])
         for each in job.files:
@@ -179,22 +181,38 @@ def _watch(student: int, folder: str, isolation: Isolation) -> int:
             return ASKED
         if came is not None and os.waitpid(student, os.WNOHANG)[0]:
             return STUDENT_ENDED
-        if memory_below(os.getpid()) > confinement.TOGETHER:
+        if too_much_memory_below(os.getpid(), confinement.TOGETHER):
             return TOO_MUCH_MEMORY
         if isolation.users and users.disk_is_full(folder, isolation.users):
             return TOO_MUCH_DISK
 
 
-def memory_below(ancestor: int) -> int:
-    """Return the memory in bytes that the descendants of `ancestor` use."""
-    held = 0
-    for pid in descendants(ancestor):
-        with suppress(OSError):
-            status = Path(f"/proc/{pid}/status").read_text()
-            held += sum(
-                1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(COUNTED)
-            )
-    return held
+def too_much_memory_below(ancestor: int, limit: int) -> bool:
+    """Return whether the descendants of `ancestor` together use more than `limit` bytes of memory.
+
+    Forked processes share most of their memory, so the quick sum may be several times too large. The exact
+    sum takes longer, so it is computed only if the quick sum is above the limit.
+    """
+    processes = descendants(ancestor)
+    if sum(_memory(pid, "status", QUICK) for pid in processes) <= limit:
+        return False
+    return sum(map(_exact_memory, processes)) > limit
+
+
+def _exact_memory(pid: int) -> int:
+    try:
+        return _memory(pid, "smaps_rollup", EXACT)
+    except PermissionError:  # A process that is protected from other processes is counted in full.
+        return _memory(pid, "status", QUICK)
+
+
+def _memory(pid: int, file: str, counted: tuple[str, ...]) -> int:
+    """Return the memory of a process in bytes, or 0 after its end."""
+    try:
+        lines = Path(f"/proc/{pid}/{file}").read_text().splitlines()
+    except (FileNotFoundError, ProcessLookupError):
+        return 0
+    return sum(1024 * int(line.split()[1]) for line in lines if line.startswith(counted))
 
 
 def _end_all(folder: str, isolation: Isolation) -> None:
@@ -208,12 +226,6 @@ def _end_all(folder: str, isolation: Isolation) -> None:
         users.remove(folder)
     elif not isolation.namespaces:
         shutil.rmtree(folder, ignore_errors=True)
-
-
-def _free_port() -> int:
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        port: int = listener.getsockname()[1]
-        return port
 
 
 def _listens(port: int) -> bool:

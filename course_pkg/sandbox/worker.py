@@ -17,10 +17,12 @@ from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 
-from course_pkg.sandbox import confinement, fork_server, namespaces, supervisor, users
+from course_pkg.checking.report import Verdict
+from course_pkg.sandbox import fork_server, supervisor
 from course_pkg.sandbox.channel import end, fork, pair, receive, send, share_memory_with_children
 from course_pkg.sandbox.isolation import Isolation, Kind
 from course_pkg.sandbox.job import PartJob, PartResult, Record, job_from
+from course_pkg.sandbox.linux import confinement, namespaces, users
 
 START_TIMEOUT = 60.0  # The fork server has to import its modules within this time in s.
 PLACE_TIMEOUT = 15.0  # A supervisor has to start its processes within this time in s.
@@ -32,10 +34,15 @@ VERDICT_TIMEOUT = 3.0
 # limit too.
 CHUNK = 65536
 
-ENDINGS = {
-    supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",
+LIMITS = {
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
+}
+# A check runner may write one of these verdicts after a supervisor has ended all processes at a limit.
+STOPPED = (Verdict.FAILED, Verdict.UNDECIDED)
+ENDINGS = {
+    supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",
+    **LIMITS,
 }
 
 
@@ -158,11 +165,12 @@ class Session:
             ready = bool(self._wait([reading]))
             if self._over is not None and not ready:
                 ready = bool(select.select([reading], [], [], VERDICT_TIMEOUT)[0])
-            return (
-                (_record(reading), "the check runner ended without a verdict")
-                if ready
-                else (None, self._reason())
-            )
+            if not ready:
+                return None, self._reason()
+            record = _record(reading)
+            if record and record["verdict"] in STOPPED and self._was_stopped():
+                return None, self._reason()  # The record only describes that the check lost its master.
+            return record, "the check runner ended without a verdict"
         finally:
             end([runner])
             os.waitpid(runner, 0)
@@ -186,9 +194,15 @@ class Session:
             self._over = int(receive(self._fork_server)[0]["over"])
         return [file for file in ready if file is not self._fork_server]
 
+    def _was_stopped(self) -> bool:
+        """Return whether the supervisor has ended all processes because of a limit."""
+        if self._over is None and select.select([self._fork_server], [], [], VERDICT_TIMEOUT)[0]:
+            self._over = int(receive(self._fork_server)[0]["over"])
+        return self._over is not None and os.waitstatus_to_exitcode(self._over) in LIMITS
+
     def _reason(self) -> str:
         if self._over is None:
-            return f"it was not finished after {self._limit:g} s"
+            return f"the check was not finished after {self._limit:g} s"
         code = os.waitstatus_to_exitcode(self._over)
         return ENDINGS.get(code, "the processes of this part were lost")
 

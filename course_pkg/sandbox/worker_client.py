@@ -12,9 +12,9 @@ from types import TracebackType
 from typing import IO
 
 from course_pkg.errors import WorkerFailed
-from course_pkg.sandbox.bubblewrap import clean_environment, sandbox_command
 from course_pkg.sandbox.isolation import Kind
 from course_pkg.sandbox.job import PartJob, PartResult, result_from
+from course_pkg.sandbox.linux.bubblewrap import clean_environment, sandbox_command
 from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 

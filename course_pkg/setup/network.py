@@ -20,16 +20,22 @@ SETTINGS = (
 )
 
 
-def network_problem() -> tuple[str, str]:
+def network_problem(account: str | None = None) -> tuple[str, str]:
     """Return why this computer allows no private network, and what to do.
 
-    Both strings are empty if it allows one.
+    Both strings are empty if it allows one. Without `account`, the user of this process needs the network.
+    Only root can ask for another account.
     """
     if not shutil.which("unshare") or not shutil.which("nsenter"):
         return "unshare or nsenter is missing", "As an administrator, type: apt-get install util-linux"
-    user = [] if os.geteuid() == 0 else ["--user"]
+    user = ["--user"] if account or os.geteuid() else []
     answer = subprocess.run(
-        ["unshare", *user, "--net", "true"], capture_output=True, text=True, timeout=10, check=False
+        ["unshare", *user, "--net", "true"],
+        capture_output=True,
+        text=True,
+        timeout=10,
+        check=False,
+        user=account,
     )
     if answer.returncode == 0:
         return "", ""

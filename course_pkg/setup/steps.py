@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import os
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -34,13 +35,16 @@ class Step(NamedTuple):
 def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool = False) -> None:
     """Set up what is missing.
 
-    If nothing is missing, this function takes a few milliseconds and prints nothing. Raises SetupError, with
-    the next step for the user, if a step fails.
+    If nothing is missing, this function takes a few milliseconds and prints nothing. A shared installation is
+    complete, except for the libraries of the hub, which the first `course hub` of an administrator adds.
+    Raises SetupError, with the next step for the user, if a step fails.
     """
     stages = steps_of(places, grade=grade, hub=hub, test=test)
     if all(step.is_done() for stage in stages for step in stage):
         return
-    if places.installed:
+    if places.installed and hub and os.access(places.cache, os.W_OK):
+        os.umask(0o022)  # the students' servers use the libraries of the hub
+    elif places.installed:
         raise SetupError(
             f"The installation in {places.checkout.parent} does not work on this machine any "
             "more, for example because Python or ROS was updated. As an administrator, type\n  "

@@ -36,11 +36,14 @@ def notice() -> str:
     teacher = about.get("teacher") or "your teacher"
     days = about.get("days")
     deleted = (
-        f" They are deleted {days:g} days after your last result." if isinstance(days, (int, float)) else ""
+        f" The results are deleted {days:g} days after your last result."
+        if isinstance(days, (int, float))
+        else ""
     )
     return (
-        f"The results of your checks are shared with {teacher} ({urlsplit(url).hostname}): the part, the "
-        f"result, the time and the hint, but not your code. They are never a grade.{deleted}"
+        f"The results of your checks are shared with {teacher} ({urlsplit(url).hostname}): the "
+        "part, the result, the time and the hint, but not your code. The results are never a "
+        f"grade.{deleted}"
     )
 
 

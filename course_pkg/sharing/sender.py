@@ -62,7 +62,9 @@ class Sender:
             except (NotAccepted, OSError, HTTPException, ValueError) as error:
                 if str(error) != problem:
                     problem = str(error)
-                    self._warn(f"Results are kept, and are sent later, because {self._url} fails: {problem}")
+                    self._warn(
+                        f"Results are stored now and sent later, because {self._url} does not work: {problem}"
+                    )
                 pause = PAUSES[min(failures, len(PAUSES) - 1)]
                 failures += 1
 
@@ -78,7 +80,7 @@ class Sender:
             answer = self._ask("POST", "/results", {"results": results})
             done = answer.get("done")
             if not isinstance(done, list) or not done:
-                raise NotAccepted("its answer is not the answer of a class service")
+                raise NotAccepted("the answer is not that of a class service")
             self._outbox.remove([str(each["id"]) for each in results if each["id"] in done])
 
     def _ask(self, method: str, path: str, data: Mapping[str, object] | None = None) -> dict[str, object]:
@@ -98,5 +100,5 @@ class Sender:
             raise NotAccepted(f"status {response.status}: {reason}")
         answer = json.loads(received)
         if not isinstance(answer, dict):
-            raise NotAccepted("its answer is not the answer of a class service")
+            raise NotAccepted("the answer is not that of a class service")
         return answer

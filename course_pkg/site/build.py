@@ -19,8 +19,8 @@ from course_pkg.site.book import book, prefix
 from course_pkg.site.chapters import Chapter, chapter_of
 from course_pkg.site.exporter import Body, Exporter
 from course_pkg.site.glossary import Glossary
+from course_pkg.site.markup.prose import words
 from course_pkg.site.pages import Page, Renderer, landing
-from course_pkg.site.prose import words
 from course_pkg.site.runs import Runs
 from course_pkg.site.scripts import panels_script, panels_sheet
 from course_pkg.site.search_index import Section, script, sections
@@ -31,7 +31,7 @@ FOOTER = (
     "These pages use no network: all files that they load are in the same folder. "
     '<a href="assets/LICENSES.txt">Licences of these files</a>.'
 )
-NOT_RUN = "The panels are missing, because the chapter has not run yet."
+NOT_RUN = "The panels are missing, because the chapter has not been run yet."
 PANEL_CLASS = 'class="panel"'
 
 
@@ -172,11 +172,11 @@ class Folder:
             foreign = not self._list.exists() and any(self._path.iterdir())
         except OSError as error:
             raise SiteError(
-                f"The folder {self._path} cannot be used: {error.strerror}. Name another folder with --out."
+                f"The folder {self._path} cannot be used: {error.strerror}. Give another folder with --out."
             ) from error
         if foreign:
             raise SiteError(
-                f"{self._path} contains files that are not a site. Name an empty or a new folder with --out."
+                f"{self._path} contains files that are not a site. Give an empty or a new folder with --out."
             )
         self._list.touch()
         self._before = set(self._list.read_text("utf-8").split("\n"))

@@ -48,7 +48,8 @@ def _npm(folder: Path, *words: str) -> None:
         )
     except subprocess.TimeoutExpired as error:
         raise SiteError(
-            f"npm {words[0]} did not end within {TIMEOUT} s. Check that the npm registry can be reached."
+            f"npm {words[0]} did not end within {TIMEOUT} s. Check that this machine can reach the "
+            "npm registry."
         ) from error
     if result.returncode:
         raise SiteError(f"npm {words[0]} failed:\n{result.stderr or result.stdout}")

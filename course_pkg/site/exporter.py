@@ -20,9 +20,9 @@ from nbconvert.filters import ansi2html
 from traitlets.config import Config
 
 from course_pkg.authoring.cells import Notebook, Output, exercise_of
-from course_pkg.site.code import Highlighter
-from course_pkg.site.figures import figure
-from course_pkg.site.prose import Prose, attribute
+from course_pkg.site.markup.code import Highlighter
+from course_pkg.site.markup.figures import figure
+from course_pkg.site.markup.prose import Prose, attribute
 from course_pkg.site.recordings import PANEL
 from course_pkg.types.fields import Plain
 

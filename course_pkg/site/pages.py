@@ -13,7 +13,7 @@ from markupsafe import Markup
 
 from course_pkg.setup.stamps import digest
 from course_pkg.site.chapters import Chapter, hours
-from course_pkg.site.prose import Prose
+from course_pkg.site.markup.prose import Prose
 from course_pkg.site.search_index import Heading
 
 HERE = Path(__file__).parent

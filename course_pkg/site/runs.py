@@ -22,7 +22,10 @@ from course_pkg.setup.stamps import digest
 from course_pkg.site.recordings import embed_states, plans, with_recordings, without_recordings
 
 # Notebooks do not use the modules in these folders, so a change of these modules causes no new run.
-IDLE = ("chapters", "site", "grading", "lab", "authoring", "setup")
+IDLE = (
+    *("authoring", "chapters", "class_view", "grading", "handout", "hub", "installation", "lab", "sandbox"),
+    *("setup", "site", "web_pages"),
+)
 RUN_BY = ("course_pkg/authoring/execute.py", "course_pkg/setup/locks/course.txt")
 
 

@@ -20,12 +20,15 @@ from course_pkg.setup import Places
 from tests.authoring.books import book, check, code, exercise
 from tests.support import eventually, process_state
 
-SET_UP = 'from course_pkg import check, join\nfrom course_pkg.srv import geometry\nnode = join("chapter_05")'
+SET_UP = (
+    "import rospy\nfrom course_pkg import check, join\nfrom course_pkg.srv import geometry\n"
+    'node = join("chapter_05")'
+)
 SERVER = (
     "def handle_geometry(request):\n"
     "    area = request.width * request.length\n"
     "    return area, area * request.height\n\n\n"
-    'node.serve("/getGeometry", geometry, handle_geometry)'
+    'service = rospy.Service("/getGeometry", geometry, handle_geometry)'
 )
 PLOT = (
     "import matplotlib.pyplot as plt\n\n"
@@ -98,7 +101,7 @@ def test_a_check_that_does_not_pass_is_not_stored(tmp_path: Path, monkeypatch: p
     first, headline, *report = str(ended.value.code).splitlines()
     assert first.startswith("course: 05_write_a_server: check 05.1 has not passed")
     assert headline == "  05.1 not yet: 0 of 2 points"
-    assert any("This is width + length" in line for line in report)
+    assert any("Your area is width + length" in line for line in report)
 
 
 def test_a_check_without_a_report_has_not_passed() -> None:

@@ -77,7 +77,7 @@ def test_an_exercise_that_repairs_a_file_begins_with_the_broken_file(tmp_path: P
 def test_an_exercise_writes_the_file_that_its_check_hands_out(tmp_path: Path) -> None:
     """If a cell and its check name different files, the sync fails."""
     write(tmp_path, book(*repair("%%writefile elsewhere.txt\nproject(lamp_services)")), "04_define_a_service")
-    with pytest.raises(AuthoringError, match=r"exercise-04-4: the check hands out a cell that begins with"):
+    with pytest.raises(AuthoringError, match=r"exercise-04-4: the check gives students a cell that begins"):
         sync(root=tmp_path)
 
 
@@ -107,7 +107,7 @@ def test_a_notebook_without_a_solution_is_deleted(root: Path) -> None:
     [
         (
             [exercise(), exercise(), check()],
-            r"cell exercise-05-1.*: an earlier cell of this kind has the id 05.1",
+            r"cell exercise-05-1.*: an earlier cell of this kind also has the id 05.1",
         ),
         ([check()], "check 05.1 has no exercise cell above it"),
         ([exercise()], "exercise 05.1 has no check cell"),

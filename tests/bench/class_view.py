@@ -17,7 +17,7 @@ from pathlib import Path
 
 from commands import run_command
 
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.ports import free_port
 from course_pkg.sharing.outbox import FOLDER, Outbox
 from course_pkg.sharing.sender import Sender
 from tests.browser.chromium import chromium

@@ -8,7 +8,7 @@ usage: ./course run python tests/bench/lab.py start [RUNS [NOTEBOOK]]
 - `start` prints the time from the command to a page with a rendered notebook and an idle kernel.
 - `click` prints the time from a click to Python and back to the page.
 - `kill` kills `course lab`, its master, its kernel or the holder of its graph by SIGKILL, and prints how many
-  processes were left.
+  processes, sockets, mounts and files were left. Each is killed TIMES times, by default 25.
 - `isolation` compares `course lab` with `course lab --shared-graph`: the start, a click, and a check.
 
 The measurements of `start` and `click` alternate between the two servers. `./course test` installs the
@@ -26,7 +26,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -36,7 +36,7 @@ from playwright.sync_api import BrowserContext, Page, sync_playwright
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.ports import free_port
 from tests.lab.commands import ADDRESS, ROOT, alive, below, can_connect, having, lab, user_environment
 from tests.support import eventually
 
@@ -265,29 +265,36 @@ def costs(server: Server, notebook: Path) -> tuple[list[float], list[float], lis
     return [start], clicks, checks
 
 
-def kill(times: int = 20) -> bool:
-    """Kill `course lab`, the master and the kernel several times. Return whether all processes ended."""
+def kill(times: int = 25) -> bool:
+    """Kill a process of `course lab` several times, and count what is left. Return whether it is nothing."""
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     victims["the holder of the graph"] = b"graph/holder.py\0"
-    left = 0
-    for name, pattern in victims.items():
-        port = free_port()  # Each start uses this port, so a start fails if the port is still in use.
-        seconds, leftovers = zip(*(killed(port, pattern) for _ in range(times)), strict=True)
-        count, slowest = sum(leftovers), max(seconds)
-        print(f"SIGKILL of {name}, {times} times: {count} processes or ports left; slowest {slowest:.1f} s")
-        left += count
-    return left == 0
+    nothing = True
+    with tempfile.TemporaryDirectory(prefix="c", dir="/tmp") as folder:  # a short name
+        killed(
+            folder, victims["the holder of the graph"]
+        )  # The first start creates files that stay, such as locks.
+        for name, pattern in victims.items():
+            seconds, leftovers = zip(*(killed(folder, pattern) for _ in range(times)), strict=True)
+            counts = {kind: sum(each[kind] for each in leftovers) for kind in leftovers[0]}
+            left = ", ".join(f"{count} {kind}" for kind, count in counts.items())
+            print(f"SIGKILL of {name}, {times} times: {left} left; slowest {max(seconds):.1f} s", flush=True)
+            nothing = nothing and not any(counts.values())
+    return nothing
 
 
-def killed(port: int, pattern: bytes) -> tuple[float, int]:
+def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
     """Kill the process whose command line contains `pattern`, and then stop the command.
 
-    An empty `pattern` kills the command itself. Return the time in s until all processes have exited, and the
-    numbers of remaining processes and ports.
+    An empty `pattern` kills the command itself. The files of the command are in `folder`. Return the time
+    in s until nothing is left, and how much is left after TIMEOUT, by kind.
     """
-    with lab("--port", str(port), str(next((ROOT / "solutions").glob("*.ipynb")))) as (process, address):
+    port, before = free_port(), files_in(folder)
+    variables = {"TMPDIR": folder, "XDG_STATE_HOME": f"{folder}/state"}
+    chapter = str(next((ROOT / "solutions").glob("*.ipynb")))
+    with lab("--port", str(port), chapter, **variables) as (process, address):
         assert urlsplit(address).port == port
-        family = eventually(partial(complete_family, process))
+        family = eventually(partial(complete_family, process), timeout=60)
         if pattern:
             # The supervisor has the same command line as its child process and comes first in the list.
             os.kill(having(pattern, family)[-1], signal.SIGKILL)
@@ -296,10 +303,38 @@ def killed(port: int, pattern: bytes) -> tuple[float, int]:
             process.communicate(timeout=TIMEOUT)
         else:
             process.kill()
+
+        def left() -> dict[str, int]:
+            return {
+                "processes": len({*filter(alive, family), *started_with(folder)}),
+                "sockets": can_connect(port) + Path("/proc/net/unix").read_text().count(f"{folder}/"),
+                "mounts": Path("/proc/self/mountinfo").read_text().count(folder),
+                "files": len(files_in(folder) - before),
+            }
+
         began = time.monotonic()
-        while (left := sum(map(alive, family)) + can_connect(port)) and time.monotonic() - began < TIMEOUT:
+        while any((seen := left()).values()) and time.monotonic() - began < TIMEOUT:
             time.sleep(0.02)
-        return time.monotonic() - began, left
+        return time.monotonic() - began, seen
+
+
+def files_in(folder: str) -> set[str]:
+    """Return all files, sockets and folders in a folder, which may be removed meanwhile."""
+    return {os.path.join(root, name) for root, folders, files in os.walk(folder) for name in folders + files}
+
+
+def started_with(folder: str) -> list[int]:
+    """Return all processes of this computer with TMPDIR=`folder`.
+
+    Without these processes, no private network of the command exists, because a network ends with the last
+    process that uses it or has it open.
+    """
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):  # the process has ended, or belongs to another user
+            if f"\0TMPDIR={folder}\0".encode() in b"\0" + (process / "environ").read_bytes():
+                found.append(int(process.name))
+    return found
 
 
 def complete_family(process: subprocess.Popen[str]) -> list[int]:

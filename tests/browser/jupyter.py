@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import socket
 import sys
 import urllib.request
 from collections.abc import Iterator, Mapping
@@ -18,6 +17,8 @@ import nbformat
 from playwright.sync_api import Page, expect
 
 import course_pkg.lab
+from course_pkg.lab.shell import SHELL
+from course_pkg.ports import free_port
 from course_pkg.ros import PrivateMaster
 from course_pkg.ros.process.supervised import SupervisedProcess
 from tests.browser.pages import READY
@@ -40,8 +41,6 @@ IDLE = "() => window.jupyterapp.shell.currentWidget?.sessionContext?.session?.ke
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
 # This file contains the course's settings of JupyterLab.
 OVERRIDES = Path(course_pkg.lab.__file__).with_name("settings") / "overrides.json"
-# The course's terminals run this file at their start.
-BASHRC = Path(course_pkg.lab.__file__).with_name("bashrc")
 
 
 @dataclass(frozen=True)
@@ -55,7 +54,7 @@ class Lab:
 @contextmanager
 def running_lab(folder: Path) -> Iterator[Lab]:
     """Run JupyterLab on a free port with a private master during the `with` block."""
-    port = _free_port()
+    port = free_port()
     root = folder / "notebooks"
     root.mkdir(parents=True)
     with PrivateMaster() as master:
@@ -117,7 +116,7 @@ def _command(port: int, root: Path) -> list[str]:
         "ServerApp.allow_root": True,
         "ServerApp.disable_check_xsrf": True,
         "IdentityProvider.token": "",
-        "ServerApp.terminado_settings": {"shell_command": ["bash", "--rcfile", str(BASHRC)]},
+        "ServerApp.terminado_settings": {"shell_command": list(SHELL)},
         "LabApp.news_url": "",
         "LabApp.expose_app_in_browser": True,
     }
@@ -142,13 +141,6 @@ def _environment(folder: Path, master: str) -> Mapping[str, str]:
         "ROS_MASTER_URI": master,
     }
     return {**os.environ, **{name: str(value) for name, value in places.items()}}
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port: int = probe.getsockname()[1]
-        return port
 
 
 def _answers(url: str) -> bool:

@@ -8,12 +8,14 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Literal
 
-from playwright.sync_api import BrowserContext, Error, Locator, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Error, Locator, Page, expect
 
 from course_pkg.panels.panel import Panel
 
 HERE = Path(__file__).parent
+Colours = Literal["light", "dark"]
 # JupyterLab's own scripts have these addresses in a stack trace; the course's scripts have blob: addresses.
 JUPYTERLAB = re.compile(r"https?://[^ ]*/static/lab/")
 READY = 60_000  # On a busy machine, a browser, a server and a kernel need at most this many ms to start.
@@ -73,3 +75,16 @@ def save(widget: Panel, path: Path, theme: str = "light") -> str:
     path.write_text(HOST.replace("THEME", theme).replace("CSS", state["_css"]).replace("STATE", text))
     widget.close()
     return path.as_uri()
+
+
+@contextmanager
+def page_at(browser: Browser, address: str, width: int, colours: Colours) -> Iterator[tuple[Page, list[str]]]:
+    """Open an address; yield the page with the messages of its console and the errors of its scripts."""
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
+    page, words = context.new_page(), list[str]()
+    page.on("console", lambda message: words.append(message.text))
+    page.on("pageerror", lambda error: words.append(str(error)))
+    page.on("dialog", lambda dialog: words.append(dialog.message))
+    page.goto(address)
+    yield page, words
+    context.close()

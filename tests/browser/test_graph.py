@@ -36,11 +36,11 @@ node = join("talk_test")
 said = rospy.Publisher("/robot/said", String, queue_size=1)
 rospy.Publisher("/robot/unheard", String, queue_size=1)
 heard = node.subscribe("/robot/said", String)
-node.serve("/robot/ask", Trigger, lambda _: (True, "yes"))
+rospy.Service("/robot/ask", Trigger, lambda _: (True, "yes"))
 timer = rospy.Timer(rospy.Duration(0.1), lambda _: said.publish("word"))
 """
 CALL = 'answer = node.call("/robot/ask", Trigger)'
-LATER = 'node.serve("/later", Trigger, lambda _: (True, "here"))'
+LATER = 'rospy.Service("/later", Trigger, lambda _: (True, "here"))'
 
 
 def large() -> Snapshot:

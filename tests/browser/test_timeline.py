@@ -259,8 +259,9 @@ def test_in_print(page: Page, tmp_path: Path) -> None:
 def test_in_jupyterlab(lab: Lab, lab_page: Page) -> None:
     """A notebook shows a recording of a real call, and the keys work in the drawing."""
     cells = (
-        "from course_pkg import Timeline, join\nfrom std_srvs.srv import Trigger\nnode = join('recorder')",
-        "served = node.serve('/answer', Trigger, lambda request: (True, 'here'))",
+        "import rospy\nfrom course_pkg import Timeline, join\nfrom std_srvs.srv import Trigger\n"
+        "node = join('recorder')",
+        "served = rospy.Service('/answer', Trigger, lambda request: (True, 'here'))",
         "with node.record() as recording:\n    node.call('/answer', Trigger)",
         "Timeline(recording)",
     )

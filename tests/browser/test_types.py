@@ -17,8 +17,9 @@ from tests.types.conftest import package
 SERVE = """
 from course_pkg import TypeBrowser, join
 from std_srvs.srv import SetBool
+import rospy
 node = join("types_test")
-switch = node.serve("/switch", SetBool, lambda request: (True, ""))
+switch = rospy.Service("/switch", SetBool, lambda request: (True, ""))
 """
 
 

@@ -244,7 +244,9 @@ def test_cashier_continues_without_a_detector(camera: NodeProcess) -> None:
 def test_cashier_limits_its_rate_of_calls(kernel: Kernel, answer: str, settings: list[str]) -> None:
     """The cashier makes at most two calls per second, even if the responses come immediately."""
     kernel.run("import rospy\nfrom course_pkg import join\nfrom course_pkg.srv import DetectCustomer")
-    kernel.run(f"join('student').serve('/detect_customer', DetectCustomer, lambda request: {answer})")
+    kernel.run(
+        f"join('student'); rospy.Service('/detect_customer', DetectCustomer, lambda request: {answer})"
+    )
     started = time.monotonic()
     with run("cashier", *settings):
         eventually(lambda: report().asked >= 4)

@@ -22,14 +22,14 @@ SERVE = """
     def handle_geometry(request):
         return request.width * request.length, request.width * request.length * request.height
 
-    node.serve("/getGeometry", geometry, handle_geometry)
+    rospy.Service("/getGeometry", geometry, handle_geometry)
 """
 HANG = """
     def handle_geometry(request):
         print("waiting", flush=True)
         threading.Event().wait()
 
-    node.serve("/getGeometry", geometry, handle_geometry)
+    rospy.Service("/getGeometry", geometry, handle_geometry)
 """
 
 
@@ -42,6 +42,7 @@ def program(cells: str, state: Path, **env: str) -> Iterator[subprocess.Popen[st
     setup = """
     import sys
     import threading
+    import rospy
     from course_pkg import check, join
     from course_pkg.srv import geometry
     node = join("student")
@@ -93,7 +94,7 @@ def test_pass_has_the_same_text_each_time_and_is_recorded(master: PrivateMaster,
 
 def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
     """If COURSE_SEED is the seed from a record, the check fails in the same way again."""
-    cells = '    node.serve("/getGeometry", geometry, lambda r: (r.length, 0))\n    handle_geometry = 1\n'
+    cells = '    rospy.Service("/getGeometry", geometry, lambda r: (r.length, 0))\n    handle_geometry = 1\n'
     cells += '    print(check("05.1"))'
     first = output(cells, tmp_path)
     assert output(cells, tmp_path, COURSE_SEED=str(record(tmp_path)["seed"])) == first

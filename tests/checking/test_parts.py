@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from course_pkg import chapters
-from course_pkg.checking.client import TIMEOUT
 from course_pkg.checking.parts import Part, every_part, find, folder_of, folders_for, parts_of
 from course_pkg.checking.parts import chapters as numbers
+from course_pkg.checking.processes.client import TIMEOUT
 from course_pkg.errors import UnknownCheck
 from course_pkg.waiting import MOST
 from tests.selection import chapter_paths

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from types import TracebackType
 
-from course_pkg.sandbox.bubblewrap import refusal
 from course_pkg.sandbox.job import PartJob, PartResult
+from course_pkg.sandbox.linux.bubblewrap import refusal
 from course_pkg.sandbox.worker_client import SandboxWorker
 
 

@@ -4,17 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import json
-import threading
 import time
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 
-from tornado.httpserver import HTTPServer
-from tornado.ioloop import IOLoop
-from tornado.netutil import bind_sockets
+from tornado.web import Application
 
 from course_pkg.class_view.command import every_chapter
 from course_pkg.class_view.identity import Identity, LocalIdentity
@@ -22,6 +17,7 @@ from course_pkg.class_view.pages import application
 from course_pkg.class_view.service import ClassService, Settings
 from course_pkg.class_view.storage import Storage
 from course_pkg.class_view.tokens import FILE, Tokens
+from tests.web_pages.servers import ask, served
 
 TEACHER = "secret"  # the teacher's token, which only this test's server knows
 NASTY = "</span><img src=x onerror=alert(1)>"
@@ -43,54 +39,18 @@ def serving(folder: Path, students: int = 3, identity: Identity | None = None) -
     """Run a class view in a thread; yield its address without the token and without a slash at its end."""
     tokens = Tokens(folder / FILE)
     tokens.complete({f"s{number:02}": f"Student {number:02} {NASTY}" for number in range(1, students + 1)})
-    (listening,) = bind_sockets(0, "127.0.0.1")
-    ready, loops = threading.Event(), list[IOLoop]()
+    settings = Settings("Dr. Ada", 30.0, tokens.names)
 
-    def serve() -> None:
-        loop = IOLoop(make_current=True)
-        storage = Storage(folder)
-        settings = Settings("Dr. Ada", 30.0, tokens.names)
-        service = ClassService(storage, identity or LocalIdentity(tokens, TEACHER), settings)
-        server = HTTPServer(application(service, "/", "signs cookies", every_chapter()))
-        server.add_socket(listening)
-        loops.append(loop)
-        watching = loop.asyncio_loop.create_task(service.watch())  # type: ignore[attr-defined]
-        loop.add_callback(ready.set)
-        loop.start()
-        watching.cancel()
-        loop.run_sync(lambda: asyncio.wait([watching]))
-        server.stop()
-        storage.close()
-        loop.close(all_fds=True)
+    @contextmanager
+    def view(_: int) -> Iterator[Application]:
+        with closing(Storage(folder)) as storage:
+            service = ClassService(storage, identity or LocalIdentity(tokens, TEACHER), settings)
+            watching = asyncio.create_task(service.watch())
+            yield application(service, "/", "signs cookies", every_chapter())
+            watching.cancel()
 
-    thread = threading.Thread(target=serve)
-    thread.start()
-    assert ready.wait(20)
-    try:
-        yield f"http://127.0.0.1:{listening.getsockname()[1]}"
-    finally:
-        loops[0].add_callback(loops[0].stop)
-        thread.join(10)
-
-
-class Kept(urllib.request.HTTPRedirectHandler):
-    """Follows no redirect."""
-
-    def redirect_request(self, *_: object) -> None:
-        """Return no new request."""
-
-
-def ask(url: str, data: object = None, **headers: str) -> tuple[int, str, dict[str, str]]:
-    """Send a request; return the status, the text and the headers of the response."""
-    body = None if data is None else data if isinstance(data, bytes) else json.dumps(data).encode()
-    named = {name.replace("_", "-"): value for name, value in headers.items()}
-    request = urllib.request.Request(url, body, named)  # noqa: S310 -- our own server
-    try:
-        with urllib.request.build_opener(Kept).open(request, timeout=30) as response:
-            return response.status, response.read().decode(), dict(response.headers)
-    except urllib.error.HTTPError as error:
-        with error:
-            return error.code, error.read().decode(), dict(error.headers)
+    with served(view) as url:
+        yield url
 
 
 def send(url: str, token: str, *results: dict[str, object]) -> tuple[int, str]:

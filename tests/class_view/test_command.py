@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from course_pkg.class_view.storage import FILE, Storage
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.ports import free_port
 from course_pkg.sharing.outbox import Outbox
 from course_pkg.sharing.sender import Sender
 from tests.class_view.classes import tokens_in
@@ -35,11 +35,11 @@ def _refused(*arguments: object) -> str:
 def test_wrong_inputs_get_one_message(tmp_path: Path) -> None:
     """A busy port, a missing or incomplete roster, and a database that is damaged or of another version."""
     data = ("--data", tmp_path / "data", "--port", 0)
-    assert "There are no students. Give --roster FILE" in _refused(*data)
+    assert "There are no students. Give their usernames with --roster FILE" in _refused(*data)
     assert "There is no folder" in _refused("--data", tmp_path / "nothing", "--delete", "s01")
     roster = tmp_path / "roster.csv"
     roster.write_text("name,username\nAda,ada\nBob,\n")
-    assert "roster.csv: add a column username; it is empty in the lines 3" in _refused(
+    assert "roster.csv: the column username is missing or empty in the lines 3" in _refused(
         *data, "--roster", roster
     )
     with socket.socket() as busy:
@@ -47,7 +47,10 @@ def test_wrong_inputs_get_one_message(tmp_path: Path) -> None:
         busy.listen()
         port = busy.getsockname()[1]
         message = _refused("--data", tmp_path / "data", "--students", 2, "--port", port)
-        assert f"127.0.0.1:{port} cannot be used (Address already in use). Give another --port" in message
+        assert (
+            f"127.0.0.1:{port} cannot be used (Address already in use). Give another port with --port"
+            in message
+        )
     assert "contains nothing about 'nobody'" in _refused(*data, "--delete", "nobody")
     database = tmp_path / "data" / FILE
     with closing(sqlite3.connect(database)) as other:

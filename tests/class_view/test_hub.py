@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import json
-import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from tornado.ioloop import IOLoop
 from tornado.web import Application, RequestHandler
 
 from course_pkg.class_view.identity import HubIdentity, HubService
-from course_pkg.lab.jupyterlab import free_port
-from tests.class_view.classes import ask, result, send, serving
+from course_pkg.ports import free_port
+from tests.class_view.classes import result, send, serving
+from tests.web_pages.servers import ask, served
 
 USERS = {
     "student": {"kind": "user", "name": "ada", "scopes": ["access:servers!server=ada/"]},
@@ -47,29 +46,9 @@ class Token(RequestHandler):
 @contextmanager
 def imitated_hub() -> Iterator[str]:
     """Run the HTTP API of a hub in a thread; yield its address."""
-    ready, found = threading.Event(), list[tuple[IOLoop, int]]()
-
-    def serve() -> None:
-        loop = IOLoop(make_current=True)
-        server = Application([("/hub/api/user", User), ("/hub/api/oauth2/token", Token)]).listen(
-            0, "127.0.0.1"
-        )
-        port = next(iter(server._sockets.values())).getsockname()[1]
-        found.append((loop, port))
-        loop.add_callback(ready.set)
-        loop.start()
-        server.stop()
-        loop.close(all_fds=True)
-
-    thread = threading.Thread(target=serve)
-    thread.start()
-    assert ready.wait(20)
-    loop, port = found[0]
-    try:
-        yield f"http://127.0.0.1:{port}/hub/api"
-    finally:
-        loop.add_callback(loop.stop)
-        thread.join(10)
+    hub = Application([("/hub/api/user", User), ("/hub/api/oauth2/token", Token)])
+    with served(lambda _: nullcontext(hub)) as url:
+        yield f"{url}/hub/api"
 
 
 def environment(api: str) -> dict[str, str]:

@@ -6,12 +6,11 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Literal
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from tests.browser.pages import picture
+from tests.browser.pages import Colours, page_at, picture
 from tests.class_view.classes import NASTY, TEACHER, result, send, serving, tokens_in
 from tests.site.test_pages import AXE, violations
 
@@ -21,18 +20,12 @@ HINTS = ("That is width + length. An area is a product.", f"Return a response. {
 
 @contextmanager
 def opened(
-    browser: Browser, url: str, width: int = 1280, colours: Literal["light", "dark"] = "light"
+    browser: Browser, url: str, width: int = 1280, colours: Colours = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page; yield it with the messages of the console and the errors of its scripts."""
-    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
-    page, words = context.new_page(), list[str]()
-    page.on("console", lambda message: words.append(message.text))
-    page.on("pageerror", lambda error: words.append(str(error)))
-    page.on("dialog", lambda dialog: words.append(dialog.message))
-    page.goto(f"{url}/?token={TEACHER}")
-    expect(page.get_by_role("status")).to_have_text("Live")
-    yield page, words
-    context.close()
+    """Open the page with its token, and wait until it shows its data."""
+    with page_at(browser, f"{url}/?token={TEACHER}", width, colours) as (page, words):
+        expect(page.get_by_role("status")).to_have_text("Live")
+        yield page, words
 
 
 def fill(url: str, folder: Path) -> None:
@@ -75,9 +68,7 @@ def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("colours", ["light", "dark"])
-def test_the_page_is_accessible_and_fits(
-    browser: Browser, tmp_path: Path, colours: Literal["light", "dark"]
-) -> None:
+def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colours: Colours) -> None:
     """axe-core finds no problem, empty and with results; no harmful text runs; nothing overflows."""
     with serving(tmp_path, 8) as url:
         for state in ("empty", "class"):

@@ -12,8 +12,9 @@ from course_pkg.class_view.command import delete_student
 from course_pkg.class_view.model import ClassModel
 from course_pkg.class_view.results import Result
 from course_pkg.class_view.storage import DAY, Storage, TooMany
-from tests.class_view.classes import TEACHER, ask, changes, enter, result, send, serving, tokens_in
+from tests.class_view.classes import TEACHER, changes, enter, result, send, serving, tokens_in
 from tests.support import eventually
+from tests.web_pages.servers import ask
 
 
 def test_a_student_writes_only_own_results(tmp_path: Path) -> None:

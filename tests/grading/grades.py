@@ -58,7 +58,11 @@ def class_of(count: int, chapters: tuple[str, ...] = ("05",), seed: int = 5) -> 
         for chapter in chapters:
             checks = [check for check in GOALS if check.startswith(chapter)]
             reports = tuple(report(check, _verdict(draw, strength)) for check in checks)
-            notes = ("05.2: 2 cells answer this exercise; the last one was used.",) if number % 9 == 0 else ()
+            notes = (
+                ("05.2: 2 cells answer this exercise. Only the last of these cells was used.",)
+                if number % 9 == 0
+                else ()
+            )
             late, factor = (1.5, 0.8) if number % 11 == 0 else (0.0, 1.0)
             outcomes = [
                 CellOutcome(
@@ -95,7 +99,7 @@ def _verdict(draw: random.Random, strength: float) -> Verdict:
 def refused(
     student: str = "s31",
     chapter: str = "05",
-    problem: str = "05_write_a_server.ipynb was not graded: it is empty.",
+    problem: str = "05_write_a_server.ipynb was not graded: the file is empty.",
 ) -> Grade:
     """Return the grade of a submission that could not be graded."""
     checks = [check for check in GOALS if chapter and check.startswith(chapter)]

@@ -89,7 +89,7 @@ def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
     assert {file.path for file in jobs.given["07.4"].files} == {f"src/my_geometry/{path}" for path in files}
     readme = next(report for report in grade.reports if report.check == "07.7")
     assert readme.verdict is Verdict.NOT_ATTEMPTED
-    assert "my_geometry that was handed in has no README.md" in readme.note
+    assert "my_geometry in this submission has no README.md" in readme.note
 
 
 def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:

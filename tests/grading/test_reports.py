@@ -408,7 +408,7 @@ def test_reports_print_and_log_nothing(
 def test_a_folder_that_cannot_be_written(tmp_path: Path) -> None:
     """The error message contains the name of the report that could not be written."""
     (tmp_path / "out").write_text("")
-    with pytest.raises(GradingError, match="not lost"):
+    with pytest.raises(GradingError, match="No grade is lost"):
         write_reports(class_of(1), tmp_path / "out")
 
 

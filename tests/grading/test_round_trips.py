@@ -209,7 +209,7 @@ def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> N
     out = tmp_path / "out"
     _, found = _graded(source, read_lists(None, _write(tmp_path / "sheet.csv", ENGLISH)), out)
     assert found.unclear == {
-        "Jo New_101": "its number fits a row with another name of Moodle's worksheet (line 2)"
+        "Jo New_101": "the student's number fits a row with another name of Moodle's worksheet (line 2)"
     }
     assert (out / "moodle_worksheet.csv").read_bytes() == ENGLISH.encode()
 
@@ -289,7 +289,10 @@ def test_a_student_who_is_unclear_is_in_no_file_of_a_platform(tmp_path: Path) ->
     assert [row[0] for row in _rows(out / "canvas.csv")[2:]] == ["Jane Doe"]
     assert [row[2] for row in _rows(out / "moodle.csv")[1:]] == ["Jane Doe"]
     notes = {row["student"]: row["notes"] for row in _named(out / "grades.csv")}
-    assert notes["Sam Smith"] == "Not identified: it fits several rows of the roster (lines 2 and 3)."
+    assert (
+        notes["Sam Smith"]
+        == "This student was not identified: the student fits several rows of the roster (lines 2 and 3)."
+    )
 
 
 def test_an_id_that_is_no_number(tmp_path: Path) -> None:
@@ -364,7 +367,7 @@ def test_who_is_missing_is_in_the_table_and_on_the_page(tmp_path: Path, notebook
     assert list(rows) == ["jdoe", "s99", "Müller, Max", "Lee, Ann"]
     assert (rows["jdoe"]["name"], rows["jdoe"]["id"], rows["jdoe"]["earned"]) == ("Doe, Jane", "17", "7")
     assert (rows["s99"]["name"], rows["s99"]["earned"]) == ("", "9")
-    assert "Not on the roster." in rows["s99"]["notes"]
+    assert "This student is not on the roster." in rows["s99"]["notes"]
     missing = rows["Lee, Ann"]
     assert (missing["section"], missing["05.1"], missing["earned"], missing["possible"]) == (
         "B",
@@ -372,8 +375,8 @@ def test_who_is_missing_is_in_the_table_and_on_the_page(tmp_path: Path, notebook
         "0",
         "9",
     )
-    assert missing["notes"] == "On the roster, but handed in nothing."
+    assert missing["notes"] == "This student is on the roster, but handed in nothing."
     page = (out / "class.html").read_text()
     assert "1 of 3 students of the roster handed in their work." in page
     assert re.search(r"Lee, Ann</th>.*ann@uni\.example.*handed in nothing", page)
-    assert re.search(r"feedback/s99\.html.*Not on the roster\.", page)
+    assert re.search(r"feedback/s99\.html.*is not on the roster\.", page)

@@ -122,8 +122,8 @@ def test_the_command_line(homes: Path, tmp_path: Path) -> None:
     refused = course(*words, "/nowhere")
     assert (refused.returncode, refused.stderr) == (
         1,
-        "course: /nowhere cannot be listed (No such file or directory). Give the folder of the home folders "
-        "with --homes.\n",
+        "course: /nowhere cannot be listed (No such file or directory). With --homes, give the folder that "
+        "contains the home folders.\n",
     )
 
 
@@ -249,7 +249,7 @@ def test_a_time_that_was_set_back_is_listed(
     os.utime(home / "ros-course" / "notebooks" / NOTEBOOK)
     run(homes, tmp_path / "out")
     printed = capsys.readouterr().out
-    assert f"anna/{NOTEBOOK}: the time is 2023-11-1" in printed
+    assert f"anna/{NOTEBOOK}: the time of the file is 2023-11-1" in printed
     assert f"ben/{NOTEBOOK}" not in printed
 
 
@@ -266,13 +266,13 @@ def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.
     """If no student has any work, the command returns 1 and asks for the folder's name."""
     add_home(homes, "anna", {}, "other")
     assert run(homes, tmp_path / "out") == 1
-    assert "Is ros-course the course's folder in each of them?" in capsys.readouterr().out
+    assert "Check that ros-course is the course's folder in each home folder." in capsys.readouterr().out
 
 
 def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path) -> None:
     """Nothing is written to a folder that contains other files."""
     (tmp_path / "thesis.txt").write_text("")
-    with pytest.raises(HandoutError, match=r"did not make it .*Give a new or an empty folder"):
+    with pytest.raises(HandoutError, match=r"did not create it.*Give a new or an empty folder"):
         run(homes, tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
 
@@ -280,7 +280,7 @@ def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path
 @pytest.mark.parametrize("folder", ["/home/anna/ros-course", "../ben", "."])
 def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Path) -> None:
     """An absolute path, or a path that leads out of the home folder, is refused."""
-    with pytest.raises(HandoutError, match="Give its path below the home folder"):
+    with pytest.raises(HandoutError, match="Give the folder's path below the home folder"):
         collect(Options(folder, tmp_path / "out", homes))
 
 
@@ -303,7 +303,7 @@ def test_a_list_of_students(
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("name,id\nA,1\n", "line 1: no column is named username"),
+        ("name,id\nA,1\n", "line 1: there is no column username"),
         ("anna\n../ben\n", "line 2: this is not the name of a user"),
         ("\n", "contains no student"),
         ("\udcff", "cannot be read"),

@@ -27,9 +27,16 @@ def arguments(folder: Path, students: Sequence[str]) -> list[str]:
 
 
 @contextmanager
-def hub(folder: Path, students: Sequence[str]) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Run a hub during the block; yield its process, and its address when it answers."""
-    with running(*arguments(folder, students)) as process:
+def hub(
+    folder: Path, students: Sequence[str], *options: str, before: Sequence[str] = ()
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """Run a hub during the block; yield its process, and its address when it answers.
+
+    `before` is the start of the command line. Another test may start a hub at the same time, so the port is
+    not one of the usual ports.
+    """
+    port = [] if "--port" in options else ["--port", "0"]
+    with running(*arguments(folder, students), *port, *options, before=before) as process:
         address = address_of(process)
         eventually(lambda: answers(address), 60, 0.1)
         yield process, address

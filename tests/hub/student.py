@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 import uuid
+from pathlib import Path
 from typing import Any
 
 import requests
@@ -18,10 +19,11 @@ TIMEOUT = 300.0  # s
 class Student:
     """One browser: it logs in, starts the server and a kernel, and runs cells."""
 
-    def __init__(self, hub: str, name: str) -> None:
+    def __init__(self, hub: str, name: str, certificate: Path | None = None) -> None:
         self.hub, self.name = hub, name
         self.session = requests.Session()
-        self.session.verify = False  # the test's certificate is self-signed
+        self.session.trust_env = False  # a variable such as REQUESTS_CA_BUNDLE overrides `verify`
+        self.session.verify = str(certificate) if certificate else True
         self._socket: websocket.WebSocket | None = None
 
     def __enter__(self) -> Student:
@@ -45,6 +47,12 @@ class Student:
         answer = self.session.get(f"{self.hub}/hub/spawn/{self.name}", timeout=TIMEOUT)
         assert answer.ok, answer.text
         eventually(self._server_answers, TIMEOUT, 0.3)
+
+    def refused_server(self) -> str:
+        """Start the server, and return the page of the hub that shows why it did not start."""
+        self.session.get(f"{self.hub}/hub/spawn/{self.name}", timeout=TIMEOUT)
+        page = f"{self.hub}/hub/spawn-pending/{self.name}"
+        return self.session.get(page, timeout=TIMEOUT).text
 
     def open_notebook(self, path: str) -> dict[str, Any]:
         """Start a kernel for a notebook, connect to it, and return the notebook's content."""

@@ -32,15 +32,22 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("hub")
 
 
+def temporary_folders() -> set[Path]:
+    """Return the folders for temporary files of hubs."""
+    return set(Path("/tmp").glob("course-hub-*"))  # noqa: S108 -- the hub creates them there
+
+
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
     """Run a hub for the tests of this module, and end it with SIGKILL; nothing remains."""
+    before = temporary_folders()
     with hub(folder, ["anna", "ben"]) as (process, address):
         yield address
         family = below(process)
         process.kill()
         assert family
         assert all_gone(family)
+        assert temporary_folders() <= before
 
 
 def test_a_student_logs_in_once_and_passes_a_check(address: str, folder: Path) -> None:
@@ -76,7 +83,7 @@ def test_a_second_hub_is_refused(address: str, folder: Path) -> None:
     [
         (["Zoë"], [], "'Zoë'"),
         (["anna.berg"], [], "These are not names of accounts"),
-        (["anna"], ["--cert", "missing.pem"], "Give both --cert and --key"),
+        (["anna"], ["--cert", "missing.pem"], "The options --cert and --key belong together"),
         (["anna"], ["--ip", "somewhere"], "is not an IP address"),
     ],
 )

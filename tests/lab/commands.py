@@ -7,7 +7,7 @@ import re
 import signal
 import socket
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from course_pkg.ros.process.supervisor import descendants
 from tests.support import eventually
 
 ROOT = Path(__file__).parents[2]
-ADDRESS = re.compile(r"http://\S+")
+ADDRESS = re.compile(r"https?://\S+")
 
 
 def user_environment() -> dict[str, str]:
@@ -24,10 +24,10 @@ def user_environment() -> dict[str, str]:
 
 
 @contextmanager
-def running(*arguments: str, **variables: str) -> Iterator[subprocess.Popen[str]]:
-    """Run `course lab` or `course run` during the `with` block."""
+def running(*arguments: str, before: Sequence[str] = (), **variables: str) -> Iterator[subprocess.Popen[str]]:
+    """Run `course lab` or `course run` during the `with` block; `before` is the start of the command line."""
     with subprocess.Popen(
-        [ROOT / "course", *arguments],
+        [*before, ROOT / "course", *arguments],
         env={**user_environment(), **variables},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -10,7 +10,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.ports import free_port
 from course_pkg.ros import MasterClient
 from course_pkg.setup import Places
 from tests.lab.commands import ROOT, all_gone, below, can_connect, having

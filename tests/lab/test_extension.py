@@ -20,7 +20,7 @@ from tornado.websocket import websocket_connect
 
 from course_pkg.lab import extension
 from course_pkg.lab.extension import HIDDEN, CachedCheckpoints, CourseContents, kernel_language
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.ports import free_port
 from tests.lab.commands import ROOT
 
 

@@ -15,7 +15,7 @@ from urllib.request import Request, urlopen
 
 import pytest
 
-from course_pkg.lab.jupyterlab import free_port
+from course_pkg.ports import free_port
 from course_pkg.ros.process.supervised import listening_ports
 from course_pkg.types.fields import Plain
 from tests.lab.commands import ROOT, address_of, all_gone, below, can_connect, having, lab, listening, running

@@ -7,8 +7,9 @@ import json
 import pytest
 
 from course_pkg.errors import NotATopic
-from course_pkg.panels.topic.model import BURST, Settings, TopicModel
+from course_pkg.panels.topic.model import BURST, TopicModel
 from course_pkg.panels.topic.reports import mismatches, published
+from course_pkg.panels.topic.settings import Settings
 from course_pkg.ros.topic.reports import Connections, MessageReport, PublisherReport
 from course_pkg.types import MessageType, Plain, compile_message, message_type
 

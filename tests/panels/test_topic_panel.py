@@ -115,9 +115,11 @@ def test_quick_shows_and_hides_leave_at_most_one_node(panel: TopicPanel, master:
 def test_another_type_is_reported(panel: TopicPanel, kernel: Kernel) -> None:
     """The panel shows a publisher with another type."""
     kernel.run("""
+        import rospy
+        from std_msgs.msg import String
         from course_pkg.ros import join
         node = join("talker")
-        publisher = node.advertise("/speed", "std_msgs/String")
+        publisher = rospy.Publisher("/speed", String, queue_size=10)
     """)
     warnings = eventually(lambda: panel.connections["warnings"])
     assert warnings[0].startswith("/talker publishes std_msgs/String (MD5 992ce8a1…)")
@@ -126,9 +128,11 @@ def test_another_type_is_reported(panel: TopicPanel, kernel: Kernel) -> None:
 def test_the_type_of_a_topic_is_found(kernel: Kernel) -> None:
     """A panel without a type uses the type of the publisher."""
     kernel.run("""
+        import rospy
+        from sensor_msgs.msg import JointState
         from course_pkg.ros import join
         node = join("talker")
-        publisher = node.advertise("/joints", "sensor_msgs/JointState")
+        publisher = rospy.Publisher("/joints", JointState, queue_size=10)
     """)
     panel = TopicPanel("joints")
     assert panel.about["message"]["name"] == "sensor_msgs/JointState"

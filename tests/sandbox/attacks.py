@@ -6,7 +6,7 @@ The attacks in BUILD are lines that are added to a package's CMakeLists.txt.
 
 FORGED = {
     "a check client that reports a pass": """
-        import course_pkg.checking.client as client
+        import course_pkg.checking.processes.client as client
         from course_pkg.checking.report import Report, Verdict
         client.check = lambda *_: Report("05.1", Verdict.PASSED, "", 2, 2)
     """,

@@ -14,8 +14,8 @@ import psutil
 
 from course_pkg.checking.fixtures import around
 from course_pkg.checking.parts import find
-from course_pkg.sandbox import users
 from course_pkg.sandbox.job import PartJob, PartResult
+from course_pkg.sandbox.linux import users
 from course_pkg.sandbox.worker_client import SandboxWorker
 
 BEFORE, AFTER = around("05.1")

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import socket
+import subprocess
+import sys
 import textwrap
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,8 +14,9 @@ import pytest
 
 import course_pkg
 from course_pkg.checking.parts import find
-from course_pkg.sandbox import bubblewrap
 from course_pkg.sandbox.job import PartJob
+from course_pkg.sandbox.linux import bubblewrap
+from course_pkg.sandbox.supervisor import too_much_memory_below
 from course_pkg.sandbox.worker_client import SandboxWorker
 from tests.checking.example_answers import every_answer
 
@@ -57,6 +60,18 @@ CALLS = {  # A refused call returns -1, and any other call returns 0 or a positi
     "reboot": "libc.reboot(0x89ABCDEF)",
     "the clock": "libc.settimeofday(b'\\0' * 16, None)",
 }
+# Ten child processes run until stdin is closed; `before` runs before the fork, and `after` in each child.
+FORKED = """
+import os, sys
+{before}
+for _ in range(10):
+    if not os.fork():
+        {after}
+        os.write(1, b".")
+        os.read(0, 1)
+        os._exit(0)
+os.read(0, 1)
+"""
 
 
 @pytest.fixture(scope="module")
@@ -171,6 +186,47 @@ def test_only_a_private_network_exists(worker: SandboxWorker) -> None:
             """,
         )
     assert words == "RuntimeError: [] ['lo']"
+
+
+ONE_CALL = """
+from course_pkg.checking import CheckContext, part
+
+@part("05.1.1", points=1, goal="Answer one call.", deadline=100.0)
+def one_call(context: CheckContext) -> None:
+    context.service("/getGeometry", "course_pkg/geometry", timeout=90.0)(length=1.0, width=1.0, height=1.0)
+"""
+
+
+def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path: Path) -> None:
+    """If an answer is stopped while its check runs, the result is this reason, and not a lost master."""
+    source = """
+        import os, time
+        def handle_geometry(request):
+            for _ in range(6):
+                if os.fork() == 0:
+                    kept = bytearray(b"x") * (150 << 20)
+                    time.sleep(600)
+            time.sleep(600)
+        geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
+        """
+    (tmp_path / "private_05.py").write_text(ONE_CALL)
+    tmp_path.chmod(0o755)
+    [before] = {answer.before for answer in every_answer() if answer.check == "05.1"}
+    with SandboxWorker(private=str(tmp_path)) as worker:
+        result = worker.run(PartJob("05.1.1", before, (textwrap.dedent(source),), "", 1, 100.0))
+    assert (result.record, result.ending) == (None, "the answer used more memory than allowed")
+
+
+def test_the_memory_that_forked_processes_share_counts_once() -> None:
+    """Ten processes that share 40 MiB use 40 MiB; ten processes with 40 MiB each use 400 MiB."""
+    shared = "kept = bytearray(b'x') * (40 << 20)"
+    for before, after, more in ((shared, "pass", False), ("pass", shared, True)):
+        command = [sys.executable, "-c", FORKED.format(before=before, after=after)]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+            assert process.stdout
+            assert process.stdout.read(10) == "." * 10
+            assert too_much_memory_below(process.pid, 250 << 20) is more
+            process.communicate("")
 
 
 @pytest.mark.parametrize("call", CALLS)

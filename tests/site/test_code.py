@@ -8,8 +8,8 @@ import pytest
 
 from course_pkg.authoring.cells import code_cells
 from course_pkg.authoring.notebook_store import NotebookStore, read
-from course_pkg.site.code import Highlighter
-from course_pkg.site.prose import words
+from course_pkg.site.markup.code import Highlighter
+from course_pkg.site.markup.prose import words
 
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)

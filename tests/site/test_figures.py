@@ -12,7 +12,7 @@ from course_pkg.errors import SiteError
 from course_pkg.setup import Places
 from course_pkg.site.build import Settings, write_site
 from course_pkg.site.exporter import Body, Exporter
-from course_pkg.site.figures import figure
+from course_pkg.site.markup.figures import figure
 from tests.authoring.books import book, text
 from tests.site.notebook_stores import runs, store
 
@@ -54,7 +54,7 @@ def test_a_page_contains_the_data_of_a_picture(tmp_path: Path) -> None:
         ("![x](../figures/none.svg)", "There is no figure ../figures/none.svg"),
         ("![x](https://example.org/x.png)", "There is no figure https://example.org/x.png"),
         ("![](drawing.svg)", "The figure drawing.svg has no description"),
-        ("![x](notes.txt)", "notes.txt must be a drawing"),
+        ("![x](notes.txt)", "notes.txt has the wrong format"),
         ("![x](broken.svg)", "broken.svg cannot be read"),
         ("![x](script.svg)", "script.svg has a <script>"),
         ("![x](handler.svg)", 'handler.svg has onload="f'),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from course_pkg.errors import SiteError
-from course_pkg.site.prose import Prose, page_of
+from course_pkg.site.markup.prose import Prose, page_of
 
 
 def prose(prefix: str = "") -> Prose:

@@ -167,5 +167,5 @@ def test_a_site_that_fails_half_way_removes_nothing(tmp_path: Path) -> None:
 def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
     """If --out is a file, the error message contains the option --out."""
     (tmp_path / "file").write_text("")
-    with pytest.raises(SiteError, match="Name another folder with --out"):
+    with pytest.raises(SiteError, match="Give another folder with --out"):
         write(tmp_path / "file", "a.html")

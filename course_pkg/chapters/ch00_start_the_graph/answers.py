@@ -77,6 +77,8 @@ replace("measure(length, width, height).volume", "str(measure(length, width, hei
 replace(".volume", ".area * height")
 # %% 00.2 wrong: leaves the height out | hint: The request contains 0 for
 replace("measure(length, width, height)", "measure(length=length, width=width)")
+# %% 00.2 wrong: whole metres | hint: The request contains other numbers
+replace("measure(length, width, height)", "measure(length // 1 + 1, width // 1 + 1, height // 1 + 1)")
 # %% 00.2 wrong: a tuple | hint: Your function returned more than
 based_on("the lines of the panel")
 replace("proxy = rospy … response.volume", "r = rospy.ServiceProxy(service, geometry)(length, width, height)\n    return r.area, r.volume")
@@ -119,6 +121,10 @@ replace("before, after, after - before - 1", "after - before - 1")
 replace("before, after, after - before - 1", "before, after")
 # %% 00.3 wrong: no pause | hint: The time between the two
 replace("    time.sleep(pause)\n", "")
+# %% 00.3 wrong: the pause of the chapter | hint: The time between the two numbers
+replace("sleep(pause)", "sleep(2)")
+# %% 00.3 wrong: a pause in milliseconds | hint: The pause is too long
+replace("sleep(pause)", "sleep(1000 * pause)")
 # %% 00.3 wrong: the messages | hint: Your function returned a whole
 replace("return before, after,", "return UInt32(before), UInt32(after),")
 # %% 00.3 wrong: the later number first | hint: The order of the two

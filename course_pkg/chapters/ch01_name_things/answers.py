@@ -177,7 +177,18 @@ replace("""names = dict(publishers).get(topic, [])
 replace("name for name in names if rosnode.rosnode_ping(name, max_count=1)", "(name for name in names if rosnode.rosnode_ping(name, max_count=1)), reverse=True")
 # %% 01.4 wrong: returns the nodes that do not answer | hint: Your list contains the nodes
 replace("rosnode.rosnode_ping", "not rosnode.rosnode_ping")
-# %% 01.4 wrong: the subscribers | hint: Your list is empty, but
+# %% 01.4 wrong: the name of the topic without its slash | hint: Your list is empty, but
+replace("get(topic", 'get(topic.strip("/")')
+# %% 01.4 wrong: stops at the first dead node, in the order of the names | hint: Some running nodes are missing
+replace("return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))", '''living = []
+    for name in sorted(names):
+        if not rosnode.rosnode_ping(name, max_count=1):
+            break
+        living.append(name)
+    return living''')
+# %% 01.4 wrong: the subscribers, too | hint: One of these nodes only subscribes to the topic
+replace("dict(publishers).get(topic, [])", "dict(publishers).get(topic, []) + dict(subscribers).get(topic, [])")
+# %% 01.4 wrong: the subscribers | hint: One of these nodes only subscribes to the topic
 replace("(publishers)", "(subscribers)")
 # %% 01.4 wrong: the nodes that publish on any topic | hint: Your list contains a node that publishes
 replace("dict(publishers).get(topic, [])", "{name for _, nodes in publishers for name in nodes}")

@@ -136,6 +136,9 @@ replace("header=message.header, name", "name")
 # %% 02.2 wrong: the present time as the stamp | hint: The time stamp differs from
 replace("JointState(header=message.header, name=message.name)", """JointState(name=message.name)
         image.header.stamp = rospy.Time.now()""")
+# %% 02.2 wrong: the list of an earlier, longer message | hint: Change only the sign of each number
+replace("    def show", "    image = JointState(position=[0.0] * 4)\n\n    def show")
+replace("image = JointState(header=message.header, name=message.name)\n        image.position = [-angle for angle in message.position]", "image.header, image.name = message.header, message.name\n        for number, angle in enumerate(message.position):\n            image.position[number] = -angle")
 # %% 02.2 wrong: no names | hint: The names of the joints
 replace("header, name=message.name", "header")
 # %% 02.2 wrong: a publisher in the callback | hint: The topic `target` has no … not in the callback
@@ -439,6 +442,8 @@ replace("self.last = None", "self.last = time.monotonic()")
 replace('\n        if self.last is None:\n            return "waiting"', "")
 # %% 02.5 wrong: a limit of a quarter of a second | hint: The last message arrived half a
 replace("1.0", "0.25")
+# %% 02.5 wrong: a message with a 0 does not count | hint: Messages with the number 0 have arrived
+replace("self.last = time", "if message.data:\n            self.last = time")
 # %% 02.5 wrong: the time of the first message | hint: The last message arrived less than
 replace("self.last = time.monotonic()", "if self.last is None:\n            self.last = time.monotonic()")
 # %% 02.5 wrong: never running again after it ended | hint: The last message arrived less than
@@ -521,7 +526,7 @@ replace("\n        if value != self.value:\n            self.value = value\n    
         self.publisher.publish(value)""")
 # %% 02.3 wrong: leaves out small changes | hint: A changed value was not published
 based_on("compares by truth")
-replace("self.last and self.last == value", "self.last is not None and abs(value - self.last) <= 0.1")
+replace("self.last and self.last == value", "self.last is not None and abs(value - self.last) <= 0.001")
 # %% 02.3 wrong: all objects share the last value | hint: No value arrived. Create the
 based_on("compares by truth")
 replace("        self.last = None\n", "")

@@ -67,6 +67,12 @@ replace("area * request", "area + request")
 # %% 05.1 wrong: rounds | hint: The area is rounded
 replace("\n    area = request.width * request.length\n    return geometryResponse(area=area, volume=area * request.height)", """
     return round(request.width * request.length), round(request.width * request.length * request.height)""")
+# %% 05.1 wrong: rounds the volume | hint: Your volume is rounded
+replace("volume=area * request.height", "volume=round(area * request.height)")
+# %% 05.1 wrong: an area in square centimetres | hint: This area is in square centimetres
+replace("area=area", "area=area * 10000")
+# %% 05.1 wrong: a volume in cubic centimetres | hint: Your volume is in cubic centimetres
+replace("volume=area * request.height", "volume=area * request.height * 1e6")
 # %% 05.1 wrong: area of all six sides | hint: The area is wrong. Return
 replace("""area = request.width * request.length
     return geometryResponse(area=area, volume=area * request.height)""", """l, w, h = request.length, request.width, request.height
@@ -382,8 +388,14 @@ replace('    rospy.init_node("arm")\n', "")
 replace("    rospy.spin()\n", "")
 # %% 05.5 wrong: closed at the start | hint: The program runs, but a service is missing
 replace("        self.open()\n        rospy.Service", "        rospy.Service")
-# %% 05.5 wrong: never compares | hint: A second call of /maintenance with
+# %% 05.5 wrong: does not compare before it closes | hint: A second call of /maintenance with
+based_on("global variables")
+replace('        if service is None:\n            return False, "closed"\n', "")
+# %% 05.5 wrong: never compares | hint: /move_arm, although it already served /move_arm
 replace("changed = request.data == (self.move_service is not None)", "changed = True")
+# %% 05.5 wrong: does not store the new service | hint: /move_arm, although it already served /move_arm
+based_on("global variables")
+replace('service = rospy.Service("/move_arm", Trigger, move)\n    return', 'rospy.Service("/move_arm", Trigger, move)\n    return')
 # %% 05.5 wrong: deletes its reference | hint: The service still exists. Store the
 replace("        self.move_service.shutdown(\"maintenance\")\n", "")
 # %% 05.5 wrong: unregisters at the master only | hint: The service is no longer

@@ -30,6 +30,15 @@ def measure(service, length, width, height):
     proxy = rospy.ServiceProxy(service, geometry)
     return proxy(length, width, height).area, proxy(length, width, height).volume
 
+# %% 06.1 wrong: stores the responses | hint: For the same sides, measure() returned an earlier
+responses = {}
+
+def measure(*question):
+    if question not in responses:
+        service, *sides = question
+        responses[question] = rospy.ServiceProxy(service, geometry)(*sides)
+    return responses[question].area, responses[question].volume
+
 # %% 06.1 wrong: forgets to return | hint: without a return line
 replace("return response.area, response.volume", "print(response.area, response.volume)")
 

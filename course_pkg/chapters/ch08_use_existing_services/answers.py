@@ -58,6 +58,17 @@ def services_of(kind):
             known[name] = rosservice.get_service_type(name)
     return [name for name in known if known[name] == kind]
 
+# %% 08.1 wrong: stores the types of the first call | hint: The list contains a service that has ended since
+types_of = {}
+
+def services_of(kind):
+    for name in rosservice.get_service_list():
+        try:
+            types_of[name] = types_of.get(name) or rosservice.get_service_type(name)
+        except rosservice.ROSServiceIOException:
+            continue
+    return [name for name in types_of if types_of[name] == kind]
+
 # %% 08.1 wrong: names with their nodes | hint: Your list contains more than
 replace("names = [] … return names", """listed = rosservice.get_service_list(include_nodes=True)
     return [[name, nodes] for name, nodes in listed if rosservice.get_service_type(name) == kind]""")
@@ -343,6 +354,11 @@ def call_line(service, fields):
     genpy.message.fill_message_args(request, [fields])
     return rospy.ServiceProxy(service, cls)(request)
 
+# %% 08.4 wrong: makes the call, and returns a line without a call | hint: Your function called the service. Return
+def call_line(service, fields):
+    rosservice.call_service(service, [fields])
+    return "rosservice call --help"
+
 # %% 08.4 wrong: a tool that does not exist | hint: The command is missing in
 replace("call {service}", "{service}")
 # %% 08.4 wrong: a fixed service | hint: The name of the service
@@ -404,6 +420,16 @@ based_on("calls by keywords")
 replace("get_service_class_by_name", "get_service_type")
 # %% 08.5 wrong: a fixed type | hint: Your proxy has the wrong type for this service.
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, SetBool)(**fields)")
+# %% 08.5 wrong: stores the type of each name | hint: This service had another type before
+kinds = {}
+
+def call_any(service, fields):
+    if service not in kinds:
+        kinds[service] = rosservice.get_service_class_by_name(service)
+    request = kinds[service]._request_class()
+    genpy.message.fill_message_args(request, [fields])
+    return rospy.ServiceProxy(service, kinds[service])(request)
+
 # %% 08.5 wrong: the function behind the tool | hint: rosservice.call_service raises its own exception
 replace("cls = rosservice … )(request)", "return rosservice.call_service(service, [fields])[1]")
 # %% 08.5 wrong: forgets to return | hint: without a return line

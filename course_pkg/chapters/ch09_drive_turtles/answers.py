@@ -18,13 +18,13 @@ replace("rospy.wait_for_service … return 0", """spawn.wait_for_service(timeout
         raise SystemExit(1)
     rospy.loginfo("Spawned %s", name)""")
 replace('rospy.init_node("spawn_turtle")\n    sys.exit(main())', "run()")
-# %% 09.1 wrong: no wait | hint: Without a wait, the call fails immediately
+# %% 09.1 wrong: no wait | hint: The call fails if the service has not started yet
 replace('    try:\n        rospy.wait_for_service("spawn", timeout=5)\n', '    try:\n')
-# %% 09.1 wrong: no limit | hint: The program waits too long or without a limit
+# %% 09.1 wrong: no limit | hint: The program waits too long, or without a limit
 replace(', timeout=5', '')
-# %% 09.1 wrong: a limit of one second | hint: The program gave up too early
+# %% 09.1 wrong: a limit of one second | hint: The program stopped waiting too early
 replace('timeout=5', 'timeout=2')
-# %% 09.1 wrong: catches the wait only | hint: The server refused the call. Catch this error
+# %% 09.1 wrong: catches the wait only | hint: The server refused the call, and the program did not catch this error
 replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ROSException')
 # %% 09.1 wrong: catches the call only | hint: The service did not start in time
 replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ServiceException')
@@ -32,13 +32,13 @@ replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ServiceException'
 replace('sys.exit(main())', 'main()')
 # %% 09.1 wrong: prints the requested name | hint: The simulator chooses the name
 replace('"spawned", response.name', '"spawned", "MyTurtle"')
-# %% 09.1 wrong: spins after the call | hint: The program has nothing to do after the call
+# %% 09.1 wrong: spins after the call | hint: The program does not end after the call
 replace('response.name)\n', 'response.name)\n    rospy.spin()\n')
 # %% 09.1 wrong: exit status 1 after success | hint: The turtle was spawned, so the exit status has to be 0
 replace('response.name)\n    return 0', 'response.name)\n    return 1')
 # %% 09.1 wrong: two calls | hint: The program called /spawn more than once, and each call creates a turtle
 replace('(3, 3, 0, "MyTurtle")\n', '(3, 3, 0, "MyTurtle")\n        rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "")\n')
-# %% 09.1 wrong: repeats a refused call | hint: The program repeated a call that was refused
+# %% 09.1 wrong: repeats a refused call | hint: The server refused the call, and the program called the service again
 replace("rospy.ServiceException) as error:\n", """rospy.ServiceException) as error:
         try:
             rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "MyTurtle")
@@ -52,13 +52,13 @@ replace('        response = rospy.ServiceProxy("spawn", Spawn)(3, 3, 0, "MyTurtl
 replace('response.name', '"MyTurtle"')
 # %% 09.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
 replace('"MyTurtle")', '"")')
-# %% 09.1 wrong: another name | hint: Compare the name with MyTurtle
+# %% 09.1 wrong: another name | hint: The name of the turtle is wrong
 replace('"MyTurtle")', '"myturtle")')
-# %% 09.1 wrong: the angle first | hint: Compare your numbers with the order of the fields
+# %% 09.1 wrong: the angle first | hint: The numbers in the request are wrong
 replace('(3, 3, 0, "MyTurtle")', '(0, 3, 3, "MyTurtle")')
 # %% 09.1 wrong: outside of the main block | hint: Move rospy.init_node and all lines after it
 replace('if __name__ == "__main__":\n    rospy.init_node("spawn_turtle")\n    sys.exit(main())', 'rospy.init_node("spawn_turtle")\nsys.exit(main())')
-# %% 09.1 wrong: an undefined variable | hint: Read the last line of the output above
+# %% 09.1 wrong: an undefined variable | hint: The program stopped with an error
 replace('3, 3, 0, "MyTurtle")\n', 'x, 3, 0, "MyTurtle")\n')
 # %% 09.1 wrong: starts the course's program | hint: Your program starts or imports a program of the course
 """
@@ -101,23 +101,25 @@ def main():
 replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
 # %% 09.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
 replace('\nforward = True', '\nforward = False')
+# %% 09.2 wrong: the handler publishes a velocity of 0 | hint: A message contained another velocity
+replace("    return EmptyResponse()", "    publisher.publish(Twist())\n    return EmptyResponse()")
 # %% 09.2 wrong: twice as fast | hint: To drive straight ahead, set linear.x = 1.0
 replace('linear.x = 1.0', 'linear.x = 2.0')
 # %% 09.2 wrong: no global | hint: After the call, the turtle still goes straight ahead
 replace('    global forward\n    forward = not forward', '    forward = False')
-# %% 09.2 wrong: the same message object in each loop | hint: The turtle turns, but it also still moves ahead
+# %% 09.2 wrong: the same message object in each loop | hint: The turtle turns, but it also moves ahead
 replace('    while not rospy.is_shutdown():\n        message = Twist()\n', '    message = Twist()\n    while not rospy.is_shutdown():\n')
-# %% 09.2 wrong: turns to the right | hint: While the turtle turns, linear.x has to be 0.0, and angular.z has
+# %% 09.2 wrong: turns to the right | hint: The velocity is wrong while the turtle turns
 replace('angular.z = 1.0', 'angular.z = -1.0')
 # %% 09.2 wrong: turns after each call | hint: The second call changed nothing
 replace('forward = not forward', 'forward = False')
-# %% 09.2 wrong: stops after the second call | hint: After the second call, the velocity has to be the same as
+# %% 09.2 wrong: stops after the second call | hint: After the second call, the turtle has to go straight ahead again
 replace('    forward = not forward', '    calls.append(1)\n    forward = len(calls) == 0')
 replace('\nforward = True', '\ncalls = []\nforward = True')
 replace('            message.angular.z = 1.0', '            message.angular.z = float(len(calls) == 1)')
-# %% 09.2 wrong: ten times per second | hint: rospy.Rate(2) and ros::Rate(2) mean 2 Hz
+# %% 09.2 wrong: ten times per second | hint: The program does not publish twice per second
 replace('Rate(2)', 'Rate(10)')
-# %% 09.2 wrong: a pause of two seconds | hint: rospy.Rate(2) and ros::Rate(2) mean 2 Hz
+# %% 09.2 wrong: a pause of two seconds | hint: The program does not publish twice per second
 replace('rate.sleep()', 'rospy.sleep(2)')
 # %% 09.2 wrong: publishes once | hint: The program reached its last line and ended
 replace('while not rospy.is_shutdown():', 'for _ in range(3):')
@@ -130,7 +132,7 @@ replace('        rate.sleep()\n', '        rate.sleep()\n    rospy.Service("togg
 replace('"toggle_forward"', '"toggle"')
 # %% 09.2 wrong: another topic | hint: The node does not publish on /turtle1/cmd_vel
 replace('"turtle1/cmd_vel"', '"turtle1/cmd_velocity"')
-# %% 09.2 wrong: also to the side | hint: All other fields have to be 0
+# %% 09.2 wrong: also to the side | hint: A field of the velocity is not 0, but it has to be 0
 replace('        if forward:\n', '        message.linear.y = 0.5\n        if forward:\n')
 # %% 09.2 wrong: the loop toggles, once per message | hint: The second call changed nothing
 replace('    global forward\n    forward = not forward', '    global called\n    called = True')
@@ -148,21 +150,23 @@ replace("before = frequency … before=before)", "old, frequency = frequency, re
 replace("toggle_forward", "/toggle_forward")
 replace("\n    used, rate = frequency, rospy.Rate(frequency)", "")
 replace("if used != … rate.sleep()", "rospy.sleep(1.0 / frequency)")
-# %% 09.3 wrong: the loop keeps its rate | hint: You cannot change the rate of a Rate object
+# %% 09.3 wrong: a new rate sets the first direction again | hint: A call of /change_rate also changed the direction
+replace("    global frequency\n", "    global frequency, forward\n    forward = True\n")
+# %% 09.3 wrong: the loop keeps its rate | hint: A Rate object cannot change its rate
 replace('used != frequency', 'used < 0')
-# %% 09.3 wrong: returns the new rate | hint: This is the new rate
+# %% 09.3 wrong: returns the new rate | hint: The field `before` contains the new rate
 replace('before=before', 'before=frequency')
 # %% 09.3 wrong: an empty response | hint: The field `before` has its default value, 0.0
 replace('(before=before)', '()')
-# %% 09.3 wrong: whole numbers | hint: A rate can be 2.5
+# %% 09.3 wrong: whole numbers | hint: Store the rate as a float in Python, or as a double in C++
 replace('before=before', 'before=int(before)')
-# %% 09.3 wrong: returns the pause | hint: not the pause between
+# %% 09.3 wrong: returns the pause | hint: The field `before` has a wrong value
 replace('before=before', 'before=1 / before')
-# %% 09.3 wrong: accepts everything | hint: Compare the number with the limits
+# %% 09.3 wrong: accepts everything | hint: but this value is not allowed
 replace('    if not 0 < request.rate <= 100:\n        raise rospy.ServiceException(f"{request.rate} is not above 0 and at most 100")\n', '    if request.rate == 0:\n        raise rospy.ServiceException("0")\n')
 # %% 09.3 wrong: accepts nan | hint: The node accepted nan
 replace('if not 0 < request.rate <= 100', 'if request.rate <= 0 or request.rate > 100')
-# %% 09.3 wrong: below 100 only | hint: The node refused a rate that is allowed
+# %% 09.3 wrong: below 100 only | hint: The node refused an allowed rate
 replace('<= 100', '< 100')
 # %% 09.3 wrong: stores the rate before it checks it | hint: The handler stored the rate before it refused the call
 replace('    if not 0 < request.rate <= 100:\n', '    before, frequency = frequency, request.rate\n    if not 0 < request.rate <= 100:\n')
@@ -257,34 +261,36 @@ replace('self.speed = 1.0', 'self.speed = 2.0')
 replace('1 / driver.frequency', '0.5')
 # %% 09.4 wrong: accepts the rate nan | hint: The node accepted nan
 replace("if not 0 < request.rate <= 100:", "if request.rate <= 0 or request.rate > 100:")
-# %% 09.4 wrong: a fixed speed | hint: The turtle still moves at 1.0 m/s
+# %% 09.4 wrong: a fixed speed | hint: After the call, the turtle still moves at 1.0 m/s
 replace('linear.x = self.speed', 'linear.x = 1.0')
-# %% 09.4 wrong: no negative speed | hint: A negative speed moves the turtle backwards
+# %% 09.4 wrong: no negative speed | hint: With a negative speed, the turtle has to move backwards
 replace('linear.x = self.speed', 'linear.x = abs(self.speed)')
-# %% 09.4 wrong: whole numbers | hint: point is lost. Use a float
+# %% 09.4 wrong: whole numbers | hint: Store the speed as a float in Python, or as a double in C++
 replace('linear.x = self.speed', 'linear.x = int(self.speed)')
-# %% 09.4 wrong: returns the new speed | hint: This is the new speed
+# %% 09.4 wrong: returns the new speed | hint: The field `before` contains the new speed
 replace('before, self.speed = self.speed, request.speed', 'before = self.speed = request.speed')
-# %% 09.4 wrong: forgets to return it | hint: The field `before` has to contain the speed that the last accepted
+# %% 09.4 wrong: forgets to return it | hint: The field `before` is wrong
 replace('ChangeSpeedResponse(before=before)', 'ChangeSpeedResponse()')
-# %% 09.4 wrong: refuses negative speeds | hint: The node refused a speed that is allowed
+# %% 09.4 wrong: refuses negative speeds | hint: The node refused an allowed speed
 replace('if not math.isfinite(request.speed)', 'if not 0 <= request.speed < 1000')
-# %% 09.4 wrong: refuses the speed 0 | hint: The node refused a speed that is allowed
+# %% 09.4 wrong: refuses the speed 0 | hint: The node refused an allowed speed
 replace("if not math.isfinite(request.speed)", "if not request.speed or not math.isfinite(request.speed)")
 # %% 09.4 wrong: accepts inf | hint: The node accepted inf
 replace('not math.isfinite(request.speed)', 'request.speed != request.speed or request.speed == -math.inf')
-# %% 09.4 wrong: never stops | hint: After a call with data=False, publish messages
+# %% 09.4 wrong: never stops | hint: The turtle still moves after a call with data=False
 replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
 replace('if request.data == self.moving:', 'if request.data != getattr(self, "stopped", False):')
-# %% 09.4 wrong: a new direction | hint: After data=True, the turtle has to move in its old direction and at the last speed
+# %% 09.4 wrong: a new direction | hint: After data=True, the turtle has to move in the same direction and at the
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
-# %% 09.4 wrong: a speed that is set while it is stopped is lost | hint: came while the turtle was stopped
+# %% 09.4 wrong: a speed that is set while it is stopped is lost | hint: The client called /change_speed while the turtle was stopped
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')
-# %% 09.4 wrong: at most 10 m/s | hint: Publish the number that /change_speed has set
+# %% 09.4 wrong: a toggle starts a turtle that is stopped | hint: A call of /toggle_forward started the turtle again
+replace('self.forward = not self.forward\n', 'self.forward = not self.forward\n        self.moving = True\n')
+# %% 09.4 wrong: at most 10 m/s | hint: The turtle does not move at the speed that /change_speed has set
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, min(max(request.speed, -10), 10)')
-# %% 09.4 wrong: success is the value of data | hint: Set success to True
+# %% 09.4 wrong: success is the value of data | hint: The field `success` is False
 replace('success=True, message=word', 'success=request.data, message=word')
-# %% 09.4 wrong: no message | hint: The message is empty. Write
+# %% 09.4 wrong: no message | hint: The message is empty
 replace('success=True, message=word)', 'success=True)')
 # %% 09.4 wrong: always already | hint: This call changed the state
 replace('message=word)', 'message=f"now already {word}")')
@@ -322,21 +328,25 @@ replace("try: … return 0", """rospy.init_node("spawn_turtle_plus")
     follower = Follower(response.name)
     rospy.spin()""")
 replace('rospy.init_node("spawn_turtle_plus")\n    sys.exit(main())', "main()")
-# %% 09.5 wrong: the speed first | hint: All three services are called, but in the wrong order
+# %% 09.5 wrong: the speed first | hint: The program calls the three services in the wrong order
 replace('        call("toggle_forward", Empty)\n        call("change_speed", ChangeSpeed, 2.0)\n', '        call("change_speed", ChangeSpeed, 2.0)\n        call("toggle_forward", Empty)\n')
-# %% 09.5 wrong: waits for the first only | hint: wait for each service
+# %% 09.5 wrong: waits for the first only | hint: The program ended too early, because /toggle_forward starts
 replace('    rospy.wait_for_service(name, timeout=5)\n', '    if name == "spawn":\n        rospy.wait_for_service(name, timeout=5)\n')
-# %% 09.5 wrong: another name | hint: The program waits, but calls no further service
+# %% 09.5 wrong: waits for all services first | hint: /toggle_forward starts only after the call of /spawn
+replace("    try:\n", "    try:\n        for service in (\"spawn\", \"toggle_forward\", \"change_speed\"):\n            rospy.wait_for_service(service, timeout=5)\n")
+# %% 09.5 wrong: waits 1 s at most | hint: The program ended too early, because /toggle_forward starts
+replace("timeout=5", "timeout=1")
+# %% 09.5 wrong: another name | hint: The program waits, but does not call the next service
 replace('call("toggle_forward", Empty)', 'call("toggle", Empty)')
-# %% 09.5 wrong: another place | hint: Compare the fields of your request with x = 3, y =
+# %% 09.5 wrong: another place | hint: The request is wrong
 replace('3, 3, 0, "MyTurtle"', '3, 3, 3, "MyTurtle"')
 # %% 09.5 wrong: another speed | hint: Send 2.0 in the field `speed`
 replace('ChangeSpeed, 2.0', 'ChangeSpeed, 10.0')
 # %% 09.5 wrong: no spin | hint: The node ended after the calls
 replace('    rospy.spin()\n', '')
-# %% 09.5 wrong: the name is fixed | hint: Publish only on /NAME/cmd_vel, where NAME is the name in the response of
+# %% 09.5 wrong: the name is fixed | hint: Publish only on the topic /NAME/cmd_vel
 replace('f"{name}/cmd_vel"', '"MyTurtle/cmd_vel"')
-# %% 09.5 wrong: follows another turtle | hint: Subscribe to the velocities of the first turtle
+# %% 09.5 wrong: follows another turtle | hint: The program gets no velocities of the first turtle
 replace('Subscriber("turtle1/cmd_vel"', 'Subscriber("turtle2/cmd_vel"')
 # %% 09.5 wrong: a callback that does nothing | hint: The callback publishes nothing
 replace('Twist, publisher.publish)', 'Twist, lambda message: None)')
@@ -344,14 +354,14 @@ replace('Twist, publisher.publish)', 'Twist, lambda message: None)')
 replace('Twist, publisher.publish)', 'Twist, lambda message: [publisher.publish(message) for _ in range(2)])')
 # %% 09.5 wrong: leaves out velocities of 0 | hint: Some velocities are missing
 replace("Twist, publisher.publish)", "Twist, lambda message: publisher.publish(message) if message.linear.x else None)")
-# %% 09.5 wrong: a pause in the callback | hint: without a pause
+# %% 09.5 wrong: a pause in the callback | hint: Some velocities are missing
 replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(message), rospy.sleep(0.3)), queue_size=1)')
-# %% 09.5 wrong: two fields only | hint: Some fields differ
+# %% 09.5 wrong: two fields only | hint: Some fields of the published message differ from the received message
 replace('    publisher = rospy', '    def copy(message):\n        new = Twist()\n        new.linear.x, new.angular.z = message.linear.x, message.angular.z\n        publisher.publish(new)\n\n    publisher = rospy')
 replace('Twist, publisher.publish)', 'Twist, copy)')
-# %% 09.5 wrong: continues after a failure | hint: The program continued to call services after a failure
+# %% 09.5 wrong: continues after a failure | hint: After a failed call, the program still called the next service
 replace('        call("toggle_forward", Empty)\n', '        try:\n            call("toggle_forward", Empty)\n        except (rospy.ROSException, rospy.ServiceException) as error:\n            print(error)\n')
-# %% 09.5 wrong: no limit | hint: The program waits without a limit, or continues although a service is missing
+# %% 09.5 wrong: no limit | hint: A service is missing, but the program did not end
 replace('(name, timeout=5)', '(name)')
 # %% 09.5 wrong: no exit status | hint: If a wait times out or a call is refused, print a
 replace('        return 1\n', '        return 0\n')
@@ -373,31 +383,31 @@ solution()
 </launch>
 """
 
-# %% 09.6 wrong: the course's driver | hint: the package and the file name of the program
+# %% 09.6 wrong: the course's driver | hint: roslaunch does not find a program
 replace('pkg="my_turtles" type="improved_pubvel_toggle.py"', 'pkg="course_pkg" type="improved_pubvel_toggle"')
-# %% 09.6 wrong: the programs are exchanged | hint: the package and the file name of the program
+# %% 09.6 wrong: the programs are exchanged | hint: roslaunch does not find a program
 replace('type="improved_pubvel_toggle.py"', 'type="OTHER"')
 replace('type="spawn_turtle_plus.py"', 'type="improved_pubvel_toggle.py"')
 replace('type="OTHER"', 'type="spawn_turtle_plus.py"')
 # %% 09.6 wrong: a tag that is not closed | hint: The file is not valid XML
 replace('</launch>', '<launch>')
-# %% 09.6 wrong: no default | hint: The argument has no default value
+# %% 09.6 wrong: no default | hint: The argument addturtle has no default value
 replace(' default="false"', '')
 # %% 09.6 wrong: no in place of false | hint: The value of the attribute "if" has to be true or false
 replace('default="false"', 'default="no"')
-# %% 09.6 wrong: an argument that is not declared | hint: The message above comes from roslaunch --nodes
+# %% 09.6 wrong: an argument that is not declared | hint: roslaunch cannot read the file
 replace('$(arg addturtle)', '$(arg add)')
-# %% 09.6 wrong: another name for the driver | hint: A node is missing or has another name
+# %% 09.6 wrong: another name for the driver | hint: A node is missing or has a wrong name
 replace('name="improved_pubvel_toggle"', 'name="driver"')
 # %% 09.6 wrong: a condition that is never true | hint: With addturtle:=true, a node is missing
 replace('if="$(arg addturtle)"', 'if="false"')
-# %% 09.6 wrong: true by default | hint: Without an argument, the node must not start
+# %% 09.6 wrong: true by default | hint: spawn_turtle_plus must not start without an argument
 replace('default="false"', 'default="true"')
-# %% 09.6 wrong: no condition | hint: The node is also started with addturtle:=false
+# %% 09.6 wrong: no condition | hint: spawn_turtle_plus also starts with addturtle:=false
 replace('if="$(arg addturtle)" ', '')
-# %% 09.6 wrong: a program name without .py | hint: Write the two words that follow `rosrun` in a terminal into the
+# %% 09.6 wrong: a program name without .py | hint: roslaunch does not find a program
 replace('type="improved_pubvel_toggle.py"', 'type="improved_pubvel_toggle"')
-# %% 09.6 wrong: turtlesim as the program | hint: Write the two words that follow `rosrun` in a terminal into the
+# %% 09.6 wrong: turtlesim as the program | hint: roslaunch does not find a program
 replace('type="turtlesim_node"', 'type="turtlesim"')
-# %% 09.6 wrong: in a namespace | hint: The three programs start, but they use different names for the topics and services
+# %% 09.6 wrong: in a namespace | hint: The three programs start, but they use different names for the same topics or
 replace('name="turtlesim" />', 'name="turtlesim">\n    <remap from="/turtle1/cmd_vel" to="/other/cmd_vel" />\n  </node>')

@@ -60,11 +60,11 @@ replace("    def call():\n        proxy = rospy.ServiceProxy(name, Trigger)\n", 
 replace("def call_at_once", "call_of_proxy = rospy.ServiceProxy.call\n\n\ndef call_at_once")
 replace("rospy.ServiceProxy(name, Trigger)", "rospy.ServiceProxy(name, Trigger, persistent=True)")
 replace("proxy().message", "call_of_proxy(proxy).message")
-# %% 10.1 wrong: whole responses | hint: These are whole responses
+# %% 10.1 wrong: whole responses | hint: The list contains whole responses
 replace("proxy().message", "proxy()")
-# %% 10.1 wrong: one thread too few | hint: There were too few calls
+# %% 10.1 wrong: one thread too few | hint: The service was called too few times
 replace("range(count)", "range(count - 1)")
-# %% 10.1 wrong: calls in its own thread, too | hint: There were too many calls
+# %% 10.1 wrong: calls in its own thread, too | hint: The service was called too many times
 replace("    for thread in threads:\n        thread.join()", "    for thread in threads:\n        thread.join()\n    call()")
 # %% 10.1 wrong: starts no thread | hint: Call start() of each thread first
 replace("\n    for thread in threads:\n        thread.start()", "")
@@ -77,7 +77,13 @@ replace("target=call)", "target=call, args=name)")
 # %% 10.1 wrong: the return value of a thread | hint: The list contains None
 replace("messages.append(proxy().message)", "proxy()")
 replace("return messages", "return [thread.join() for thread in threads]")
-# %% 10.1 wrong: a set of one message | hint: Return a list that contains the message of each response once
+# %% 10.1 wrong: a set of all messages | hint: Two clients got the same message
+replace("messages = []", "messages = set()")
+replace("messages.append", "messages.add")
+replace("return messages", "return list(messages)")
+# %% 10.1 wrong: a limit for each join | hint: Join every thread before you return
+replace("thread.join()", "thread.join(0.2)")
+# %% 10.1 wrong: a set of one message | hint: The list does not contain the right messages
 replace("return messages", "return {message: True for message in messages}")
 # %% 10.1 wrong: no return line | hint: without a return line
 replace("\n    return messages", "")
@@ -129,16 +135,19 @@ def handle_detect(watch, request):
 # %% 10.2 wrong: waits without a limit | hint: The handler waits longer than request.patience
 replace("(request.after), timeout=request.patience", "(request.after)")
 replace("\n    if customer is None:\n        return False, 0, rospy.Time()", "")
-# %% 10.2 wrong: a new time limit after each change | hint: When the customers changed, the time limit started again from the beginning
+# %% 10.2 wrong: a new time limit after each change | hint: The time limit started again from the beginning when the customers changed
 replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None:
             if not watch.changed.wait(request.patience):
                 break""")
+# %% 10.2 wrong: remembers a customer who has left | hint: No customer is there. Set the field `detected` to False
+replace("def handle_detect", "seen = {}\n\n\ndef handle_detect")
+replace("        customer = watch.next(request.after)\n", "        customer = seen.get(request.after) or watch.next(request.after)\n    if customer:\n        seen[request.after] = customer\n")
 # %% 10.2 wrong: looks twice a second | hint: so it notices a customer late
 based_on("looks ten times a second")
 replace("0.1", "0.5")
-# %% 10.2 wrong: looks again without the lock | hint: The handler called watch.next() a second time without the lock, when the
+# %% 10.2 wrong: looks again without the lock | hint: The handler called watch.next() twice, but the customer left before the second call
 replace("\n        customer = watch.next(request.after)\n", "\n    customer = watch.next(request.after)\n")
-# %% 10.2 wrong: takes the fields without the lock | hint: The handler called watch.next() a second time without the lock, when the
+# %% 10.2 wrong: takes the fields without the lock | hint: The handler called watch.next() twice, but the customer left before the second call
 replace("watch.changed.wait_for … customer.arrived", """there = watch.changed.wait_for(lambda: watch.next(request.after), request.patience)
     if not there:
         return False, 0, rospy.Time()
@@ -150,7 +159,7 @@ replace("with watch.changed:\n        watch.changed.wait_for(lambda: watch.next(
 replace("        customer", "    customer")
 # %% 10.2 wrong: waits for a change without looking | hint: A customer was there before the call
 replace("wait_for(lambda: watch.next(request.after), timeout=request.patience)", "wait(request.patience)")
-# %% 10.2 wrong: returns at any change | hint: The handler returned before the time was over, but a customer came
+# %% 10.2 wrong: returns at any change | hint: The handler returned before the time was over
 replace("\n        watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """
         if watch.next(request.after) is None:
             watch.changed.wait(request.patience)""")
@@ -160,24 +169,24 @@ replace("\n    with watch … customer = watch.next(request.after)", """
     while time.monotonic() < end and watch.next(request.after) is None:
         pass
     customer = watch.next(request.after)""")
-# %% 10.2 wrong: sleeps while it holds the condition | hint: A customer came, but the handler did not notice it, because it
+# %% 10.2 wrong: sleeps while it holds the condition | hint: The handler did not notice a new customer, because it holds the lock of
 replace("(watch, request):", "(watch, request):\n    end = time.monotonic() + request.patience")
 replace("watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)", """while watch.next(request.after) is None and time.monotonic() < end:
             time.sleep(0.05)""")
-# %% 10.2 wrong: ignores the field after | hint: The client already knows this customer
+# %% 10.2 wrong: ignores the field after | hint: The handler returned a customer who is already known to the client
 replace("watch.next(request.after)", "watch.next()", times=2)
 # %% 10.2 wrong: a fixed timeout | hint: The handler waits longer than request.patience
 replace("timeout=request.patience", "timeout=5")
 # %% 10.2 wrong: takes the field patience as milliseconds | hint: The handler returned too early
 replace("timeout=request.patience", "timeout=request.patience / 1000")
-# %% 10.2 wrong: passes a value to wait_for instead of a function | hint: The argument of wait_for has to be a function, not a value,
+# %% 10.2 wrong: passes a value to wait_for instead of a function | hint: The argument of `wait_for` has to be a function, because `wait_for` calls this function
 replace("watch.changed.wait_for(lambda: ", "customer = watch.changed.wait_for(")
 replace("\n        customer = watch.next(request.after)", "")
 # %% 10.2 wrong: fails if there is no customer | hint: watch.next() returns None if no customer is there, and None has no
 replace("\n        watch.changed … customer.arrived", """
         customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
     return customer is not None, customer.number, customer.arrived""")
-# %% 10.2 wrong: returns None if there is no customer | hint: The handler ended without a return line
+# %% 10.2 wrong: returns None if there is no customer | hint: The handler can end without a `return` line
 based_on("fails if there is no customer")
 replace("return customer is not None", "if customer:\n        return True")
 # %% 10.2 wrong: waits without holding the condition | hint: The methods `wait` and `wait_for` need the lock
@@ -185,7 +194,7 @@ replace("with watch … customer = watch.next(request.after)", "customer = watch
 # %% 10.2 wrong: no number | hint: The field `number` has its default value, 0
 replace("watch.changed.wait_for … customer.arrived", """customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
     return DetectCustomerResponse(detected=customer is not None)""")
-# %% 10.2 wrong: no time | hint: The time is missing
+# %% 10.2 wrong: no time | hint: The response does not contain the time
 based_on("fails if there is no customer")
 replace("number, customer.arrived", "number if customer else 0, rospy.Time()")
 # %% 10.2 wrong: one caller at a time | hint: One client had to wait for another client
@@ -193,21 +202,21 @@ replace("def", "door = threading.Lock()\ndef")
 replace("with watch.changed:", "with door, watch.changed:")
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
-# %% 10.2 wrong: the time of the answer | hint: Two calls for the same customer got different times
+# %% 10.2 wrong: the time of the answer | hint: Two calls for the same customer returned different times
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("customer.arrived", "rospy.Time.now()")
-# %% 10.2 wrong: a time although there is no customer | hint: No customer came, so the field `arrived` has to be the time 0, which is rospy.Time().
+# %% 10.2 wrong: a time although there is no customer | hint: The field `arrived` is wrong
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("rospy.Time()", "rospy.Time.now()")
 # %% 10.2 wrong: waits twice as long as the field patience | hint: The handler waits longer than request.patience
 replace("timeout=request.patience", "timeout=2 * request.patience")
-# %% 10.2 wrong: a number although there is no customer | hint: No customer is there, so the field `detected` has to be False
+# %% 10.2 wrong: a number although there is no customer | hint: No customer is there
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("0", "request.after")
-# %% 10.2 wrong: an error if there is no customer | hint: If no customer came, do not raise an error
+# %% 10.2 wrong: an error if there is no customer | hint: The handler raised an error although it is normal that no customer comes
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("return False, 0, rospy.Time()", 'raise rospy.ServiceException("nobody came")')
@@ -218,10 +227,10 @@ replace("if time.monotonic … sleep(0.1)", "time.sleep(0.1)\n    return False, 
 # %% 10.2 wrong: looks, sleeps, and looks again | hint: the handler continued to wait
 based_on("looks without waiting")
 replace("None:", "None:\n        time.sleep(request.patience)\n        customer = watch.next(request.after)\n    if customer is None:")
-# %% 10.2 wrong: leaves detected out | hint: The number is right, but detected is False
+# %% 10.2 wrong: leaves detected out | hint: The number is right, but `detected` is False
 based_on("what wait_for returns")
 replace("detected=True, number", "number")
-# %% 10.2 wrong: the number of customers | hint: This is not the number of the customer
+# %% 10.2 wrong: the number of customers | hint: The response contains a wrong number
 replace("customer.number", "watch.count")
 
 # %% 10.3 right: wait_for
@@ -284,9 +293,16 @@ replace("with self.changed … self.items))", """with self.there:
 
     def is_filled(self):
         return self.items > 0""")
-# %% 10.3 wrong: no notify | hint: Call notify_all() or notify() in handle_put
+# %% 10.3 wrong: no notify | hint: An item came, but the waiting call did not return
 replace("\n            self.changed.notify_all()", "")
-# %% 10.3 wrong: no loop | hint: More items were taken than were put in
+# %% 10.3 wrong: a list in the class | hint: Two baskets share their items
+replace("    def __init__", "    items = []\n\n    def __init__")
+replace("        self.items = 0\n", "")
+replace("self.items += 1", "self.items.append(1)")
+replace("str(self.items)", "str(len(self.items))", times=2)
+replace("self.items > 0", "self.items")
+replace("self.items -= 1", "self.items.pop()")
+# %% 10.3 wrong: no loop | hint: The handler of /take returned an item although the basket was empty
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "if self.items == 0 and not self.changed.wait(self.limit)")
 # %% 10.3 wrong: no limit | hint: The handler of /take waits longer than the limit
 replace(", timeout=self.limit", "")
@@ -303,7 +319,7 @@ based_on("a loop with a deadline, and notify")
 replace("notify", "notify_all")
 replace("\n        end = time.monotonic() + self.limit", "")
 replace("left = end … wait(left)", 'if not self.changed.wait(self.limit):\n                    return False, "empty"')
-# %% 10.3 wrong: sleeps while it holds the lock | hint: A call of /put got no response while a call of /take
+# %% 10.3 wrong: sleeps while it holds the lock | hint: /put did not respond while a call of /take was waiting
 based_on("a loop with a deadline, and notify")
 replace("self.changed.wait(left)", "time.sleep(0.05)")
 # %% 10.3 wrong: waits without the lock | hint: The methods `wait` and `notify` need the lock of the condition
@@ -313,11 +329,11 @@ replace("with self.changed:\n            while", "if True:\n            while")
 replace("message=str(self.items)", "message=self.items", times=2)
 # %% 10.3 wrong: empty as an error | hint: An empty basket is not an error
 replace('return TriggerResponse(success=False, message="empty")', 'raise rospy.ServiceException("empty")')
-# %% 10.3 wrong: no response after the limit | hint: A handler ended without a return line
+# %% 10.3 wrong: no response after the limit | hint: A handler can end without a `return` line
 replace('return TriggerResponse(success=False, message="empty")', "return None")
-# %% 10.3 wrong: another word for empty | hint: No item came, so return success=False with the message "empty"
+# %% 10.3 wrong: another word for empty | hint: No item came, but the response is wrong
 replace('"empty"', '"nothing there"')
-# %% 10.3 wrong: leaves success out | hint: The message is right, but success must be
+# %% 10.3 wrong: leaves success out | hint: The message is right, but the field `success` is wrong
 replace("success=True, ", "", times=2)
 # %% 10.3 wrong: counts before the change | hint: the number of items in the basket after the call
 based_on("a loop with a deadline, and notify")
@@ -362,22 +378,26 @@ replace("        self.lock = … count - 1)", """
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)""")
-# %% 10.4 wrong: a lock for each call | hint: Two handlers read the same number, so one of the sales was
+# %% 10.4 wrong: reads the shelf only once | hint: New things were put on the shelf
+replace("self.shelf = shelf", "self.shelf, self.count = shelf, shelf.read()")
+replace("            count = self.shelf.read()\n", "            count = self.count\n")
+replace("self.shelf.write(count - 1)", "self.count = count - 1\n            self.shelf.write(count - 1)")
+# %% 10.4 wrong: a lock for each call | hint: Two handlers read the same number, so one sale was lost
 replace("\n        self.lock = threading.Lock()", "")
 replace("self.lock", "threading.Lock()")
 replace("(count - 1)\n        ", "(count - 1)\n            ")
-# %% 10.4 wrong: locks the writing only | hint: Two handlers read the same number, so one of the sales was
+# %% 10.4 wrong: locks the writing only | hint: Two handlers read the same number, so one sale was lost
 based_on("no lock")
 replace("\n\n", "\n\n        self.lock = threading.Lock()\n\n")
 replace("self.shelf.write(count - 1)", "with self.lock:\n            self.shelf.write(count - 1)")
-# %% 10.4 wrong: keeps the lock when sold out | hint: because no thread releases the lock
+# %% 10.4 wrong: keeps the lock when sold out | hint: A client waits forever, because a thread does not release the lock
 replace("with self. … count - 1)", """self.lock.acquire()
         count = self.shelf.read()
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)
         self.lock.release()""")
-# %% 10.4 wrong: locks again while it holds the lock | hint: A client waits forever, because no thread releases the lock
+# %% 10.4 wrong: locks again while it holds the lock | hint: A client waits forever, because a thread does not release the lock
 replace("Lock()\n", "Lock()\n\n    def left(self):\n        with self.lock:\n            return self.shelf.read()\n")
 replace("= self.shelf.read()", "= self.left()")
 # %% 10.4 wrong: refuses a caller while the lock is taken | hint: Some things were left, but a client got none of them
@@ -386,11 +406,11 @@ replace("with self.lock:", """if not self.lock.acquire(blocking=False):
         try:""")
 replace("(count - 1)\n        ", "(count - 1)\n            ")
 replace("1))", "1))\n        finally:\n            self.lock.release()")
-# %% 10.4 wrong: does not check that something is left | hint: The shelf was empty, but success is True
+# %% 10.4 wrong: does not check that something is left | hint: The shelf was empty, but `success` is True
 replace("count = self … count - 1))", """count = self.shelf.read() - 1
             self.shelf.write(count)
         return TriggerResponse(success=True, message=str(count))""")
-# %% 10.4 wrong: returns the number before the sale | hint: This is the number before the sale
+# %% 10.4 wrong: returns the number before the sale | hint: The message is the number before the sale
 replace("str(count - 1)", "str(count)")
 # %% 10.4 wrong: does not write to the shelf | hint: The number on the shelf is wrong
 replace("shelf = shelf", "count = shelf.read()")
@@ -401,21 +421,21 @@ replace("return TriggerResponse(success=True, message=str(count - 1))", "    ret
 replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
 # %% 10.4 wrong: a number for a message | hint: The field `message` has to be a string
 replace("str(count - 1)", "count - 1")
-# %% 10.4 wrong: reads under the lock, writes outside | hint: Two handlers read the same number, so one of the sales was
+# %% 10.4 wrong: reads under the lock, writes outside | hint: Two handlers read the same number, so one sale was lost
 replace("\n            if count = … count - 1)", """
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
         self.shelf.write(count - 1)""")
 # %% 10.4 wrong: no lock in self | hint: self.lock does not exist
 replace("\n        self.lock = threading.Lock()", "")
-# %% 10.4 wrong: changes the count of the shelf | hint: A shelf has only the methods read() and write(count)
+# %% 10.4 wrong: changes the count of the shelf | hint: Your code uses a method that a shelf does not have
 replace("self.shelf.read()", "self.shelf.count")
 replace("self.shelf.write(count - 1)", "self.shelf.count -= 1")
-# %% 10.4 wrong: leaves success out | hint: A thing was there, but success has its default value, False
+# %% 10.4 wrong: leaves success out | hint: A thing was there, but `success` has its default value, False
 replace("success=True, message=str", "message=str")
-# %% 10.4 wrong: leaves the message out | hint: The message is empty. Set it to the number
+# %% 10.4 wrong: leaves the message out | hint: Set the message to the number of things that are left, as a string
 replace(", message=str(count - 1)", "")
-# %% 10.4 wrong: another message for sold out | hint: The message has to be the number of things that are left
+# %% 10.4 wrong: another message for sold out | hint: Return the number of things that are left, such as "7", or the text
 replace('"sold out"', '"nothing left"')
 # %% 10.4 wrong: replaces the methods of the shelf | hint: The number on the shelf is wrong
 replace("        self.lock = threading.Lock()", """        self.lock = threading.Lock()
@@ -480,7 +500,7 @@ class Shop:
             return False, str(error)
         return True, str(answer.receipt)
 
-# %% 10.5 wrong: holds the lock across the call | hint: The till called /left while it was charging, but got no response
+# %% 10.5 wrong: holds the lock across the call | hint: Your handler holds the lock while it calls the till, so /left gets no
 replace('self.shelf.write(count - … : {error}")', """try:
                 receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt
             except rospy.ServiceException as error:
@@ -510,18 +530,18 @@ replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "time.sleep(0.2)\n            self.shelf.write(count)")
 # %% 10.5 wrong: waits for the till | hint: The till has no server, but the handler waits for this service without a limit
 replace("try:", "rospy.wait_for_service(self.till)\n        try:")
-# %% 10.5 wrong: sells without a till | hint: The till has no server, so nothing was paid
+# %% 10.5 wrong: sells without a till | hint: The till has no server, so the client did not pay
 replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=True, message="pay later")\n')
 # %% 10.5 wrong: puts nothing back without a till | hint: so the thing is not sold
 replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=False, message="no till")\n')
 # %% 10.5 wrong: one id for all | hint: Two purchases have the same request_id
 replace("threading.Lock()", "threading.Lock()\n        self.request_id = str(uuid.uuid4())")
 replace("str(uuid.uuid4()),", "self.request_id,")
-# %% 10.5 wrong: no id | hint: request_id is empty
+# %% 10.5 wrong: no id | hint: The field `request_id` is empty
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(cents=self.cents).receipt")
-# %% 10.5 wrong: another message for sold out | hint: If the shelf is empty, return success=False
+# %% 10.5 wrong: another message for sold out | hint: The shelf is empty, but the handler did not report this
 replace('"sold out"', '"nothing left"')
-# %% 10.5 wrong: a message without the reason | hint: Return the text of the error
+# %% 10.5 wrong: a message without the reason | hint: If the call of the till fails, return the text of the error, str(error),
 replace('False, message=f"not paid: {error}"', "False")
 # %% 10.5 wrong: calls the till again | hint: The call of the till failed, and your handler called the till
 replace("self.shelf = shelf … threading.Lock()\n", """self.shelf, self.cents, self.till = shelf, cents, till
@@ -541,19 +561,19 @@ replace("try: … (receipt))", """request_id = str(uuid.uuid4())
 replace("str(uuid.uuid4())", 'f"purchase {count}"')
 # %% 10.5 wrong: sold out as an error | hint: "Sold out" is a normal response of /buy, not an error
 replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
-# %% 10.5 wrong: does not release the lock | hint: A client waits forever, because a lock was acquired but not released
+# %% 10.5 wrong: does not release the lock | hint: A client waits forever, because a lock was not released
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "self.lock.acquire()\n            self.shelf.write(self.shelf.read() + 1)")
-# %% 10.5 wrong: another price | hint: The till was called with a wrong amount or more than once
+# %% 10.5 wrong: another price | hint: The till was called with a wrong amount, or more than once
 replace("self.cents).receipt", "100 * self.cents).receipt")
 # %% 10.5 wrong: does not call the till | hint: The till was not called
 replace("rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt", "uuid.uuid4()")
-# %% 10.5 wrong: a sentence in place of the number | hint: The message of /left has to be only the number of things
+# %% 10.5 wrong: a sentence in place of the number | hint: The message of /left is wrong
 replace("message=str(self.shelf.read())", 'message=f"{self.shelf.read()} are left"')
-# %% 10.5 wrong: leaves success out | hint: The till has taken the money, but success is False
+# %% 10.5 wrong: leaves success out | hint: The till has taken the money, but `success` is False
 replace("success=True, message=str(receipt)", "message=str(receipt)")
-# %% 10.5 wrong: the stock in place of the receipt | hint: The message of /buy has to be the number of the receipt,
+# %% 10.5 wrong: the stock in place of the receipt | hint: The message of /buy is wrong
 replace("str(receipt)", "str(count - 1)")
-# %% 10.5 wrong: a success although the till failed | hint: The till did not take the money, but success is True
+# %% 10.5 wrong: a success although the till failed | hint: The till did not take the money, but `success` is True
 replace('success=False, message=f"not paid', 'success=True, message=f"not paid')
 # %% 10.5 wrong: replaces the methods of the shelf | hint: The number on the shelf is different from the number that /left returns
 replace("        self.shelf = shelf", """        self.shelf = shelf
@@ -605,11 +625,11 @@ def move(source, target):
                     target.lock.release()
         time.sleep(0.03 * random.random())
 
-# %% 10.6 wrong: locks the source first | hint: another thread did the opposite
+# %% 10.6 wrong: locks the source first | hint: Two threads acquired the two locks in opposite orders, so each of them waits
 replace("    first, second = sorted((source, target), key=lambda shelf: shelf.number)\n", "")
 replace("with first.lock, second.lock", "with source.lock, target.lock")
 
-# %% 10.6 wrong: locks the target first | hint: One thread held the lock of the first shelf and waited for
+# %% 10.6 wrong: locks the target first | hint: Two threads acquired the two locks in opposite orders, so each of them waits
 def move(source, target):
     with target.lock:
         with source.lock:
@@ -619,23 +639,23 @@ def move(source, target):
             target.count += 1
             return True
 
-# %% 10.6 wrong: one lock after the other | hint: A count was changed while the function did not hold both locks
+# %% 10.6 wrong: one lock after the other | hint: The function changed a count while it did not hold both locks, so another
 replace("first, second = sorted((source, target), key=lambda shelf: shelf.number)\n    with first.lock, second.lock:", "with source.lock:")
 replace("\n        target.count += 1\n        return True", "\n    with target.lock:\n        target.count += 1\n    return True")
-# %% 10.6 wrong: one additional lock for all | hint: hold both locks while you read and write
+# %% 10.6 wrong: one additional lock for all | hint: The function changed a count while it did not hold both locks, so another
 replace("def move", "whole = threading.Lock()\n\n\ndef move")
 replace("with first.lock, second.lock", "with whole")
 # %% 10.6 wrong: does not look at the count | hint: The count of an empty shelf became negative
 replace("if source.count == 0:\n            return False\n        ", "if source.count == -1:\n            return False\n        ")
 replace("        return True", "        return source.count >= 0")
-# %% 10.6 wrong: True from an empty shelf | hint: False if the source was empty before the call
+# %% 10.6 wrong: True from an empty shelf | hint: The returned value is wrong
 replace("return False", "return True")
 # %% 10.6 wrong: no return value | hint: The function returned None. Return True
 replace("\n        return True", "")
 replace("return False", "return")
 # %% 10.6 wrong: takes the same lock twice | hint: a lock that its own thread already holds
 replace("first.lock, second.lock", "first.lock, first.lock")
-# %% 10.6 wrong: releases only after a move | hint: A lock is still held after the function has returned
+# %% 10.6 wrong: releases only after a move | hint: The function returned, but a lock is still held
 based_on("acquire and release")
 replace("        target.count = target.count + 1\n    for lock in locks:\n        lock.release()", "        target.count = target.count + 1\n        for lock in locks:\n            lock.release()")
 # %% 10.6 wrong: releases a lock twice | hint: The function released a lock that it did not hold
@@ -652,21 +672,21 @@ replace("with target.lock:\n        with source.lock:", """with source.lock:
             time.sleep(0.01)
         try:""")
 replace("return True", "return True\n        finally:\n            target.lock.release()")
-# %% 10.6 wrong: only subtracts | hint: The total changed
+# %% 10.6 wrong: only subtracts | hint: The total number of things changed
 replace("\n        target.count += 1", "")
-# %% 10.6 wrong: the wrong direction | hint: The function has to move exactly one thing, from `source` to `target`
+# %% 10.6 wrong: the wrong direction | hint: The counts after the call are wrong
 replace("source.count -= 1", "source.count, target.count = source.count - 2, target.count + 1")
-# %% 10.6 wrong: looks before it has the locks | hint: A count was read before the function held both locks
+# %% 10.6 wrong: looks before it has the locks | hint: The function read a count before it held both locks, so another thread can
 replace("    first, second", "    if source.count == 0:\n        return False\n    first, second")
-# %% 10.6 wrong: orders the locks by the counts | hint: in the order of the shelves' numbers
+# %% 10.6 wrong: orders the locks by the counts | hint: The function read a count before it held both locks, so another thread can
 replace("shelf.number", "shelf.count")
-# %% 10.6 wrong: moves from the first lock to the second | hint: The function has to move exactly one thing, from `source` to `target`
+# %% 10.6 wrong: moves from the first lock to the second | hint: The counts after the call are wrong
 replace("source.count", "first.count", times=2)
 replace("target.count", "second.count")
 # %% 10.6 wrong: moves from the second lock to the first | hint: The source was not empty, but the function returned False
 replace("source.count", "second.count", times=2)
 replace("target.count", "first.count")
-# %% 10.6 wrong: replaces the locks of the shelves | hint: A count was changed while the function did not hold both locks
+# %% 10.6 wrong: replaces the locks of the shelves | hint: The function changed a count while it did not hold both locks, so another
 replace("    first, second", """    own = property(lambda self: vars(self).setdefault("own_lock", threading.Lock()))
     type(source).lock = type(target).lock = own
     first, second""")
@@ -678,22 +698,22 @@ solution()
 causes = dict(F="no loop", E="no notify", D="race")
 causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
 
-# %% 10.7 wrong: A and B exchanged | hint: A wrong lock order needs two threads and two locks … Follow the calls from thread to thread
+# %% 10.7 wrong: A and B exchanged | hint: The cause "lock order" needs two threads and two locks … Follow the calls from thread to thread
 replace('"A": "lock across a call"', '"A": "lock order"')
 replace('"B": "lock order"', '"B": "lock across a call"')
-# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: If a thread holds a lock across a call, threads wait in … Each of the two threads holds the lock of one shelf and
+# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: With the cause "lock across a call", threads wait in two services … Each of the two threads holds the lock of one shelf and
 replace('"lock order"', '"lock across a call"')
-# %% 10.7 wrong: C and E exchanged | hint: If notify is missing, a thread waits longer … the number of waiting threads grows
+# %% 10.7 wrong: C and E exchanged | hint: The cause "no notify" means that a thread sleeps although an item is there … The clients have ended, but the number of waiting threads still grows
 replace('"C": "no limit"', '"C": "no notify"')
 replace('"E": "no notify"', '"E": "no limit"')
-# %% 10.7 wrong: a missing notify taken for a missing limit | hint: A wait without a limit never ends … The item came after two seconds, but the handler returned only when
+# %% 10.7 wrong: a missing notify taken for a missing limit | hint: The cause "no limit" means that a wait never ends, even after the client … The item came after two seconds, but the handler returned only when
 replace('"no notify"', '"no limit"')
-# %% 10.7 wrong: D and F exchanged | hint: Without a loop, a thread that wakes up continues even if no … Only the numbers are wrong
+# %% 10.7 wrong: D and F exchanged | hint: The cause "no loop" means that a thread continues after it has woken up, … Only the numbers are wrong
 replace('"D": "race"', '"D": "no loop"')
 replace('"F": "no loop"', '"F": "race"')
-# %% 10.7 wrong: a missing loop taken for a race | hint: A race changes data while no thread waits … Only one item came, but several threads woke up and took an
+# %% 10.7 wrong: a missing loop taken for a race | hint: In a race, no thread waits … Only one item came, but several threads woke up, and each of them took
 replace('"no loop"', '"race"')
-# %% 10.7 wrong: a case left out | hint: A case is missing
+# %% 10.7 wrong: a case left out | hint: The answer for a case is missing
 replace('\n    "F": "no loop",', "")
 # %% 10.7 wrong: small letters | hint: as strings with capital letters
 replace('"A"', '"a"')

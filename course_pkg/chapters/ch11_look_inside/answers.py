@@ -26,14 +26,16 @@ replace("<", "!", times=2)
 replace('struct.pack("<I", len(body)) + body', "body")
 # %% 11.1 wrong: counts its own length | hint: The first length is too large by 4
 replace("(body)", "(body) + 4")
-# %% 11.1 wrong: counts the fields | hint: The first number is the number of fields
+# %% 11.1 wrong: counts the fields | hint: The header begins with the number of its fields
 replace('b""', 'struct.pack("<I", len(fields))')
 replace('struct.pack("<I", len(body)) + body', "body")
-# %% 11.1 wrong: counts letters | hint: A length is a number of bytes, and ü has two bytes
+# %% 11.1 wrong: counts letters | hint: A length is a number of bytes, and the letter ü has two bytes
 replace('"{name}={value}".encode()', '"{name}={value}"')
 replace("+ text", "+ text.encode()")
-# %% 11.1 wrong: lines, as in HTTP | hint: Write only an equals sign between name and value
+# %% 11.1 wrong: lines, as in HTTP | hint: The text between name and value is wrong
 replace("{name}={value}", "{name}: {value}")
+# %% 11.1 wrong: leaves out an empty value | hint: A field with an empty value is missing
+replace("        text = f", "        if not value:\n            continue\n        text = f")
 # %% 11.1 wrong: one length for all | hint: The length of a field is missing
 replace('body = b"" … text)) + text', 'body = "".join(f"{name}={value}" for name, value in fields.items()).encode()')
 
@@ -42,19 +44,19 @@ def pack_header(fields):
     body = b"".join(struct.pack("<I", len(name)) + name.encode() for name in fields)
     struct.pack("<I", len(body)) + body
 
-# %% 11.1 wrong: text | hint: This is a str, but a socket needs bytes
+# %% 11.1 wrong: text | hint: The function returned a str, but a socket sends bytes
 replace('body = b"" … body)) + body', 'return "\\n".join(f"{name}={value}" for name, value in fields.items())')
 # %% 11.1 wrong: ascii | hint: ASCII does not contain the letter ü
 replace("encode()", 'encode("ascii")')
-# %% 11.1 wrong: latin-1 | hint: The text is in Latin-1
+# %% 11.1 wrong: latin-1 | hint: The text is encoded in Latin-1
 replace("encode()", 'encode("latin-1")')
-# %% 11.1 wrong: list of ints | hint: The numbers are right, but a socket needs bytes
+# %% 11.1 wrong: list of ints | hint: The function returned numbers, but a socket sends bytes
 replace('struct.pack("<I", len(body)) + body', 'list(struct.pack("<I", len(body)) + body)')
-# %% 11.1 wrong: two-byte lengths | hint: A length needs 4 bytes
+# %% 11.1 wrong: two-byte lengths | hint: A length has the wrong number of bytes
 replace("I", "H", times=2)
-# %% 11.1 wrong: nothing for an empty header | hint: A header without fields consists of its length, 0
+# %% 11.1 wrong: nothing for an empty header | hint: The header without fields is wrong
 replace("(fields):", '(fields):\n    if not fields:\n        return b""')
-# %% 11.1 wrong: a line end in each field | hint: Compare your bytes with the bytes of step 3
+# %% 11.1 wrong: a line end in each field | hint: Some bytes are wrong
 replace("{name}={value}", "{name}={value}\\n")
 
 # %% 11.2 right: adds up
@@ -98,16 +100,20 @@ def receive(sock, count):
     return sock.recv(count)
 import time
 
-# %% 11.2 wrong: calls recv once | hint: recv returned only the bytes that had arrived
+# %% 11.2 wrong: a time limit of its own | hint: The function gave up while it waited for the next piece
+replace('    data = b""\n', '    sock.settimeout(0.1)\n    data = b""\n')
+# %% 11.2 wrong: closes the socket before it raises | hint: The function closed the socket
+replace("            raise", "            sock.close()\n            raise")
+# %% 11.2 wrong: calls recv once | hint: The function returned too few bytes
 replace('data = b"" … return data', "return sock.recv(count)")
-# %% 11.2 wrong: never notices the end | hint: After the other end has closed the connection, recv always returns b''
+# %% 11.2 wrong: never notices the end | hint: The function did not return after the other program had closed the connection
 replace('\n        if not piece:\n            raise ConnectionError("the other end has closed")', "")
-# %% 11.2 wrong: reads ahead | hint: The function returned more than `count` bytes, so the next call does
+# %% 11.2 wrong: reads ahead | hint: The function returned more than `count` bytes, so these bytes are missing in the
 replace("count - len(data)", "4096")
-# %% 11.2 wrong: discards the bytes that it read ahead | hint: An earlier call read too many bytes and lost them, and now
+# %% 11.2 wrong: discards the bytes that it read ahead | hint: The function waits for bytes that an earlier call has read and lost
 replace("count - len(data)", "4096")
 replace("return data", "return data[:count]")
-# %% 11.2 wrong: keeps what it read ahead | hint: leave them in the socket
+# %% 11.2 wrong: keeps what it read ahead | hint: The function read more than `count` bytes from the socket
 REST = {}
 
 
@@ -121,33 +127,33 @@ def receive(sock, count):
     REST[sock] = data[count:]
     return data[:count]
 
-# %% 11.2 wrong: passes the whole number each time | hint: The function returned more than `count` bytes, so the next call does
+# %% 11.2 wrong: passes the whole number each time | hint: The function returned more than `count` bytes, so these bytes are missing in the
 replace("sock.recv(count - len(data))", "sock.recv(count)")
-# %% 11.2 wrong: passes the whole number each time, and cuts | hint: An earlier call read too many bytes and lost them, and now
+# %% 11.2 wrong: passes the whole number each time, and cuts | hint: The function waits for bytes that an earlier call has read and lost
 replace("sock.recv(count - len(data))", "sock.recv(count)")
 replace("return data", "return data[:count]")
-# %% 11.2 wrong: returns fewer bytes at the end | hint: The function returned fewer than `count` bytes, and the caller cannot notice
+# %% 11.2 wrong: returns fewer bytes at the end | hint: The connection ended early, and the function returned fewer than `count` bytes
 replace('raise ConnectionError("the other end has closed")', "break")
 # %% 11.2 wrong: forgets to return | hint: without a return line
 replace("\n    return data", "")
-# %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and the other bytes follow
+# %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and more bytes follow
 replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(data) < count:\n        raise ConnectionError("too short")')
-# %% 11.2 wrong: buffered file | hint: An earlier call read too many bytes and lost them, and now
+# %% 11.2 wrong: buffered file | hint: The function waits for bytes that an earlier call has read and lost
 based_on("a short piece is taken for the end")
 replace("sock.recv", 'sock.makefile("rb").read')
-# %% 11.2 wrong: sleeps | hint: The connection is still open, and the other bytes follow
+# %% 11.2 wrong: sleeps | hint: The connection is still open, and more bytes follow
 based_on("a short piece is taken for the end")
 replace("def receive(sock, count):", "import time\n\n\ndef receive(sock, count):\n    time.sleep(0.2)")
-# %% 11.2 wrong: treats a pause as the end | hint: The argument `count` was 0, so no bytes are missing
+# %% 11.2 wrong: treats a pause as the end | hint: The argument `count` was 0, but the function waited for bytes
 replace("len(data) < count", "True")
 replace('"the other end has closed"', '"closed"')
 replace("\n    return data", "\n        if len(data) == count:\n            return data")
-# %% 11.2 wrong: returns the list of pieces | hint: This is the list of pieces
+# %% 11.2 wrong: returns the list of pieces | hint: The function returned a list of pieces
 based_on("a list of pieces")
 replace('b"".join(pieces)', "pieces")
 # %% 11.2 wrong: closes the socket | hint: The function closed the socket
 replace("    return data", "    sock.close()\n    return data")
-# %% 11.2 wrong: another error | hint: raise ConnectionError, and no other error
+# %% 11.2 wrong: another error | hint: The function raised an error of the wrong type
 replace("ConnectionError(", "ValueError(")
 
 # %% 11.3 right: step by step
@@ -229,10 +235,10 @@ def ask(uri, service, length, width, height):
     finally:
         sock.close()
 
-# %% 11.3 wrong: uses a ServiceProxy | hint: Do not use a proxy
+# %% 11.3 wrong: uses a ServiceProxy | hint: The function calls the service with a proxy
 replace('host, port … ", answer)', """response = rospy.ServiceProxy(service, geometry)(length, width, height)
     return response.area, response.volume""")
-# %% 11.3 wrong: a proxy in another function | hint: Do not use a proxy
+# %% 11.3 wrong: a proxy in another function | hint: The function calls the service with a proxy
 replace('host, port … ", answer)', """return by_proxy(uri, service, length, width, height)
 
 
@@ -251,36 +257,36 @@ replace('theirs = read_header … ", answer)', """receive(sock, size)
 based_on("no length in front of the request")
 replace('"<3f"', '">I3f", 12')
 replace('"<2f"', '">2f"')
-# %% 11.3 wrong: float64 numbers | hint: The request has 24 bytes, which are three float64
+# %% 11.3 wrong: float64 numbers | hint: The request has 24 bytes, because it contains three float64
 based_on("no length in front of the request")
 replace('"<3f"', '"<I3d", 24')
 replace('"<2f", receive(sock, 8)', '"<2d", receive(sock, 16)')
-# %% 11.3 wrong: forgets the ok byte | hint: First read the whole header of the server
+# %% 11.3 wrong: forgets the ok byte | hint: The function read the response in a wrong order
 replace("((host, int(port)), timeout=5) as sock:", "((host, int(port)), timeout=2) as sock:")
 replace('theirs = read_header … == b"\\x01"', 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
 replace('answer = receive … ", answer)', 'return struct.unpack("<2f", receive(sock, size))')
-# %% 11.3 wrong: one recv for the reply | hint: The bytes arrived one after the other
+# %% 11.3 wrong: one recv for the reply | hint: The function fails if the bytes arrive one after the other
 based_on("no length in front of the request")
 replace('"<3f"', '"<I3f", 12')
 replace("receive(sock, 5)", """reply = sock.recv(4096)
         if reply[0] == 0:
             raise rospy.ServiceException(reply[5:].decode())""")
 replace("receive(sock, 8)", "reply[5:]")
-# %% 11.3 wrong: * as the MD5 | hint: The value "*" matches every definition, even a definition with other fields
+# %% 11.3 wrong: * as the MD5 | hint: The value "*" matches every definition, even a wrong definition
 based_on("no length in front of the request")
 replace("geometry._md5sum", '"*"')
 replace('"<3f"', '"<I3f", 12')
-# %% 11.3 wrong: no field service | hint: One port serves all services of a node
+# %% 11.3 wrong: no field service | hint: The field `service` is wrong
 based_on("no length in front of the request")
 replace('"service": service, "md5sum"', '"md5sum"')
 replace('"<3f"', '"<I3f", 12')
-# %% 11.3 wrong: ignores the error in the header | hint: The header of the server had a field "error"
+# %% 11.3 wrong: ignores the error in the header | hint: The server's header contains the field "error"
 replace("theirs = read_header … )) + body)", 'receive(sock, size)\n        sock.sendall(struct.pack("<I3f", 12, length, width, height))')
 # %% 11.3 wrong: ignores the ok byte | hint: The byte for success was 0
 replace('body = struct … ", answer)', """sock.sendall(struct.pack("<I3f", 12, length, width, height))
         receive(sock, 5)
         return struct.unpack("<2f", receive(sock, 8))""")
-# %% 11.3 wrong: replaces the error message | hint: Put the error message of the server into the exception
+# %% 11.3 wrong: replaces the error message | hint: The exception does not contain the error message of the server
 based_on("no length in front of the request")
 replace("receive(sock, size)", """if "error" in read_header(receive(sock, size)):
             raise rospy.ServiceException("it does not want to")""")
@@ -303,9 +309,9 @@ replace("answer = receive(sock, size)", """answer = b""
 replace("        body = struct … len(body)) + body)\n", "")
 replace("node.name, … geometry._md5sum}))", """node.name, "service": service, "md5sum": geometry._md5sum}))
         sock.sendall(struct.pack("<I3f", 12, length, width, height))""")
-# %% 11.3 wrong: rounds the numbers | hint: The numbers are rounded
+# %% 11.3 wrong: rounds the numbers | hint: The returned numbers are rounded
 replace('struct.unpack("<2f", answer)', '[round(number, 2) for number in struct.unpack("<2f", answer)]')
-# %% 11.3 wrong: volume first | hint: The order is wrong
+# %% 11.3 wrong: volume first | hint: The order of the numbers is wrong
 based_on("no length in front of the request")
 replace('"<3f"', '"<I3f", 12')
 replace("return struct", "volume, area = struct")
@@ -316,7 +322,7 @@ replace("with socket … sock, size)", """with socket.create_connection((host, i
         (size,) = struct.unpack("<I", receive(sock, 4))
         receive(sock, size)
         sock.sendall(pack_header({"callerid": node.name, "service": service, "md5sum": geometry._md5sum}))""")
-# %% 11.3 wrong: RuntimeError for a refusal | hint: but the exception has to be a rospy.ServiceException
+# %% 11.3 wrong: RuntimeError for a refusal | hint: The error message is right, but the exception has the wrong type
 replace("raise rospy.ServiceException(theirs … (sock, 4))", """raise RuntimeError(theirs["error"])
         sock.sendall(struct.pack("<I3f", 12, length, width, height))
         worked, size = struct.unpack("<?I", receive(sock, 5))""")
@@ -336,17 +342,17 @@ replace('    if "error" … ", answer)', "return length * width, length * width 
 # %% 11.3 wrong: forgets the length of the header | hint: The header has to start with its length, in 4 bytes
 replace("geometry._md5sum}))", "geometry._md5sum})[4:])")
 replace("timeout=5", "timeout=3")
-# %% 11.3 wrong: returns the bytes | hint: These are bytes
+# %% 11.3 wrong: returns the bytes | hint: The function returned bytes
 replace('struct.unpack("<2f", answer)', "answer")
-# %% 11.3 wrong: reads big-endian numbers | hint: then area and volume
+# %% 11.3 wrong: reads big-endian numbers | hint: The returned numbers are wrong
 replace('"<2f"', '">2f"')
 # %% 11.3 wrong: the width first | hint: Send the three sides as float32, in the order of the definition
 replace('"<3f", length, width', '"<3f", width, length')
-# %% 11.3 wrong: the port of the master | hint: Connect to the host and the port in the argument `uri`, rosrpc://HOST:PORT
+# %% 11.3 wrong: the port of the master | hint: The function connected to a wrong address
 replace("(host, int(port))", '("localhost", 11311)')
 # %% 11.3 wrong: no MD5 | hint: The field `md5sum` is missing
 replace(', "md5sum": geometry._md5sum', "")
-# %% 11.3 wrong: the MD5 of the request | hint: This is the MD5 sum of another type, or only of the
+# %% 11.3 wrong: the MD5 of the request | hint: The MD5 sum is not the sum of the whole service type
 replace("geometry._md5sum", "geometry._request_class._md5sum")
 # %% 11.3 wrong: no field callerid | hint: The field `callerid` is missing
 replace('"callerid": node.name, ', "")
@@ -386,13 +392,15 @@ class Sessions:
             self.calls[name] += 1
             return {"total": self.totals[name], "calls": self.calls[name]}
 
-# %% 11.4 wrong: one total for all sessions | hint: This is the total of all sessions
+# %% 11.4 wrong: a dict in the class | hint: A new Sessions object already had a total
+replace("    def __init__(self):\n        self.sessions = {}\n", "    sessions = {}\n")
+# %% 11.4 wrong: one total for all sessions | hint: The response contains the total of all sessions
 replace('request._connection_header.get("session")', '"everybody"')
-# %% 11.4 wrong: forgets the total after each call | hint: This is only the amount of this call
+# %% 11.4 wrong: forgets the total after each call | hint: The response contains only the amount of this call
 replace("self.sessions.get(session, (0, 0))", "0, 0")
 # %% 11.4 wrong: uses the name of the node as well | hint: The total started again at 0 for another node
 replace('connection header")', 'connection header")\n        session += request._connection_header["callerid"]')
-# %% 11.4 wrong: counts the calls of all | hint: Count the calls of each session separately, as you do with the
+# %% 11.4 wrong: counts the calls of all | hint: The field `calls` is wrong
 replace("self.sessions = {}", "self.sessions, self.calls = {}, 0")
 replace("return AddUpResponse(*self.sessions[session])", """self.calls += 1
         return AddUpResponse(self.sessions[session][0], self.calls)""")
@@ -402,21 +410,21 @@ replace("AddUpResponse(*self.sessions[session])", "AddUpResponse(total=self.sess
 replace('\n        if not session:\n            raise rospy.ServiceException("no field session in the connection header")', "")
 # %% 11.4 wrong: fails at a missing field | hint: The missing field caused an exception of the wrong type
 replace('.get("session")', '["session"]')
-# %% 11.4 wrong: fails at a new session | hint: At the first call of a session, the dict has no entry
+# %% 11.4 wrong: fails at a new session | hint: At the first call of a session, the dict has no total for this
 replace("self.sessions.get(session, (0, 0))", "self.sessions[session]")
-# %% 11.4 wrong: reads the session from the request | hint: This attribute does not exist
+# %% 11.4 wrong: reads the session from the request | hint: The handler uses an attribute that does not exist
 replace('request._connection_header.get("session")', "request.session")
 # %% 11.4 wrong: refuses without a reason | hint: The error message does not contain the word "session"
 replace('"no field session in the connection header"', '"no"')
 # %% 11.4 wrong: another exception | hint: The handler raised an exception of the wrong type
 replace("""raise rospy.ServiceException("no field session in the connection header")
         """, 'raise ValueError("the field session is missing")\n        ')
-# %% 11.4 wrong: None for a refusal | hint: The handler returned None, so rospy wrote
+# %% 11.4 wrong: None for a refusal | hint: The handler returned None, so the client got an error message of rospy
 replace('raise rospy.ServiceException("no field session in the connection header")', "return None")
 # %% 11.4 wrong: the total before this one | hint: The field `total` is 0
 replace("field session in the connection header", "session")
 replace("*self.sessions[session]", "total, calls + 1")
-# %% 11.4 wrong: total and calls exchanged | hint: This is the number of calls
+# %% 11.4 wrong: total and calls exchanged | hint: The field `total` contains the number of calls
 replace("field session in the connection header", "session")
 replace("total, calls", "calls, total")
 replace("total + request.amount, calls + 1", "calls + 1, total + request.amount")
@@ -425,7 +433,7 @@ replace("self.sessions = {}", "self.sessions, self.owner = {}, {}")
 replace('("no field session in the connection header")', """("no session")
         if self.owner.setdefault(session, request._connection_header["callerid"]) != request._connection_header["callerid"]:
             raise rospy.ServiceException("this session is not yours")""")
-# %% 11.4 wrong: forgets old sessions | hint: This is only the amount of this call
+# %% 11.4 wrong: forgets old sessions | hint: The response contains only the amount of this call
 replace("        total, calls", "        for old in list(self.sessions)[:-3]:\n            del self.sessions[old]\n        total, calls")
 # %% 11.4 wrong: starts the course's server | hint: Another program does the work
 import subprocess
@@ -441,7 +449,7 @@ my_add_up = subprocess.Popen(["rosrun", "course_pkg", "session_server", "/add_up
 rospy.wait_for_service("/my_add_up", timeout=15)
 # %% 11.4 wrong: another name for the field | hint: The header had the field "session", but your handler refused the call
 replace('get("session")', 'get("sessions")')
-# %% 11.4 wrong: begins with 1 | hint: Add the amount to the total of this session, which starts at
+# %% 11.4 wrong: begins with 1 | hint: The field `total` is wrong
 replace("(0, 0)", "(1, 0)")
 # %% 11.4 wrong: forgets to return | hint: The handler returned None. Return an AddUpResponse
 replace("return AddUpResponse", "AddUpResponse")
@@ -485,6 +493,10 @@ class Keeper:
                 self.proxy.close()
                 self.proxy = None
 
+# %% 11.5 wrong: waits for the server | hint: Without a server, your method did not return
+replace("        self.proxy.close()\n", "        rospy.wait_for_service(self.service)\n")
+# %% 11.5 wrong: another order of the sides | hint: The request contains other sides
+replace("            return self.proxy(length, width, height)", "            return self.proxy(width, length, height)")
 # %% 11.5 wrong: a new connection for each call | hint: The connection was not persistent
 replace("self.service = service … persistent=True)", "self.proxy = rospy.ServiceProxy(service, geometry)")
 replace("\n        try: … .connect()", "")
@@ -506,7 +518,7 @@ replace("geometry", "geometry, persistent=True")
 # %% 11.5 wrong: calls the dead proxy again | hint: The connection broke, and your method raised the error
 replace("        self.proxy.close()\n        self.connect()\n", "")
 
-# %% 11.5 wrong: treats a refusal as a broken connection | hint: The connection works, but the server refused the call
+# %% 11.5 wrong: treats a refusal as a broken connection | hint: The server refused the call, but the connection works
 class Keeper:
     def __init__(self, service):
         self.service = service
@@ -526,7 +538,7 @@ class Keeper:
                 self.connect()
         raise last
 
-# %% 11.5 wrong: swallows a refusal | hint: The server refused with an error message: raise this error
+# %% 11.5 wrong: swallows a refusal | hint: The server refused the call and sent an error message
 replace("raise", "return None")
 # %% 11.5 wrong: connects again after a refusal | hint: There was more than one connection
 replace("""except (rospy.ServiceException, rospy.exceptions.TransportException, AttributeError) as error:
@@ -541,16 +553,16 @@ replace("for _ in range(3):", "while True:")
 replace("\n                last = error", "")
 replace("continue", "raise\n                self.proxy.close()")
 replace("self.connect()\n        raise last", "self.connect()")
-# %% 11.5 wrong: forgets to return | hint: return the response of the proxy
+# %% 11.5 wrong: forgets to return | hint: Return the response of the proxy
 based_on("a new connection for each call")
 replace("geometry", "geometry, persistent=True")
 replace("return self", "self")
 # %% 11.5 wrong: recursion without end | hint: Your method called the service again and again
 replace("raise\n        self.proxy.close()", "raise")
 replace("()\n        return self.proxy", "()\n        return self.measure")
-# %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors, and this error is
+# %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors, and your method does not
 replace("(rospy.ServiceException, rospy.exceptions.TransportException, AttributeError)", "rospy.ServiceException")
-# %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors, and this error is
+# %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors, and your method does not
 replace(", AttributeError)", ")")
 # %% 11.5 wrong: returns the volume | hint: Return the whole response of the proxy
 based_on("a loop of two")
@@ -560,7 +572,7 @@ replace("\n        self.connect()\n\n    def connect(self):", "")
 replace("\n        self.proxy.close()\n        self.connect()\n        return self.proxy(length, width, height)", """
         proxy = rospy.ServiceProxy(self.service, geometry, persistent=True)
         return proxy(length, width, height)""")
-# %% 11.5 wrong: None after the second break | hint: The second call failed, too, so there is no response
+# %% 11.5 wrong: None after the second break | hint: The second call also failed, so there is no response
 based_on("a loop of two")
 replace(" or attempt == 2", "")
 
@@ -595,7 +607,7 @@ class Remembering:
         self.uri = rosgraph.Master("/me").lookupService(self.service)
         return ask(self.uri, self.service, length, width, height)
 
-# %% 11.6 wrong: looks up for each call | hint: but the master has no entry now
+# %% 11.6 wrong: looks up for each call | hint: Your method looked up the address again, but the master no longer knows the
 class Remembering:
     def __init__(self, service):
         self.service = service
@@ -604,7 +616,9 @@ class Remembering:
         uri = rosgraph.Master(node.name).lookupService(self.service)
         return ask(uri, self.service, length, width, height)
 
-# %% 11.6 wrong: never looks again | hint: The server is not at the old address any more
+# %% 11.6 wrong: another order of the sides | hint: The request contains other sides
+replace("self.service, length, width, height", "self.service, height, length, width", times=2)
+# %% 11.6 wrong: never looks again | hint: No server is at the old address any more
 based_on("looks up for each call")
 replace("\n\n", "\n        self.uri = rosgraph.Master(node.name).lookupService(service)\n\n")
 replace("uri = rosgraph.Master(node.name).lookupService(self.service)\n        return ask(uri", "return ask(self.uri")
@@ -624,7 +638,7 @@ class Remembering:
                 last = error
         raise last
 
-# %% 11.6 wrong: catches only a refused connection | hint: Catch every OSError
+# %% 11.6 wrong: catches only a refused connection | hint: Another program uses this address now, so `ask()` raised a different kind of OSError
 replace("OSError", "ConnectionRefusedError")
 # %% 11.6 wrong: looks up again and again | hint: Your method called the service again and again
 replace("try:\n            return ask(self.uri, self.service, length, width, height)\n        except OSError:\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """while True:
@@ -632,7 +646,7 @@ replace("try:\n            return ask(self.uri, self.service, length, width, hei
                 return ask(self.uri, self.service, length, width, height)
             except OSError:
                 self.look_up()""")
-# %% 11.6 wrong: None after the second error | hint: The second call failed, too: raise its error
+# %% 11.6 wrong: None after the second error | hint: The second call also failed. Raise
 replace("self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """self.look_up()
         try:
             return ask(self.uri, self.service, length, width, height)
@@ -640,11 +654,11 @@ replace("self.look_up()\n            return ask(self.uri, self.service, length, 
             return None""")
 # %% 11.6 wrong: one address for all objects | hint: A second object of the class changed the address
 replace("self.uri = ", "Remembering.uri = ")
-# %% 11.6 wrong: does not keep the new address | hint: Store the address of the second lookup
+# %% 11.6 wrong: does not keep the new address | hint: Also store the address of the second lookup
 replace("\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """
             uri = rosgraph.Master(node.name).lookupService(self.service)
             return ask(uri, self.service, length, width, height)""")
-# %% 11.6 wrong: forgets to return | hint: The method returned None: return the tuple that `ask()` returns.
+# %% 11.6 wrong: forgets to return | hint: Return the tuple that `ask()` returns
 based_on("never looks again")
 replace("return ", "")
 # %% 11.6 wrong: asks the master first | hint: Your method looked up the address again, although the stored address was
@@ -654,5 +668,5 @@ replace("\n    def measure … self.service)", """    def measure(self, length, 
             self.uri = rosgraph.Master(node.name).lookupService(self.service)
         except rosgraph.MasterError:
             pass""")
-# %% 11.6 wrong: one of the two numbers | hint: These are not the numbers that `ask()` returned
+# %% 11.6 wrong: one of the two numbers | hint: Your method did not return the numbers that `ask()` returned
 replace("height)\n        except", "height)[1]\n        except")

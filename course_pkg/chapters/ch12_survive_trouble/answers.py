@@ -50,9 +50,9 @@ def call_within(seconds, proxy, *values):
 
 # %% 12.1 wrong: no daemon thread | hint: Create the thread with daemon=True
 replace(", daemon=True", "")
-# %% 12.1 wrong: looks at the thread all the time | hint: The function needs processor time while it waits
+# %% 12.1 wrong: looks at the thread all the time | hint: The function uses the processor while it waits
 replace("thread.join(seconds)", "end = time.monotonic() + seconds\n    while thread.is_alive() and time.monotonic() < end:\n        pass")
-# %% 12.1 wrong: a pool that is not joined | hint: At the end of a program, Python waits for this thread
+# %% 12.1 wrong: a pool that is not joined | hint: Python waits for this thread at the end of a program
 from concurrent.futures import ThreadPoolExecutor
 
 
@@ -63,19 +63,19 @@ def call_within(seconds, proxy, *values):
     finally:
         pool.shutdown(wait=False)
 
-# %% 12.1 wrong: no limit | hint: The function did not return when its time was over
+# %% 12.1 wrong: no limit | hint: The function did not return in time, because it still waits for the thread
 replace("thread.join(seconds)", "thread.join()")
-# %% 12.1 wrong: only calls the proxy | hint: The function did not return when its time was over
+# %% 12.1 wrong: only calls the proxy | hint: The function did not return in time, because it still waits for the thread
 replace("responses, … responses[0]", "return proxy(*values)")
-# %% 12.1 wrong: a pool in a with block | hint: The function did not return when its time was over, because it
+# %% 12.1 wrong: a pool in a with block | hint: The function did not return in time, because it still waits for the thread
 based_on("a pool that is not joined")
 replace("pool = ThreadPoolExecutor … wait=False)", """with ThreadPoolExecutor(1) as pool:
         return pool.submit(proxy, *values).result(timeout=seconds)""")
 # %% 12.1 wrong: None when the time is over | hint: The time was over, but the function returned None
 replace('raise TimeoutError(f"no response within {seconds} s")', "return None")
-# %% 12.1 wrong: another error when the time is over | hint: raise TimeoutError and nothing else
+# %% 12.1 wrong: another error when the time is over | hint: The function did not raise TimeoutError
 replace("raise TimeoutError", "raise rospy.ROSException")
-# %% 12.1 wrong: does not catch the error | hint: The call ended with an error, so there is no response
+# %% 12.1 wrong: does not catch the error | hint: The call failed, so there is no response
 replace("        try:\n            responses.append(proxy(*values))\n        except rospy.ServiceException as error:\n            errors.append(error)", "        responses.append(proxy(*values))")
 # %% 12.1 wrong: loses the error | hint: The call raised rospy.ServiceException, but the function returned None
 replace("    if errors:\n        raise errors[0]\n    return responses[0]", "    return responses[0] if responses else None")
@@ -83,9 +83,9 @@ replace("    if errors:\n        raise errors[0]\n    return responses[0]", "   
 replace("raise errors[0]", "raise RuntimeError(str(errors[0]))")
 # %% 12.1 wrong: an error counts as no response | hint: The call raised rospy.ServiceException, but the function raised TimeoutError
 replace("        raise errors[0]", "        raise TimeoutError(str(errors[0]))")
-# %% 12.1 wrong: always waits for the whole time | hint: Do not sleep for the whole time
+# %% 12.1 wrong: always waits for the whole time | hint: The function still waited after the response had arrived
 replace("thread.join(seconds)", "time.sleep(seconds)")
-# %% 12.1 wrong: a fixed limit | hint: The function did not wait for `seconds`
+# %% 12.1 wrong: a fixed limit | hint: The function did not wait for the given time
 replace("thread.join(seconds)", "thread.join(3 * seconds if seconds < 1 else seconds)")
 # %% 12.1 wrong: does not wait | hint: The response came in time, but the function raised TimeoutError
 replace("    thread.join(seconds)\n", "")
@@ -93,7 +93,7 @@ replace("    thread.join(seconds)\n", "")
 replace("\n    return responses[0]", "")
 # %% 12.1 wrong: a field of the response | hint: The function did not return the response
 replace("return responses[0]", "return responses[0].sum")
-# %% 12.1 wrong: passes no values | hint: The response belongs to another request
+# %% 12.1 wrong: passes no values | hint: The response belongs to a different request
 replace("proxy(*values)", "proxy()")
 # %% 12.1 wrong: calls twice | hint: The function called the service more than once
 replace("responses.append(proxy(*values))", "proxy(*values)\n            responses.append(proxy(*values))")
@@ -159,15 +159,15 @@ class Till:
             future.set_result(number)
         return {"receipt": future.result()}
 
-# %% 12.2 wrong: does not remember the ids | hint: The same request was charged twice
+# %% 12.2 wrong: does not remember the ids | hint: The till charged the same request twice
 replace("receipts = {}", "count = 0")
 replace("a request without an id cannot be told from its repeat", "no id")
 replace("if request … request_id])", """self.purse.take(request.cents)
             self.count += 1
             return ChargeResponse(receipt=self.count)""")
-# %% 12.2 wrong: reads the list of the purse | hint: A purse has only one method, take(cents)
+# %% 12.2 wrong: reads the list of the purse | hint: Your code uses a method that a purse does not have
 replace("len(self.receipts) + 1", "len(self.purse.taken)")
-# %% 12.2 wrong: one dict for all tills | hint: A second Till treated a new request as a repetition, because it
+# %% 12.2 wrong: one dict for all tills | hint: A second Till uses the receipts of the first Till, so it treated a
 replace("        self.receipts = {}\n", "")
 replace("    def __init__", "    receipts = {}\n\n    def __init__")
 # %% 12.2 wrong: a number at random | hint: Two requests got the same receipt number
@@ -178,7 +178,7 @@ replace('\n        if not request … its repeat")', "")
 replace("request_id ", "cents ")
 replace("[request.request_id] = ", "[request.cents] = ")
 replace("request_id", "cents")
-# %% 12.2 wrong: remembers the ids, but not the receipts | hint: The receipt is 0, the default
+# %% 12.2 wrong: remembers the ids, but not the receipts | hint: The receipt is 0, which is the default of the field
 replace("receipts = {}", "done = set()")
 replace("if not request … request_id])", """with self.lock:
             if request.request_id in self.done:
@@ -186,20 +186,20 @@ replace("if not request … request_id])", """with self.lock:
             self.purse.take(request.cents)
             self.done.add(request.request_id)
             return ChargeResponse(receipt=len(self.done))""")
-# %% 12.2 wrong: a new receipt for a repeat | hint: The repetition got a different receipt
+# %% 12.2 wrong: a new receipt for a repeat | hint: The repeated request got a different receipt
 based_on("does not remember the ids")
 replace("self.purse = purse", "self.purse = purse\n        self.done = set()")
 replace('\n        if not request.request_id:\n            raise rospy.ServiceException("no id")', "")
 replace("self.purse.take(request.cents)", """if request.request_id not in self.done:
                 self.purse.take(request.cents)
                 self.done.add(request.request_id)""")
-# %% 12.2 wrong: refuses a repeat | hint: A repeated request was refused
+# %% 12.2 wrong: refuses a repeat | hint: The till refused a repeated request
 based_on("remembers the ids, but not the receipts")
 replace("return ChargeResponse()", 'raise rospy.ServiceException("this was charged already")')
 # %% 12.2 wrong: remembers the id before the purse is charged | hint: A request failed and was repeated
 replace("self.receipts:", "self.receipts:\n                self.receipts[request.request_id] = len(self.receipts) + 1")
 replace("(request.cents)\n                self.receipts[request.request_id] = len(self.receipts) + 1", "(request.cents)")
-# %% 12.2 wrong: responds to a repetition before the money is taken | hint: A request failed and was repeated, but nothing was charged
+# %% 12.2 wrong: responds to a repetition before the money is taken | hint: A request failed and was repeated, but the till did not charge it
 replace("        with self.lock:\n            if … take(request.cents)\n                self", """        with self.lock:
             if request.request_id in self.receipts:
                 return ChargeResponse(receipt=self.receipts[request.request_id])
@@ -212,7 +212,7 @@ replace("        with self.lock:\n            if … take(request.cents)\n      
         with self.lock:
             if request.request_id not in self.receipts:
                 self""")
-# %% 12.2 wrong: forgets old receipts | hint: The repetition got a different receipt
+# %% 12.2 wrong: forgets old receipts | hint: The repeated request got a different receipt
 replace("len(self.receipts) + 1", "self.count = getattr(self, 'count', 0) + 1\n                for old in list(self.receipts)[:-20]:\n                    del self.receipts[old]")
 # %% 12.2 wrong: takes requests without an id | hint: A request with an empty id got a receipt
 replace('\n        if not request … its repeat")', "")
@@ -239,11 +239,11 @@ replace("""raise rospy.ServiceException("a request without an id cannot be told 
         with self.lock:""", "return None\n        with self.lock:")
 # %% 12.2 wrong: forgets to return | hint: Return a ChargeResponse in every case
 replace("\n            return ChargeResponse(receipt=self.receipts[request.request_id])", "")
-# %% 12.2 wrong: does not charge the purse | hint: No money was taken. Call
+# %% 12.2 wrong: does not charge the purse | hint: The till did not take money
 replace("\n                self.purse.take(request.cents)", "")
 # %% 12.2 wrong: one receipt for all | hint: Two purchases got the same receipt
 replace("len(self.receipts) + 1", "1")
-# %% 12.2 wrong: replaces the method of the purse | hint: No money was taken. Call
+# %% 12.2 wrong: replaces the method of the purse | hint: The till did not take money
 replace("self.purse = purse", "self.purse = purse\n        type(purse).take = lambda self, cents: None")
 # %% 12.2 wrong: another exception for an empty id | hint: For an empty id, the handler raised an exception of the wrong type
 replace("rospy.ServiceException", "ValueError")
@@ -289,7 +289,10 @@ def pay(till, cents, deadline):
             return response.receipt
         time.sleep(max(0, min(pause, over - time.time())))
 
-# %% 12.3 wrong: treats a bad return value as a refusal | hint: The error contains "handler returned", so it is possible that the handler
+# %% 12.3 wrong: no pause after a TimeoutError | hint: There was no pause after a TimeoutError
+based_on("a loop with a clock")
+replace("                raise\n", "                raise\n            if isinstance(error, TimeoutError):\n                continue\n")
+# %% 12.3 wrong: treats a bad return value as a refusal | hint: An error with "handler returned" is not a refusal, because the handler has perhaps
 replace(' and "handler returned" not in str(error)', "")
 # %% 12.3 wrong: doubles before the first sleep | hint: The first pause is too long
 replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "        pause *= 2\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))")
@@ -297,7 +300,7 @@ replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n       
 replace("min(pause, max(end - time.monotonic(), 0))", "pause")
 # %% 12.3 wrong: as many tries as the deadline has seconds | hint: pay() ended before the deadline
 replace("while (rest := end - time.monotonic()) > 0:", "for _ in range(int(deadline)):\n        rest = max(end - time.monotonic(), 0)")
-# %% 12.3 wrong: waits for the service | hint: The till has no server, but pay() waits for it without a time limit
+# %% 12.3 wrong: waits for the service | hint: The till has no server, but pay() waits for this service without a time
 replace("        try:", "        rospy.wait_for_service(till)\n        try:")
 # %% 12.3 wrong: tries once | hint: One failed try ended pay()
 replace("end, pause … pause *= 2\n", """try:
@@ -310,11 +313,11 @@ replace("request_id", "str(uuid.uuid4())")
 # %% 12.3 wrong: one id for all payments | hint: Two payments had the same id
 replace("def", "request_id = str(uuid.uuid4())\ndef")
 replace("\n    request_id = str(uuid.uuid4())", "")
-# %% 12.3 wrong: no id | hint: The field request_id is empty
+# %% 12.3 wrong: no id | hint: The field `request_id` is empty
 replace("Charge), request_id, cents", 'Charge), "", cents')
-# %% 12.3 wrong: repeats a refusal | hint: The till refused, but pay() called the till again
+# %% 12.3 wrong: repeats a refusal | hint: The till refused the payment, but pay() called the till again
 replace("raise", "pass")
-# %% 12.3 wrong: None for a refusal | hint: The till refused, but pay() did not raise an error
+# %% 12.3 wrong: None for a refusal | hint: The till refused the payment, but pay() did not raise an error
 replace("raise", "return None")
 # %% 12.3 wrong: the whole deadline for the first try | hint: The first try used the whole time until the deadline
 replace("min(0.5, rest)", "rest")
@@ -326,41 +329,41 @@ replace("(rospy.ServiceException, TimeoutError)", "rospy.ServiceException")
 based_on("does not catch TimeoutError")
 replace("receipt", "receipt\n        except TimeoutError:\n            pass")
 replace("cannot process request", 'request" in str(error) or "error')
-# %% 12.3 wrong: two tries only | hint: In this case, the till was … but pay() had given up
+# %% 12.3 wrong: two tries only | hint: In this case, the till was … The till worked again before the deadline, but pay() had already ended
 replace("end, pause = time.monotonic() + deadline, 0.1\n    while (rest := end - time.monotonic()) > 0:", "for _ in range(2):")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
-# %% 12.3 wrong: no pause | hint: There was no pause, or the pause was too short
+# %% 12.3 wrong: no pause | hint: The pause after the first failed try was missing or too short
 replace("\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))", "")
-# %% 12.3 wrong: always the same pause | hint: The pause did not grow enough
+# %% 12.3 wrong: always the same pause | hint: The pauses do not grow fast enough
 replace("end, pause = time.monotonic() + deadline, 0.1", "end = time.monotonic() + deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
 # %% 12.3 wrong: two seconds for a try | hint: A try took longer than
 replace("0.5", "2")
-# %% 12.3 wrong: a tenth of a second for a try | hint: A try had less than
+# %% 12.3 wrong: a tenth of a second for a try | hint: s, so pay() called the till again too early
 replace("0.5", "0.1")
 # %% 12.3 wrong: half a second for the last try, too | hint: The deadline was 0.05 s
 replace("(rest := end - time.monotonic()) > 0", "time.monotonic() < end")
 replace("min(0.5, rest)", "0.5")
-# %% 12.3 wrong: adds to the pause | hint: The pause did not grow enough
+# %% 12.3 wrong: adds to the pause | hint: The pauses do not grow fast enough
 replace("pause *= 2", "pause += 0.1")
-# %% 12.3 wrong: begins with a shorter pause | hint: There was no pause, or the pause was too short
+# %% 12.3 wrong: begins with a shorter pause | hint: The pause after the first failed try was missing or too short
 replace("0.1", "0.05")
-# %% 12.3 wrong: five times | hint: but pay() had given up
+# %% 12.3 wrong: five times | hint: The till worked again before the deadline, but pay() had already ended
 replace("while (rest := end - time.monotonic()) > 0:", """for _ in range(5):
         rest = end - time.monotonic()
         if rest <= 0:
             break""")
-# %% 12.3 wrong: counts the pauses only | hint: pay() continued after the deadline
+# %% 12.3 wrong: counts the pauses only | hint: pay() was still running after the deadline
 replace("""end, pause = time.monotonic() + deadline, 0.1
     while (rest := end - time.monotonic()) > 0:""", "waited, pause = 0, 0.1\n    while waited < deadline:")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))", "(pause)\n        waited += pause")
-# %% 12.3 wrong: raises when the deadline has passed | hint: At the deadline, pay() does not know whether the till has already taken the money
+# %% 12.3 wrong: raises when the deadline has passed | hint: At the deadline, it is not known whether the till has taken the money
 replace("return None", 'raise TimeoutError("nobody knows")')
 # %% 12.3 wrong: forgets to return | hint: The till sent a receipt, but pay() returned None
 replace("            return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents).receipt", "            call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            break")
-# %% 12.3 wrong: the whole response | hint: This is the whole response
+# %% 12.3 wrong: the whole response | hint: pay() returned the whole response
 replace("request_id, cents).receipt", "request_id, cents)")
 # %% 12.3 wrong: a fixed till | hint: pay() did not call the till
 replace("ServiceProxy(till", 'ServiceProxy("/till"')
@@ -397,6 +400,8 @@ class Watchdog:
         with self.lock:
             self.over.set()
 
+# %% 12.4 wrong: stops after it has registered the service | hint: The watchdog stopped polling although a master was running
+replace("rospy.get_node_uri())", "rospy.get_node_uri())\n                self.over.set()")
 # %% 12.4 wrong: a pause of one second | hint: The watchdog polls too rarely
 replace("self.over.wait(self.every)", "self.over.wait(1.0)")
 
@@ -459,7 +464,7 @@ class Watchdog:
     def stop(self):
         pass
 
-# %% 12.4 wrong: registers once | hint: an error ended the watchdog's thread
+# %% 12.4 wrong: registers once | hint: An error ended the watchdog's thread while no master was running
 replace("(OSError, rosgraph.MasterException)", "rosgraph.MasterException")
 # %% 12.4 wrong: loops in __init__ | hint: Run the endless loop in a thread
 replace("threading.Thread(target=self.run, daemon=True).start()", "self.run()")
@@ -474,9 +479,9 @@ replace("""
                 self.master.lookupService(self.service)
             except rosgraph.MasterError:
                 self.master.""", "\n            self.master.")
-# %% 12.4 wrong: stops in the middle of a look | hint: stop() returned while the thread was still calling the master, and the
+# %% 12.4 wrong: stops in the middle of a look | hint: The thread registered the service after stop() had returned
 replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
-# %% 12.4 wrong: sleeps in stop | hint: stop() returned while the thread was still calling the master, and the
+# %% 12.4 wrong: sleeps in stop | hint: The thread registered the service after stop() had returned
 based_on("stops in the middle of a look")
 replace("self.over.set()", "self.over.set()\n        time.sleep(0.8)")
 # %% 12.4 wrong: holds the lock all the time | hint: stop() does not return
@@ -491,17 +496,17 @@ replace("while not self … get_node_uri())", """with self.lock:
                     pass
                 time.sleep(self.every)""")
 replace(".set()", " = True")
-# %% 12.4 wrong: asks the kernel's own master | hint: The watchdog made no call to the given master
+# %% 12.4 wrong: asks the kernel's own master | hint: The watchdog did not call the given master
 replace("= name, uri, master, every", "= name, uri, rosgraph.Master(rospy.get_name()), every")
 # %% 12.4 wrong: looks without a pause | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
 # %% 12.4 wrong: no pause after a look that failed | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
 replace("self.look()", "self.look()\n                self.over.wait(self.every)")
-# %% 12.4 wrong: looks at a flag before it registers | hint: stop() returned while the thread was still calling the master, and the
+# %% 12.4 wrong: looks at a flag before it registers | hint: The thread registered the service after stop() had returned
 replace("self.master.registerService", "if not self.over.is_set():\n                    self.master.registerService")
 replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
-# %% 12.4 wrong: ends when another node has the name | hint: The other node has unregistered
+# %% 12.4 wrong: ends when another node has the name | hint: The name is free again, but the watchdog does not register its own service
 replace("self.master.lookupService(self.service)", """if self.master.lookupService(self.service) != self.uri:
                     self.over.set()""")
 # %% 12.4 wrong: the address of the service for that of the node | hint: The last argument is wrong
@@ -519,16 +524,16 @@ solution()
 diagnosis = dict(G="two providers", F="repeated", E="race", D="lock")
 diagnosis |= dict(zip("ABC", ["killed", "new master", "frozen"]))
 
-# %% 12.5 wrong: A and C exchanged | hint: In a frozen process, no service responds … the master has an address for the name, but no process accepts
+# %% 12.5 wrong: A and C exchanged | hint: The diagnosis "frozen" means that no service of the process responds … The master has an address for the name, but no process accepts connections at
 replace('"A": "killed"', '"A": "frozen"')
 replace('"C": "frozen"', '"C": "killed"')
-# %% 12.5 wrong: a new master taken for a killed server | hint: A killed server accepts no connections … only the lookup of the name fails
+# %% 12.5 wrong: a new master taken for a killed server | hint: The diagnosis "killed" means that the server accepts no connections … Connections that are already open still work
 replace('"new master"', '"killed"')
 # %% 12.5 wrong: a lock taken for a frozen process | hint: get_loggers responds, so the process runs
 replace("lock", "frozen")
-# %% 12.5 wrong: a frozen process taken for a lock | hint: If a handler holds a lock during a call, other clients have … not even get_loggers
+# %% 12.5 wrong: a frozen process taken for a lock | hint: The diagnosis "lock" means that a handler holds a lock during a call, so … not even get_loggers
 replace("frozen", "lock")
-# %% 12.5 wrong: a repeat taken for a race | hint: A race makes the data wrong, but no client has to wait … the server did the work of the first try; only the response
+# %% 12.5 wrong: a repeat taken for a race | hint: The diagnosis "race" means that the data is wrong, but no client has to … The server did the work of the first try, but its response was lost
 replace("repeated", "race")
 # %% 12.5 wrong: a case left out | hint: Give a cause for each letter from A to G
 replace('\n    "G": "two providers",', "")
@@ -538,11 +543,11 @@ replace('"killed"', '"the server was killed"')
 # %% 12.5 wrong: sets | hint: Copy the names from the list of causes
 diagnosis = {"A": {"killed"}, "B": {"new master"}, "C": {"frozen"}, "D": {"lock"}, "E": {"race"}, "F": {"repeated"}, "G": {"two providers"}}
 
-# %% 12.5 wrong: a race taken for a repeat | hint: A repeated request does the same work twice … two handlers read the same number
+# %% 12.5 wrong: a race taken for a repeat | hint: The diagnosis "repeated" means that the server did the same work twice … Two handlers read the same number at the same time, but no call failed
 replace('"race"', '"repeated"')
-# %% 12.5 wrong: two providers taken for a new master | hint: A new master does not know any provider, so each lookup fails … both servers work, but the master stores only the newest provider of
+# %% 12.5 wrong: two providers taken for a new master | hint: The diagnosis "new master" means that the master knows no provider, so each lookup … Both servers work, but the master stores only the newest provider of a name
 replace("two providers", "new master")
-# %% 12.5 wrong: a new master taken for two providers | hint: If a service has two providers, only one of them gets all
+# %% 12.5 wrong: a new master taken for two providers | hint: The diagnosis "two providers" means that two servers offer one service, and only one
 replace("new master", "two providers")
 # %% 12.5 wrong: a small letter | hint: as strings with capital letters
 replace('"A"', '"a"')
@@ -556,22 +561,22 @@ policies["speed"] = "try again"
 policies["payment"], policies["step"] = "same id", "look first"
 policies["not started"] = "wait for the service"
 
-# %% 12.6 wrong: repeats a refusal | hint: The policy "try again" fits only if a second execution does no … The next try would get the same refusal
+# %% 12.6 wrong: repeats a refusal | hint: The policy "try again" is right only if another try can succeed, and if … The server has refused the request
 replace('"refused": "report"', '"refused": "try again"')
 # %% 12.6 wrong: waits for another definition | hint: only if no server is registered … The two programs were built with different definitions
 replace('"md5": "report"', '"md5": "wait for the service"')
-# %% 12.6 wrong: tries a step again | hint: The policy "try again" fits only if a second execution does no … Perhaps the robot has already moved, and a second request would move the robot again
+# %% 12.6 wrong: tries a step again | hint: The policy "try again" is right only if another try can succeed, and if … Perhaps the robot has already moved, and a second request moves it again
 replace('"look first"', '"try again"')
-# %% 12.6 wrong: gives up a payment | hint: The policy "report" leaves the work undone, although another try could do … Perhaps the till has already taken the money, but it recognises a repeated request.
+# %% 12.6 wrong: gives up a payment | hint: With the policy "report", the client does not try again, although another try can … Perhaps the till has already taken the money
 replace('"same id"', '"report"')
-# %% 12.6 wrong: looks before it sets the speed | hint: only if a repetition would do harm … The request sets a state
+# %% 12.6 wrong: looks before it sets the speed | hint: The policy "look first" is right only if a repetition does harm, and if … The request sets a state
 replace('"try again"', '"look first"')
-# %% 12.6 wrong: an id for a call that reached no server | hint: The policy "same id" helps only if the request has a field … The call did not reach a server, but the server will run
+# %% 12.6 wrong: an id for a call that reached no server | hint: The policy "same id" helps only if the request has a field … No server got the call, but the server will run in a few seconds
 replace('"wait for the service"', '"same id"')
 # %% 12.6 wrong: a situation left out | hint: Give a policy for each row of the table
 replace('\n    "step": "look first",', "")
 
-# %% 12.6 wrong: a list | hint: The keys are the six names
+# %% 12.6 wrong: a list | hint: Use the six names in the first column of the table, letter by letter
 policies = ["report", "wait for the service"]
 
 # %% 12.6 wrong: other words | hint: Copy the names of the policies

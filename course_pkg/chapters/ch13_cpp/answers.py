@@ -46,18 +46,18 @@ replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")
 replace("\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
 # %% 13.1 wrong: no headers | hint: Write include_directories(${catkin_INCLUDE_DIRS}) above add_executable
 replace("\ninclude_directories(${catkin_INCLUDE_DIRS})", "")
-# %% 13.1 wrong: another name for the program | hint: It has to be box_server
+# %% 13.1 wrong: another name for the program | hint: The program has the wrong name
 replace("box_server ", "server ", times=2)
-# %% 13.1 wrong: catkin_package last | hint: The command catkin_package sets the folder for programs, so it has to come first
+# %% 13.1 wrong: catkin_package last | hint: The command catkin_package is in the wrong place
 replace("\ncatkin_package()\n", "")
 replace("(box_server ${catkin_LIBRARIES})", "(box_server ${catkin_LIBRARIES})\ncatkin_package()")
-# %% 13.1 wrong: no catkin_package | hint: The command catkin_package is missing, which sets the folder for programs
+# %% 13.1 wrong: no catkin_package | hint: The command catkin_package is missing
 replace("\ncatkin_package()\n", "")
 # %% 13.1 wrong: removes the lines with errors | hint: The command add_executable is missing, so CMake builds no program
 replace("\nadd_executable(box_server src/box_server.cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
 # %% 13.1 wrong: roscpp not found | hint: catkin_LIBRARIES contains only the libraries of the packages in find_package
 replace("roscpp course_pkg", "course_pkg")
-# %% 13.1 wrong: a library that is not there | hint: Read the end of its output
+# %% 13.1 wrong: a library that is not there | hint: Read the end of the output of catkin_make
 replace("${catkin_LIBRARIES})", "${catkin_LIBRARIES} boxes)")
 
 # %% 13.2 right: the mistakes repaired
@@ -89,19 +89,19 @@ replace("ros::spin();", """ros::spin();
 #endif""")
 # %% 13.2 wrong: both halves by value | hint: and with both &
 replace("& ", " ", times=2)
-# %% 13.2 wrong: a whole number for the area | hint: The part after the decimal point is missing, because an int contains
+# %% 13.2 wrong: a whole number for the area | hint: The digits after the decimal point are missing, because an int contains only whole
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
 replace("volume = response.area", "volume = area")
 # %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every branch
 replace("\n  return true;", "")
-# %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a good request
+# %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a valid request, so the client got an error
 replace("true", "0")
-# %% 13.2 wrong: what is advertised is not kept | hint: Store the object in a variable
+# %% 13.2 wrong: what is advertised is not kept | hint: The service ends, because the object that advertiseService returns is deleted
 replace("ros::ServiceServer server = node", "node")
-# %% 13.2 wrong: no spin | hint: The function main ended, so the service ended, too
+# %% 13.2 wrong: no spin | hint: The program ends, so its service also ends
 replace(";\n  ros::spin();", ";")
-# %% 13.2 wrong: refuses nothing | hint: Return false in this case.
+# %% 13.2 wrong: refuses nothing | hint: was below 0
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 # %% 13.2 wrong: a semicolon lost | hint: for a missing ; or bracket
 replace("request.width;", "request.width")
@@ -109,12 +109,12 @@ replace("request.width;", "request.width")
 replace("request.height < 0", "request.high < 0")
 # %% 13.2 wrong: checks two sides only | hint: The server sent a response, but height was below 0
 replace("0 || request.height < 0", "0")
-# %% 13.2 wrong: checks the volume only | hint: Return false in this case.
+# %% 13.2 wrong: checks the volume only | hint: was below 0
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.volume >= 0")
-# %% 13.2 wrong: refuses 0 | hint: A side was 0, but 0 is allowed
+# %% 13.2 wrong: refuses 0 | hint: A side was 0, but the handler refused the call
 replace(" 0", "= 0", times=3)
-# %% 13.2 wrong: a whole number for the volume | hint: The part after the decimal point is missing, because an int contains
+# %% 13.2 wrong: a whole number for the volume | hint: The digits after the decimal point are missing, because an int contains only whole
 replace("response.volume = response.area", "int volume = request.length * request.width")
 replace("  return true;", "  response.volume = volume;\n  return true;")
 # %% 13.2 wrong: forgets the area | hint: The area is 0
@@ -123,9 +123,9 @@ replace("response.area = request.length * request.width;\n  response.volume = re
 replace("\n  response.volume = response.area * request.height;", "")
 # %% 13.2 wrong: adds the height | hint: The volume is wrong
 replace("response.area * request.height", "response.area + request.height")
-# %% 13.2 wrong: ends at a side below 0 | hint: The program has ended or does not respond
+# %% 13.2 wrong: ends at a side below 0 | hint: The program has ended, or it does not respond
 replace(") return false;", ") std::exit(1);")
-# %% 13.2 wrong: a private name | hint: The node does not offer a service of this name
+# %% 13.2 wrong: a private name | hint: The node does not offer a service with the right name
 replace("NodeHandle node", "NodeHandle node(\"~\")")
 # %% 13.2 wrong: no ros::init | hint: The program crashed
 replace("  ros::init(argc, argv, \"box_server\");\n", "")
@@ -171,33 +171,33 @@ replace("\n    ros::WallDuration(0.2).sleep();\n  }", """
 replace(";\n  if (!client.waitForExistence(ros::Duration(2))) return 1;", ";")
 # %% 13.3 wrong: waits for ever | hint: The program waits without a limit
 replace("if (!client.waitForExistence(ros::Duration(2))) return 1;", "client.waitForExistence();")
-# %% 13.3 wrong: ignores the return value of call | hint: call() returned false, but the program printed the empty response
+# %% 13.3 wrong: ignores the return value of call | hint: call() returned false, but the program printed an empty response
 replace("if (client.call(box)) {", "client.call(box);\n    {")
-# %% 13.3 wrong: tests the volume | hint: A response with the volume 0 is also a valid response
+# %% 13.3 wrong: tests the volume | hint: A response with the volume 0 is valid
 replace("if (client.call(box)) {", "client.call(box);\n    if (box.response.volume > 0) {")
 # %% 13.3 wrong: calls again and again | hint: Count the calls, and stop after the third
 replace("tries < 3; ++tries", ";")
-# %% 13.3 wrong: calls four times | hint: The number of calls was 4 … The first call is also counted
+# %% 13.3 wrong: calls four times | hint: The number of calls was 4 … calls, but it has to make 3
 replace("tries < 3", "tries <= 3")
-# %% 13.3 wrong: calls twice | hint: Repeat the call while call() returns false, with at most three calls
+# %% 13.3 wrong: calls twice | hint: The server refused the first two calls, but it responds to the third call
 replace("3;", "2;")
 # %% 13.3 wrong: continues after the response | hint: The server sent a response, but the program called the server again
 replace("\n      return 0;\n    }\n    ros::WallDuration(0.2).sleep();\n  }\n  return 1;", "\n    }\n  }\n  return 0;")
 # %% 13.3 wrong: a success in any case | hint: No call got a response
 replace("\n  return 1;", "\n  return 0;")
-# %% 13.3 wrong: computes it itself | hint: The server sent a different volume: print box.response.volume, and do not compute
+# %% 13.3 wrong: computes it itself | hint: The server sent a different volume
 replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
-# %% 13.3 wrong: no pause | hint: A call immediately after a refusal is probably refused, too
+# %% 13.3 wrong: no pause | hint: The server probably also refuses a call immediately after a refusal
 replace("\n    ros::WallDuration(0.2).sleep();", "")
 # %% 13.3 wrong: five seconds | hint: The program waited too long,
 replace("(2)", "(5)")
-# %% 13.3 wrong: two milliseconds | hint: The program waited only a few milliseconds, because ros::service::waitForService reads a plain number as milliseconds
+# %% 13.3 wrong: two milliseconds | hint: The program waited only a few milliseconds, because waitForService reads a plain number as
 replace('\n  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");', "")
 replace("client.waitForExistence(ros::Duration(2))", 'ros::service::waitForService("box", 2)')
 replace("client.call(box)", 'ros::service::call("box", box)')
 # %% 13.3 wrong: prints nothing | hint: Print box.response.volume to std::cout
 replace("      std::cout << box.response.volume << std::endl;\n", "")
-# %% 13.3 wrong: prints a volume at the end | hint: Without a response, there is no volume
+# %% 13.3 wrong: prints a volume at the end | hint: The program printed a volume, although it got no response
 replace("\n  return 1;", "\n  std::cout << box.response.volume << std::endl;\n  return 1;")
 # %% 13.3 wrong: a success without a server | hint: When the time is over, waitForExistence returns false
 replace("(ros::Duration(2))) return 1", "(ros::Duration(2))) return 0")
@@ -208,12 +208,12 @@ solution()
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
 replace("think();", "think();\n  std::unique_lock<std::mutex> lock(counting);")
 replace("ros::AsyncSpinner … waitForShutdown();", "ros::MultiThreadedSpinner spinner(8);\n  spinner.spin();")
-# %% 13.4 wrong: a lock, and still one thread | hint: ros::spin() executes one callback after the other
+# %% 13.4 wrong: a lock, and still one thread | hint: ros::spin() executes only one callback at a time
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
 replace("waitForShutdown()", "spin()")
-# %% 13.4 wrong: more threads, and no lock | hint: Two threads read the same number, and both add 1 to it
+# %% 13.4 wrong: more threads, and no lock | hint: Two threads read the same number, and both threads add 1 to it
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
-# %% 13.4 wrong: an atomic number | hint: An atomic variable makes each single access safe, but two threads can
+# %% 13.4 wrong: an atomic number | hint: Two threads can read the same number before one of them writes, even if
 replace("include <mutex", "include <atomic")
 replace("int served = 0;\nstd::mutex counting;", "std::atomic<int> served{0};")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
@@ -223,28 +223,28 @@ replace("int count() {", "int count() {\n  std::mutex counting;")
 # %% 13.4 wrong: locked while it thinks | hint: The handler holds the lock during think()
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
 replace("  think();", "  std::lock_guard<std::mutex> lock(counting);\n  think();")
-# %% 13.4 wrong: one thread asked for | hint: Each of the six calls needs a thread
+# %% 13.4 wrong: one thread asked for | hint: The spinner has too few threads
 replace("6", "1")
 # %% 13.4 wrong: never started | hint: The AsyncSpinner executes no callbacks, because it was not started
 replace("\n  spinner.start();", "")
-# %% 13.4 wrong: main does not wait | hint: The function main ends although a spinner was started
+# %% 13.4 wrong: main does not wait | hint: The program ends, because main ends after the spinner was started
 replace("spinner.start();\n  ros::waitForShutdown();", "spinner.start();")
-# %% 13.4 wrong: does not think | hint: think() and count() replace real work, so do not change the times in these functions
+# %% 13.4 wrong: does not think | hint: The functions think() and count() replace real work, so do not change their times
 replace("\n  ros::WallDuration(0.4).sleep();", "")
-# %% 13.4 wrong: three threads | hint: Each of the six calls needs a thread
+# %% 13.4 wrong: three threads | hint: The spinner has too few threads
 replace("6", "3")
-# %% 13.4 wrong: thinks for less, on one thread | hint: think() and count() replace real work, so do not change the times in these functions
+# %% 13.4 wrong: thinks for less, on one thread | hint: The functions think() and count() replace real work, so do not change their times
 replace("int served = 0;\nstd::mutex counting;", "int served = 0;")
 replace("0.4", "0.04")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
 replace("waitForShutdown()", "spin()")
-# %% 13.4 wrong: unlocks between reading and writing | hint: No lock is held between the read and the write
+# %% 13.4 wrong: unlocks between reading and writing | hint: The lock is not held between the read and the write, so two threads
 replace("std::lock_guard<std::mutex> lock(counting);", "counting.lock();")
 replace("int seen = served;", "int seen = served;\n  counting.unlock();")
 replace("(0.05).sleep();", "(0.05).sleep();\n  counting.lock();")
 replace("served = seen + 1;", "served = seen + 1;\n  counting.unlock();")
-# %% 13.4 wrong: no spinner | hint: ros::spin() is missing
+# %% 13.4 wrong: no spinner | hint: No spinner executes the callbacks
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
-# %% 13.4 wrong: text before the number | hint: The message has to be only the number
+# %% 13.4 wrong: text before the number | hint: The message contains more than the number
 replace("std::to_string(count())", "\"number \" + std::to_string(count())")

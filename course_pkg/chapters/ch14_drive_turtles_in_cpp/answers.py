@@ -17,14 +17,14 @@ replace("ros::init( … return 0;", """ros::init(argc, argv, "spawner", ros::ini
     return EXIT_FAILURE;
   }
   std::cout << "spawned " << response.name << std::endl;""")
-# %% 14.1 wrong: no wait | hint: Without a wait, the call fails immediately
+# %% 14.1 wrong: no wait | hint: The call fails if the service has not started yet
 replace('  if (!client.waitForExistence(ros::Duration(5))) {\n    ROS_ERROR("no simulator within 5 s");\n    return 1;\n  }\n', '')
-# %% 14.1 wrong: no limit | hint: The program waits too long or without a limit
+# %% 14.1 wrong: no limit | hint: The program waits too long, or without a limit
 replace('ros::Duration(5)', '')
-# %% 14.1 wrong: five milliseconds | hint: The program gave up too early
+# %% 14.1 wrong: five milliseconds | hint: The program stopped waiting too early
 based_on("the functions of ros::service")
 replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForService("/spawn", 1500)')
-# %% 14.1 wrong: the result of the call is ignored | hint: The server refused the call. Catch this error
+# %% 14.1 wrong: the result of the call is ignored | hint: The server refused the call, and the program did not catch this error
 replace('  if (!client.call(spawn)) {\n    ROS_ERROR("the simulator refused MyTurtle");\n    return 1;\n  }\n', '  client.call(spawn);\n')
 # %% 14.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
 replace('  spawn.request.name = "MyTurtle";\n', '')
@@ -83,10 +83,10 @@ replace('    ros::spinOnce();\n', '')
 replace('bool forward = true', 'bool forward = false')
 # %% 14.2 wrong: the service is dropped | hint: Create the service before the loop begins
 replace('ros::ServiceServer server = node', 'node')
-# %% 14.2 wrong: the same message object in each loop | hint: The turtle turns, but it also still moves ahead
+# %% 14.2 wrong: the same message object in each loop | hint: The turtle turns, but it also moves ahead
 replace('    geometry_msgs::Twist message;\n', '')
 replace('  while (ros::ok()) {\n', '  geometry_msgs::Twist message;\n  while (ros::ok()) {\n')
-# %% 14.2 wrong: ten times per second | hint: rospy.Rate(2) and ros::Rate(2) mean 2 Hz
+# %% 14.2 wrong: ten times per second | hint: The program does not publish twice per second
 replace('rate(2)', 'rate(10)')
 # %% 14.2 wrong: no header | hint: std_srvs/Empty.h
 replace('#include <std_srvs/Empty.h>\n', '')
@@ -136,12 +136,12 @@ int main(int argc, char** argv) {
 }
 """
 
-# %% 14.3 wrong: the loop keeps its rate | hint: You cannot change the rate of a Rate object
+# %% 14.3 wrong: the loop keeps its rate | hint: A Rate object cannot change its rate
 replace('      rate = ros::Rate(used);\n', '')
-# %% 14.3 wrong: whole numbers | hint: A rate can be 2.5
+# %% 14.3 wrong: whole numbers | hint: Store the rate as a float in Python, or as a double in C++
 replace('double frequency', 'int frequency')
 replace('double used', 'int used')
-# %% 14.3 wrong: returns the new rate | hint: This is the new rate
+# %% 14.3 wrong: returns the new rate | hint: The field `before` contains the new rate
 replace('    response.before = frequency;\n    frequency = request.rate;\n', '    frequency = request.rate;\n    response.before = frequency;\n')
 # %% 14.3 wrong: an empty response | hint: The field `before` has its default value, 0.0
 replace('    response.before = frequency;\n', '')
@@ -248,7 +248,7 @@ replace('bool moving = true', 'bool moving = false')
 replace('    publisher.publish(message);\n', '    if (state.moving) publisher.publish(message);\n')
 # %% 14.4 wrong: infinity is accepted | hint: The node accepted
 replace('!std::isfinite(request.speed)', 'std::isnan(request.speed)')
-# %% 14.4 wrong: forgets success | hint: Set success to True
+# %% 14.4 wrong: forgets success | hint: The field `success` is False
 replace('  response.success = true;\n', '')
 # %% 14.4 wrong: never already | hint: This call changed nothing
 replace('std::string(same ? "already " : "")', 'std::string(same ? "" : "")')
@@ -278,9 +278,9 @@ replace("turtlesim: … follower);", """auto spawn = node.serviceClient<turtlesi
 replace("spin();", "spin();\n  return 0;")
 # %% 14.5 wrong: no spin | hint: The node ended after the calls
 replace('  ros::spin();\n', '')
-# %% 14.5 wrong: no wait | hint: wait for each service
+# %% 14.5 wrong: no wait | hint: Wait for each service before you call the service
 replace('ros::service::waitForService(name, ros::Duration(5)) && ', '')
-# %% 14.5 wrong: the name is fixed | hint: Publish only on /NAME/cmd_vel, where NAME is the name in the response of
+# %% 14.5 wrong: the name is fixed | hint: Publish only on the topic /NAME/cmd_vel
 replace('spawn.response.name + "/cmd_vel"', '"MyTurtle/cmd_vel"')
 # %% 14.5 wrong: the speed is missing | hint: Send 2.0 in the field `speed`
 replace('  change.request.speed = 2.0;\n', '')
@@ -296,13 +296,13 @@ replace('<arg name= … spawn_turtle_plus" />', """<arg name="addturtle" default
   <group if="$(arg addturtle)">
     <node name="spawn_turtle_plus" pkg="my_turtles_cpp" type="spawn_turtle_plus"/>
   </group>""")
-# %% 14.6 wrong: the name of a Python script | hint: Write the two words that follow `rosrun` in a terminal into the
+# %% 14.6 wrong: the name of a Python script | hint: roslaunch does not find a program
 replace('type="improved_pubvel_toggle"', 'type="improved_pubvel_toggle.py"')
-# %% 14.6 wrong: true by default | hint: Without an argument, the node must not start
+# %% 14.6 wrong: true by default | hint: spawn_turtle_plus must not start without an argument
 replace('default="false"', 'default="true"')
-# %% 14.6 wrong: no default | hint: The argument has no default value
+# %% 14.6 wrong: no default | hint: The argument addturtle has no default value
 replace(' default="false"', '')
-# %% 14.6 wrong: no condition | hint: The node is also started with addturtle:=false
+# %% 14.6 wrong: no condition | hint: spawn_turtle_plus also starts with addturtle:=false
 replace('if="$(arg addturtle)" ', '')
 
 # %% 14.7 right: a MultiThreadedSpinner
@@ -312,18 +312,18 @@ replace("""ros::MultiThreadedSpinner spinner(4);
   spinner.spin();""", "ros::AsyncSpinner threads(8);\n  threads.start();\n  ros::waitForShutdown();")
 # %% 14.7 wrong: as it was | hint: Use a MultiThreadedSpinner or an AsyncSpinner
 replace('  ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();\n', '  ros::spin(); // changed\n')
-# %% 14.7 wrong: one thread | hint: The handler of /report waits for /battery, but no thread is left
+# %% 14.7 wrong: one thread | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('spinner(4)', 'spinner(1)')
 # %% 14.7 wrong: three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
-# %% 14.7 wrong: no call | hint: Do not change the two handlers
+# %% 14.7 wrong: no call | hint: The handlers were changed
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
-# %% 14.7 wrong: no parameter | hint: The level has to come from the parameter ~level
+# %% 14.7 wrong: no parameter | hint: The level in the message is wrong
 replace('  ros::param::param("~level", level, 80);\n', '')
 # %% 14.7 wrong: another message | hint: a colon, a space and the level
 replace('"battery: "', '"Battery "')
-# %% 14.7 wrong: a client of another name | hint: The handler returned false, because its call of /battery failed
+# %% 14.7 wrong: a client of another name | hint: The handler of /report returned false, because its call of /battery failed
 replace('<std_srvs::Trigger>("battery")', '<std_srvs::Trigger>("level")')
 
 # %% 14.8 right: an AsyncSpinner for the queue
@@ -337,14 +337,14 @@ replace("spin();", "spin();\n  worker.join();")
 replace('  ros::CallbackQueue queue;\n  ros::NodeHandle other;\n  other.setCallbackQueue(&queue);\n', '')
 replace('other.advertise', 'node.advertise')
 replace('spinner(1, &queue)', 'spinner(4)')
-# %% 14.8 wrong: no spinner for the queue | hint: The handler of /report waits for /battery, but no thread is left
+# %% 14.8 wrong: no spinner for the queue | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('  spinner.start();\n', '')
-# %% 14.8 wrong: both in the new queue | hint: The handler of /report waits for /battery, but no thread is left
+# %% 14.8 wrong: both in the new queue | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 # %% 14.8 wrong: both in a queue with four threads | hint: One call works, but eight calls at the same time do not end
 replace('node.advertiseService("report"', 'other.advertiseService("report"')
 replace('spinner(1, &queue)', 'spinner(4, &queue)')
-# %% 14.8 wrong: no call | hint: Do not change the two handlers
+# %% 14.8 wrong: no call | hint: The handlers were changed
 replace('  std_srvs::Trigger inner;\n  if (!battery.call(inner)) {\n    return false;\n  }\n', '')
 replace('inner.response.message', 'std::to_string(level)')
 
@@ -387,21 +387,21 @@ int main(int argc, char** argv) {
 }
 """
 
-# %% 14.9 wrong: one count for all | hint: This is the number of all calls
+# %% 14.9 wrong: one count for all | hint: The response contains the number of all calls
 replace('++calls[session->second]', '++calls["all"]')
-# %% 14.9 wrong: the name of the node | hint: This is the number of all calls
+# %% 14.9 wrong: the name of the node | hint: The response contains the number of all calls
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
-# %% 14.9 wrong: the session and the name of the node | hint: Another node can continue a session
+# %% 14.9 wrong: the session and the name of the node | hint: The handler uses the node's name
 replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
-# %% 14.9 wrong: counts afterwards | hint: This is the number of calls before this call
+# %% 14.9 wrong: counts afterwards | hint: The response contains the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
 # %% 14.9 wrong: a map in the handler | hint: The count starts again in each call
 replace('std::map<std::string, int> calls;\n', '')
 replace('bool handleCount(Event& event) {\n', 'bool handleCount(Event& event) {\n  std::map<std::string, int> calls;\n')
 # %% 14.9 wrong: no message | hint: The message is empty
 replace('event.getResponse().message = std::to_string(++calls[session->second])', '++calls[session->second]')
-# %% 14.9 wrong: no look at the header | hint: The header had no field "session", but the call got a count
+# %% 14.9 wrong: no look at the header | hint: The header had no field "session", but the response contains a count
 replace('  if (session == header.end()) {\n    return false;\n  }\n', '  std::string key = session == header.end() ? "" : session->second;\n')
 replace('++calls[session->second]', '++calls[key]')
-# %% 14.9 wrong: another field | hint: The header of the call had the field "session", but the response
+# %% 14.9 wrong: another field | hint: The response does not contain the number of calls in the session
 replace('find("session")', 'find("Session")')

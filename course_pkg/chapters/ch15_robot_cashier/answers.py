@@ -48,29 +48,29 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, and all other points are very
+# %% 15.1 wrong: the mean brightness | hint: A fifth of the points is dark, so this frame shows a customer
 replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * frame.width * frame.height")
 # %% 15.1 wrong: any dark point | hint: Only a twentieth of the points is dark
 replace("10 * dark >= frame.width * frame.height", "dark > 0")
-# %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, which is enough
+# %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, and this is enough
 replace(">= frame.width", "> frame.width")
-# %% 15.1 wrong: rounded | hint: The number of dark points was one less than a tenth
+# %% 15.1 wrong: rounded | hint: The number of dark points is one less than a tenth, so this frame
 replace("10 * dark >= frame.width * frame.height", "round(dark / (frame.width * frame.height), 2) >= 0.1")
-# %% 15.1 wrong: 96 is dark | hint: All points that look dark have the value 96, but a point
+# %% 15.1 wrong: 96 is dark | hint: Some points have the value 96, but a point is dark only if its
 replace("point < 96", "point <= 96")
-# %% 15.1 wrong: the padding counts | hint: A row has frame.step bytes, but only the first frame.width bytes are
+# %% 15.1 wrong: the padding counts | hint: Each row has frame.step bytes, but only the first frame.width bytes are points
 replace("frame.data[start : start + frame.width]", "frame.data[start : start + frame.step]")
 # %% 15.1 wrong: always True | hint: All points are light
 replace("10 * dark >= frame.width * frame.height", "dark >= 0")
-# %% 15.1 wrong: publishes only customers | hint: The node published nothing for a valid frame
+# %% 15.1 wrong: publishes only customers | hint: The node published nothing for a valid frame. Check whether the callback
 replace("if customer is not None:", "if customer:")
 # %% 15.1 wrong: publishes twice | hint: The node published more than one message for a frame
 replace("        seen.publish(customer)", "        seen.publish(customer)\n        seen.publish(customer)")
-# %% 15.1 wrong: a malformed frame ends the node | hint: After a malformed frame, the node published nothing for a valid frame
+# %% 15.1 wrong: a malformed frame ends the node | hint: The node published nothing for a valid frame after a malformed frame
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None", "    if len(frame.data) != frame.height * frame.step:\n        rospy.signal_shutdown('malformed')\n        return None")
 # %% 15.1 wrong: bytes are missing | hint: Bytes are missing in this frame
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None\n", "")
-# %% 15.1 wrong: too many bytes | hint: compare with !=, not with <
+# %% 15.1 wrong: too many bytes | hint: This frame has more bytes than height * step, so it is malformed
 replace("len(frame.data) != frame", "len(frame.data) < frame")
 # %% 15.1 wrong: any encoding | hint: This frame has three bytes for each point
 replace('frame.encoding != "mono8" or ', "")
@@ -78,13 +78,13 @@ replace('frame.encoding != "mono8" or ', "")
 replace(" or frame.step < frame.width", "")
 # %% 15.1 wrong: an empty frame | hint: A frame of 0 by 0 points
 replace('if frame.encoding != "mono8" or not frame.width or not frame.height or frame.step < frame.width:\n        return None', 'if frame.encoding != "mono8" or frame.step < frame.width:\n        return None\n    if not frame.data:\n        return False')
-# %% 15.1 wrong: no width | hint: all bytes are padding
+# %% 15.1 wrong: no width | hint: The width of this frame is 0, so all its bytes are padding
 replace('not frame.width or not frame.height or', 'not frame.data or')
-# %% 15.1 wrong: another type | hint: The frames have the type sensor_msgs/Image
+# %% 15.1 wrong: another type | hint: The node does not subscribe to the frames with the right type
 replace("import Image", "import CompressedImage as Image")
 # %% 15.1 wrong: a global name | hint: The program uses the global name
 replace('"frames"', '"/frames"')
-# %% 15.1 wrong: another node name | hint: Call rospy.init_node … without anonymous=True, before
+# %% 15.1 wrong: another node name | hint: The program did not create the right node … The program did not create the right node
 replace('init_node("vision")', 'init_node("camera")')
 # %% 15.1 wrong: a misspelt topic | hint: The program runs, but no part of it
 replace('"customer_seen"', '"costumer_seen"')
@@ -125,16 +125,16 @@ def main():
     rospy.Service("detect_customer", AwaitCustomer, handle)
     rospy.spin()""")
 replace('rospy.init_node("customer_detector")\n    Detector()\n    rospy.spin()', "main()")
-# %% 15.2 wrong: remembers a customer | hint: In the newest message, no customer is there, but found is True
+# %% 15.2 wrong: remembers a customer | hint: The newest message reports no customer, but `found` is True in the response
 replace("self.customer = message.data", "self.customer = self.customer or message.data")
-# %% 15.2 wrong: does not wait | hint: The response came too early, although no customer was
+# %% 15.2 wrong: does not wait | hint: The response came too early
 based_on("a loop that looks again and again")
 replace("while not newest and", "while False and")
-# %% 15.2 wrong: waits for 1 s at most | hint: The response came too early, although no customer was
+# %% 15.2 wrong: waits for 1 s at most | hint: The response came too early
 replace("timeout=request.patience)", "timeout=min(request.patience, 1.0))")
-# %% 15.2 wrong: waits without a limit | hint: The response came too late: use request.patience
+# %% 15.2 wrong: waits without a limit | hint: The response came too late
 replace(", timeout=request.patience)", ", timeout=30)")
-# %% 15.2 wrong: always False | hint: In the newest message, a customer is there, but found is False
+# %% 15.2 wrong: always False | hint: The newest message reports a customer, but `found` is False in the response
 based_on("a loop that looks again and again")
 replace("found=bool(newest)", "")
 # %% 15.2 wrong: waits before it looks | hint: A customer was there before the call
@@ -146,12 +146,12 @@ replace("        with self.changed:\n            end", "        with self.turn, 
 replace("        self.customer = False", "        self.customer = False\n        self.turn = threading.Lock()")
 # %% 15.2 wrong: wakes up one thread only | hint: The customer came while several calls were waiting, but one of these
 replace("            self.customer = message.data\n            self.changed.notify_all()", "            if message.data and not self.customer:\n                self.changed.notify()\n            self.customer = message.data")
-# %% 15.2 wrong: no limits | hint: The field `patience` has to be from 0 to 60 s
+# %% 15.2 wrong: no limits | hint: The handler accepted an impossible value of `patience`
 replace("if not 0 <= request.patience <= 60:", "if False:")
 replace("timeout=request.patience)", "timeout=max(0, request.patience))")
-# %% 15.2 wrong: accepts nan | hint: Each comparison with nan (not a number) is False
+# %% 15.2 wrong: accepts nan | hint: The handler accepted nan (not a number), because each comparison with nan is False
 replace("if not 0 <= request.patience <= 60:", "if request.patience < 0 or request.patience > 60:")
-# %% 15.2 wrong: a message without patience | hint: The error message has to contain the word "patience"
+# %% 15.2 wrong: a message without patience | hint: The error message does not contain the word "patience"
 replace('"patience has to be', '"it has to be')
 # %% 15.2 wrong: a long patience is cut | hint: The handler waited before it refused
 replace("if not 0 <= request.patience <= 60:", "if request.patience != request.patience or request.patience < 0:")
@@ -162,7 +162,7 @@ replace("raise rospy.ServiceException", "raise ValueError")
 replace("0 <= request", "0 < request")
 # %% 15.2 wrong: refuses 60 s | hint: The handler refused a valid call
 replace("<= 60:", "< 60:")
-# %% 15.2 wrong: another type | hint: has the type std_msgs/Bool
+# %% 15.2 wrong: another type | hint: The node does not subscribe to customer_seen with the right type
 replace("import Bool", "import Int32 as Bool")
 
 # %% 15.3 right: a condition, and the time of the newest message
@@ -213,17 +213,20 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.3 wrong: the detector of 15.2 | hint: The camera sends no messages, so the node does not know whether a customer is there
+# %% 15.3 wrong: the detector of 15.2 | hint: Without messages from the camera, the node does not know whether a customer is
 replace("return time.monotonic() - self.arrived > 1.0", "return False")
-# %% 15.3 wrong: an old customer counts | hint: The last message is older than 1 s
+# %% 15.3 wrong: an old customer counts | hint: The handler used a message that is older than 1 s
 replace("lambda: self.customer and not self.is_silent()", "lambda: self.customer")
 # %% 15.3 wrong: refuses at once | hint: The node refused the call too early
 replace("        with self.changed:\n            found", "        if self.is_silent():\n            raise rospy.ServiceException('the camera is silent')\n        with self.changed:\n            found")
-# %% 15.3 wrong: a message counts for 0.2 s | hint: The last message was less than 1 s old
+# %% 15.3 wrong: uses only messages that come during the call | hint: A message that arrived before the call is valid, too
+replace("        with self.changed:\n            found", "        began = time.monotonic()\n        with self.changed:\n            found")
+replace("if not found and self.is_silent()", "if not found and self.arrived < began")
+# %% 15.3 wrong: a message counts for 0.2 s | hint: The node did not use the last message
 replace("self.arrived > 1.0", "self.arrived > 0.2")
-# %% 15.3 wrong: a message without camera | hint: The error message has to contain the word "camera"
+# %% 15.3 wrong: a message without camera | hint: The error message does not contain the word "camera"
 replace('"the camera is silent"', '"nothing is known"')
-# %% 15.3 wrong: silence at the beginning counts | hint: The camera sent no messages for some time, but new messages came
+# %% 15.3 wrong: silence at the beginning counts | hint: The camera stopped for some time, but new messages came before the end of
 replace("        with self.changed:\n            found", "        silent = self.is_silent()\n        with self.changed:\n            found")
 replace("            if not found and self.is_silent():", "            if silent:")
 
@@ -265,35 +268,39 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.5 wrong: unchanged | hint: is not changed: give each number the opposite sign
+# %% 15.5 wrong: unchanged | hint: ` has not changed
 replace("[-value for value in joints.velocity]", "joints.velocity")
 # %% 15.5 wrong: an empty list | hint: is empty in the image
 replace("                velocity=[-value for value in joints.velocity],\n", "")
-# %% 15.5 wrong: always negative | hint: use -value, not -abs(value)
+# %% 15.5 wrong: always negative | hint: A negative number has to become a positive number
 replace("[-value for value in joints.position]", "[-abs(value) for value in joints.position]")
 # %% 15.5 wrong: reversed | hint: Some numbers are wrong
 replace("[-value for value in joints.position]", "[-value for value in reversed(joints.position)]")
-# %% 15.5 wrong: a new stamp | hint: The stamp of the image is not the stamp of its joint
+# %% 15.5 wrong: a new stamp | hint: The stamp of an image is different from the stamp of its joint state
 replace("                header=joints.header,\n", "")
 # %% 15.5 wrong: the stamp only | hint: Copy the whole header, with stamp and frame_id
 replace("        mirrored.publish(", "        joints.header.frame_id = ''\n        mirrored.publish(")
-# %% 15.5 wrong: no effort | hint: has to stay the same: copy the list
+# %% 15.5 wrong: no effort | hint: ` has changed, but it has to stay the same
 replace("                effort=joints.effort,\n", "")
 # %% 15.5 wrong: any number of positions | hint: The numbers of names and positions are different
 replace("len(joints.position) != count or ", "")
-# %% 15.5 wrong: any number of velocities | hint: The number of velocities has to be 0 or equal to the number of names
+# %% 15.5 wrong: any number of velocities | hint: The number of velocities has to be 0 or equal to the number of
 replace(" or len(joints.velocity) not in (0, count)", "")
-# %% 15.5 wrong: nan is mirrored | hint: nan and inf are not valid positions or velocities
+# %% 15.5 wrong: nan is mirrored | hint: A position or velocity was nan or inf, which is not valid
 replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "True")
-# %% 15.5 wrong: zeros for an invalid one | hint: Publish nothing for an invalid joint state
+# %% 15.5 wrong: zeros for an invalid one | hint: The node published zeros for an invalid joint state, so the arm would move
 replace("    if is_valid(joints):", "    if not is_valid(joints):\n        joints.position, joints.velocity = [0.0] * len(joints.name), []\n    if True:")
-# %% 15.5 wrong: needs velocities | hint: A joint state without velocities is valid
+# %% 15.5 wrong: needs velocities | hint: The node ignored a joint state without velocities, which is valid
 replace("not in (0, count)", "!= count")
-# %% 15.5 wrong: finite efforts only | hint: only positions and velocities have to be finite
+# %% 15.5 wrong: finite efforts only | hint: The node ignored a joint state with an infinite effort, which is valid
 replace("*joints.velocity]", "*joints.velocity, *joints.effort]")
-# %% 15.5 wrong: published twice | hint: Publish once for each joint state
+# %% 15.5 wrong: compares the number of efforts | hint: The conditions do not mention the number of efforts
+replace("len(joints.velocity) not in (0, count)", "len(joints.velocity) not in (0, count) or len(joints.effort) not in (0, count)")
+# %% 15.5 wrong: leaves out a joint state without joints | hint: A joint state with 0 names and 0 positions is valid
+replace("if len(joints.position) != count", "if not count or len(joints.position) != count")
+# %% 15.5 wrong: published twice | hint: Some images arrived more than once
 replace("        mirrored.publish(", "        mirrored.publish(JointState(joints.header, joints.name, [-p for p in joints.position], [-v for v in joints.velocity], joints.effort))\n        mirrored.publish(")
-# %% 15.5 wrong: ends with the first invalid one | hint: No image came after the first invalid joint state
+# %% 15.5 wrong: ends with the first invalid one | hint: No image arrived after the first invalid joint state
 replace("    if is_valid(joints):", "    if not is_valid(joints):\n        subscriber.unregister()\n    else:")
 replace('    rospy.Subscriber("joint', '    subscriber = rospy.Subscriber("joint')
 # %% 15.5 wrong: a loop with a pause | hint: Some images are missing
@@ -301,11 +308,11 @@ replace('("robot_cashier")', '("robot_cashier")\n    rospy.Subscriber("joint_sta
 replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.spin()', """while not rospy.is_shutdown():
         handle_joints(rospy.wait_for_message("joint_states", JointState))
         rospy.sleep(0.1)""")
-# %% 15.5 wrong: publishes later | hint: The images come late
+# %% 15.5 wrong: publishes later | hint: The images arrive late
 replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
-# %% 15.5 wrong: publishes nothing | hint: No mirror image came
-replace("    if is_valid(joints):", "    if not joints.name:")
-# %% 15.5 wrong: another type | hint: The topic joint_states has the type sensor_msgs/JointState
+# %% 15.5 wrong: publishes nothing | hint: No mirror image arrived
+replace("    if is_valid(joints):", "    if joints is None:")
+# %% 15.5 wrong: another type | hint: The node does not subscribe to joint_states with the right type
 replace('''"joint_states", JointState, handle''', '''"joint_states", JointTrajectory, handle''')
 replace("import math\n", "import math\n\nfrom std_msgs.msg import Header as JointTrajectory\n")
 
@@ -375,51 +382,51 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.6 wrong: mirrors only | hint: No call came
+# %% 15.6 wrong: mirrors only | hint: No call arrived
 replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
-# %% 15.6 wrong: calls once | hint: The node called the service once, but it did not call the service again
+# %% 15.6 wrong: calls once | hint: The node called the service only once
 replace("while not rospy … attend_visit()", "while is_there(wait) is None:\n        pass\n    rospy.spin()")
-# %% 15.6 wrong: an error at the start ends it | hint: The node called a service that did not exist yet, and the
+# %% 15.6 wrong: an error at the start ends it | hint: The node called a service that did not exist yet, and rospy.ServiceException ended the
 replace('rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "raise")
-# %% 15.6 wrong: a refusal ends it | hint: There was no call after a failed call
+# %% 15.6 wrong: a refusal ends it | hint: The node made no call after a failed call
 replace("    while not rospy.is_shutdown():\n        if is_there", "    rospy.wait_for_service('detect_customer')\n    while not rospy.is_shutdown():\n        if is_there")
 replace('        rospy.logwarn("detect_customer: %s", error)\n        rospy.sleep(0.5)\n        return None', "        raise")
-# %% 15.6 wrong: a reset that fails ends it | hint: The call of till/reset failed, and then no call of detect_customer followed
+# %% 15.6 wrong: a reset that fails ends it | hint: A call of till/reset failed, and the node then stopped calling detect_customer
 replace('''        rospy.logwarn("till/reset: %s", error)''', '''        raise''')
-# %% 15.6 wrong: another default | hint: Without a parameter, the field `patience` has to be 2 s: use
+# %% 15.6 wrong: another default | hint: Use rospy.get_param("~wait", 2.0)
 replace('"~wait", 2.0', '"~wait", 5.0')
-# %% 15.6 wrong: a fixed patience | hint: The field `patience` has to be the private parameter "~wait" of the node
+# %% 15.6 wrong: a fixed patience | hint: The field `patience` has a wrong value
 replace('rospy.get_param("~wait", 2.0)', '2.0')
-# %% 15.6 wrong: waits for the next customer at once | hint: In the last response, found was True, so a customer is there
+# %% 15.6 wrong: waits for the next customer at once | hint: In the last response, `found` was True, so a customer is there
 replace("    there = True\n", "    there = False\n")
 # %% 15.6 wrong: a refusal ends a visit | hint: A failed call does not end a visit
 replace("while there is not False and", "while there and")
-# %% 15.6 wrong: calls with 0 after a visit | hint: In the last response, found was False, so no customer is there
+# %% 15.6 wrong: calls with 0 after a visit | hint: In the last response, `found` was False, so no customer is there
 replace("there = is_there(0)", "there = is_there(0)\n    is_there(0)")
 # %% 15.6 wrong: no pause during a visit | hint: wait 0.2 s between two calls
 replace("        rospy.sleep(0.2)\n", "")
-# %% 15.6 wrong: no pause after a refusal | hint: After a failed call, the next call came immediately
+# %% 15.6 wrong: no pause after a refusal | hint: The node made the next call immediately after a failed call
 replace("        rospy.sleep(0.5)\n", "")
 # %% 15.6 wrong: a long pause | hint: the next call came too late
 replace("rospy.sleep(0.5)", "rospy.sleep(3)")
-# %% 15.6 wrong: another call before the response | hint: The node made another call before the response came
+# %% 15.6 wrong: another call before the response | hint: The node made a second call before it got the first response
 replace("import math", "import math\nimport threading")
 replace("return detect(patience).found", """results = []
         thread = threading.Thread(target=lambda: results.append(detect(patience).found), daemon=True)
         thread.start()
         thread.join(0.8)
         return results[0] if results else False""")
-# %% 15.6 wrong: no greeting | hint: A customer came, but no greeting followed
+# %% 15.6 wrong: no greeting | hint: A customer came, but the node sent no greeting
 replace('    greetings.publish("Good day!")\n', "")
-# %% 15.6 wrong: greets again | hint: There were more greetings than visits
+# %% 15.6 wrong: greets again | hint: The node published more than one greeting in a visit
 replace("        there = is_there(0)\n", "        there = is_there(0)\n        if there:\n            greetings.publish('Good day!')\n")
-# %% 15.6 wrong: the response as a truth value | hint: The node acted as if a customer was there, although found was
+# %% 15.6 wrong: the response as a truth value | hint: `found` was False, but the node acted as if a customer was there
 replace("return detect(patience).found", "return bool(detect(patience))")
 # %% 15.6 wrong: another greeting | hint: The text of the greeting is wrong
 replace("Good day!", "Hello")
-# %% 15.6 wrong: no reset | hint: till/reset was not called
+# %% 15.6 wrong: no reset | hint: The visit is over, but the node did not call till/reset
 replace("        reset()\n", "        pass\n")
-# %% 15.6 wrong: resets when a visit begins | hint: till/reset was called before the visit had ended
+# %% 15.6 wrong: resets when a visit begins | hint: The node called till/reset before the visit had ended
 replace("""    try:
         reset()
     except rospy.ServiceException as error:
@@ -431,11 +438,16 @@ replace('    there = True\n', """    there = True
     except rospy.ServiceException:
         pass
 """)
-# %% 15.6 wrong: waits for a till | hint: Do not wait for this service without a limit
+# %% 15.6 wrong: waits for a till | hint: The service till/reset does not exist, and the node stopped calling detect_customer
 replace("        reset()\n", '        rospy.wait_for_service("till/reset")\n        reset()\n')
-# %% 15.6 wrong: resets before and after | hint: more often than there were visits
+# %% 15.6 wrong: resets before and after | hint: The node called till/reset more than once after a visit
 replace('    greetings.publish("Good day!")\n', '    greetings.publish("Good day!")\n    try:\n        reset()\n    except rospy.ServiceException:\n        pass\n')
-# %% 15.6 wrong: calls in the callback | hint: While a call waits, no joint state is mirrored
+# %% 15.6 wrong: mirrors nothing during a visit | hint: During a visit, the node mirrored nothing
+replace("def is_valid", "visiting = False\n\n\ndef is_valid")
+replace("    if is_valid(joints):", "    if is_valid(joints) and not visiting:")
+replace('    greetings.publish("Good day!")\n', '    global visiting\n    visiting = True\n    greetings.publish("Good day!")\n')
+replace("    try:\n        reset()\n", "    visiting = False\n    try:\n        reset()\n")
+# %% 15.6 wrong: calls in the callback | hint: The node publishes no mirror image while a call waits
 replace("handle_joints(joints):", "handle_joints(joints):\n    if is_there(wait):\n        attend_visit()")
 replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
 
@@ -462,38 +474,38 @@ replace("main()", """rospy.init_node("ask_customer")
         print("nobody")""")
 # %% 15.4 wrong: does not wait | hint: The service started 1 s after the program, but the program had
 replace('        rospy.wait_for_service("detect_customer", timeout=3)\n', "")
-# %% 15.4 wrong: a fixed patience | hint: The field `patience` has to be the private parameter "~wait" of the node
+# %% 15.4 wrong: a fixed patience | hint: The field `patience` has a wrong value
 replace('rospy.get_param("~wait", 2.0)', "2.0")
-# %% 15.4 wrong: another default | hint: the second argument of rospy.get_param is the default
+# %% 15.4 wrong: another default | hint: The second argument of rospy.get_param is this default value
 replace('"~wait", 2.0', '"~wait", 5.0')
 # %% 15.4 wrong: calls twice | hint: The program called the service more than once
 replace('AwaitCustomer)(patience)', 'AwaitCustomer)(patience)\n        response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)')
 # %% 15.4 wrong: does not call | hint: The program did not call the service
 replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'rospy.ServiceProxy("detect_customer", AwaitCustomer)')
 replace('response.found', 'patience')
-# %% 15.4 wrong: spins | hint: The program called the service, but it did not end
+# %% 15.4 wrong: spins | hint: The program called the service, but the program did not end
 replace('else "nobody")', 'else "nobody")\n    rospy.spin()')
 # %% 15.4 wrong: prints nothing | hint: The program printed nothing
 replace('print("customer" if', '("customer" if')
-# %% 15.4 wrong: the response as a truth value | hint: found was False, but the program printed "customer"
+# %% 15.4 wrong: the response as a truth value | hint: `found` was False, but the program printed "customer"
 replace("if response.found", "if response")
-# %% 15.4 wrong: prints the response | hint: The line has to contain only the word "customer" or only the
+# %% 15.4 wrong: prints the response | hint: The program printed a wrong line
 replace('"customer" if response.found else "nobody"', "response")
-# %% 15.4 wrong: two lines | hint: The program printed other lines, too
+# %% 15.4 wrong: two lines | hint: The program printed more than one line
 replace('    print("customer"', '    print("The detector says:")\n    print("customer"')
-# %% 15.4 wrong: an error status for nobody | hint: remove the call of sys.exit
+# %% 15.4 wrong: an error status for nobody | hint: "nobody" is a valid result, so the exit status has to be 0
 replace('else "nobody")', 'else "nobody")\n    sys.exit(0 if response.found else 3)')
 # %% 15.4 wrong: a refusal is not caught | hint: A refused call raises rospy.ServiceException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ROSException")
-# %% 15.4 wrong: a message without the reason | hint: The output does not contain the reason for the failure: print the
+# %% 15.4 wrong: a message without the reason | hint: The output does not contain the reason for the failure
 replace("sys.exit(str(error))", 'sys.exit("failed")')
 # %% 15.4 wrong: exit status 0 after a refusal | hint: The call failed, so the exit status has to be 1
 replace("sys.exit(str(error))", "print(error)\n        return")
-# %% 15.4 wrong: waits without a limit | hint: There was no service, but the program waited for more than 3
+# %% 15.4 wrong: waits without a limit | hint: The service does not exist, and the program waited for more than 3 s
 replace(", timeout=3)", ")")
 # %% 15.4 wrong: the timeout is not caught | hint: After its timeout, rospy.wait_for_service raises rospy.ROSException
 replace("(rospy.ROSException, rospy.ServiceException)", "rospy.ServiceException")
-# %% 15.4 wrong: silent without a service | hint: There was no service, but the program ended without a message
+# %% 15.4 wrong: silent without a service | hint: The service does not exist, and the program ended without a message
 based_on("two functions, and a status")
 replace('        print("no detector:", e, file=sys.stderr)\n', "")
 
@@ -526,30 +538,30 @@ replace("""rospy.init_node("till")
     rospy.Service("till/set", TillSet, handle_set)
     rospy.Service("till/total", TillTotal, handle_total)
     rospy.spin()""", "main()")
-# %% 15.7 wrong: the cents of the item | hint: The total has to be the sum of the cents of all
+# %% 15.7 wrong: the cents of the item | hint: The total is wrong
 replace("    return sum(prices.values())\n", "    return request.cents\n")
-# %% 15.7 wrong: an item counts twice | hint: If an item is set again, only the new price counts
+# %% 15.7 wrong: an item counts twice | hint: The total contains the old price and the new price of an item
 based_on("a class that keeps the total")
 replace(" - self.items.get(req.item, 0)", "")
-# %% 15.7 wrong: no free items | hint: An item that costs 0 cents is also an item
+# %% 15.7 wrong: no free items | hint: An item that costs 0 cents is missing
 replace("sum(prices.values()), len(prices)", "sum(prices.values()), len([p for p in prices.values() if p])")
-# %% 15.7 wrong: counts calls | hint: The field `items` has to be the number of different items
+# %% 15.7 wrong: counts calls | hint: The field `items` is wrong
 based_on("a class that keeps the total")
 replace("        self.items[req.item] =", "        self.calls = getattr(self, 'calls', 0) + 1\n        self.items[req.item] =")
 replace("len(self.items)", "getattr(self, 'calls', 0)")
-# %% 15.7 wrong: the largest price | hint: The field `cents` of till/total has to be the same sum as
+# %% 15.7 wrong: the largest price | hint: The field `cents` of till/total is wrong
 replace("sum(prices.values()), len(prices)", "max(prices.values(), default=0), len(prices)")
-# %% 15.7 wrong: negative cents | hint: Negative cents have to be refused
+# %% 15.7 wrong: negative cents | hint: The till accepted negative cents
 replace("request.cents < 0", "False")
-# %% 15.7 wrong: a message without the cents | hint: contain the name of the item and the cents
+# %% 15.7 wrong: a message without the cents | hint: The error message is not complete
 replace('f"{request.item}: {request.cents} cents are negative"', '"an item cannot be negative"')
-# %% 15.7 wrong: no name | hint: An item with an empty name has to be refused
+# %% 15.7 wrong: no name | hint: The till accepted an item with an empty name
 replace("if not request.item:", "if False:")
-# %% 15.7 wrong: stores before it refuses | hint: The call was refused, but the content of the till has changed
+# %% 15.7 wrong: stores before it refuses | hint: The till refused the call, but its content has changed
 replace('    if not request.item:', '    prices[request.item] = request.cents\n    if not request.item:')
-# %% 15.7 wrong: 32 bits | hint: The sum of amounts above 2147483647 has to be right, too
+# %% 15.7 wrong: 32 bits | hint: The till returned a wrong sum above 2147483647
 replace("    prices[request.item] = request.cents\n", "    prices[request.item] = min(request.cents, 2**31 - 1)\n")
-# %% 15.7 wrong: small letters | hint: milk and MILK are two different items
+# %% 15.7 wrong: small letters | hint: The items milk and MILK are two different items
 replace("prices[request.item]", "prices[request.item.lower()]")
 # %% 15.7 wrong: refuses 0 cents | hint: The till refused a valid item
 replace("request.cents < 0", "request.cents <= 0")
@@ -586,9 +598,9 @@ replace("def handle_set … len(prices)", """class Till:
     def total(self, req):
         return TillTotalResponse(sum(self.items.values()), len(self.items))""")
 replace("print_line = rospy … handle_total)", "Till()")
-# %% 15.8 wrong: prints nothing | hint: Nothing was printed. Call print_line
+# %% 15.8 wrong: prints nothing | hint: The till printed nothing
 replace('        print_line(f"{request.item} {request.cents}")\n', "")
-# %% 15.8 wrong: another line | hint: The line has to be the name of the item, one space,
+# %% 15.8 wrong: another line | hint: The printed line is wrong
 replace('"{request.item} {request.cents}"', '"{request.item}: {request.cents}"')
 # %% 15.8 wrong: the refusal is swallowed | hint: The printer refused the line, but the till accepted the item
 replace('        print_line(f"{request.item} {request.cents}")\n', '''        try:
@@ -596,7 +608,7 @@ replace('        print_line(f"{request.item} {request.cents}")\n', '''        tr
         except rospy.ServiceException as error:
             rospy.logwarn(error)
 ''')
-# %% 15.8 wrong: the reason is lost | hint: has to contain the printer's message
+# %% 15.8 wrong: the reason is lost | hint: The error message does not contain the printer's message
 based_on("acquire and release, and the error is caught")
 replace('"not printed: " + str(e)', '"not printed"')
 # %% 15.8 wrong: counts first | hint: The line was not printed, but the till counts the item
@@ -604,7 +616,7 @@ based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
 # %% 15.8 wrong: waits for a printer | hint: Do not wait for the service without a limit
 replace("        print_line(f", "        rospy.wait_for_service('print_line')\n        print_line(f")
-# %% 15.8 wrong: repeats a refused line | hint: The till called print_line again after a refusal
+# %% 15.8 wrong: repeats a refused line | hint: The till called print_line again after the printer had refused
 replace('        print_line(f"{request.item} {request.cents}")\n', """        try:
             print_line(f"{request.item} {request.cents}")
         except rospy.ServiceException:
@@ -612,18 +624,18 @@ replace('        print_line(f"{request.item} {request.cents}")\n', """        tr
 """)
 # %% 15.8 wrong: no line for the old price | hint: The item already had this price
 replace("        print_line(", "        if prices.get(request.item) != request.cents:\n            print_line(")
-# %% 15.8 wrong: prints what it refuses | hint: A line was printed for a refused item
+# %% 15.8 wrong: prints what it refuses | hint: The till printed a line for a refused item
 replace('    if not request.item:', '    print_line(f"{request.item} {request.cents}")\n    if not request.item:')
 replace('        print_line(f"{request.item} {request.cents}")\n        prices', '        prices')
 # %% 15.8 wrong: no lock | hint: The printer got two lines at the same time
 replace("    with turn:\n        print_line", "    if True:\n        print_line")
-# %% 15.8 wrong: repeats until the printer is free | hint: A line was refused, because another line was being printed
+# %% 15.8 wrong: repeats until the printer is free | hint: The printer refused a line, because it was still printing another line
 based_on("the refusal is swallowed")
 replace("""raise rospy.ServiceException(f"{request.item}: {request.cents} cents are negative")
     with turn:""", 'raise rospy.ServiceException(f"{request.item}: {request.cents} cents are negative")\n    for attempt in range(200):')
 replace('(f"{request.item} {request.cents}")', '(f"{request.item} {request.cents}")\n            break')
 replace("rospy.logwarn(error)", 'if "jam" not in str(error):\n                raise\n            rospy.sleep(0.01)\n    with turn:')
-# %% 15.8 wrong: the lock ends before the sum | hint: A total is not the sum of the lines that were printed
+# %% 15.8 wrong: the lock ends before the sum | hint: A total is not the sum of the lines printed before, because another call
 replace("""prices[request.item] = request.cents
         return sum(prices.values())""", "prices[request.item] = request.cents\n    rospy.sleep(0.2)\n    return sum(prices.values())")
 # %% 15.8 wrong: the lock stays locked | hint: After a refused call, the next call got no response
@@ -672,19 +684,19 @@ replace('def handle_set … paid} cents"', """class Till:
             self.items = {}
         return response""")
 replace("print_line = rospy … handle_reset)", "Till()")
-# %% 15.9 wrong: fails when it is empty | hint: A reset has to succeed in every case
+# %% 15.9 wrong: fails when it is empty | hint: The field `success` is False, but a reset always succeeds
 replace('True, "already empty"', 'False, "already empty"')
-# %% 15.9 wrong: prints the sum | hint: A reset has to succeed in every case
+# %% 15.9 wrong: prints the sum | hint: The field `success` is False, but a reset always succeeds
 replace("        prices.clear()\n", '        prices.clear()\n        print_line(f"sum {paid}")\n')
-# %% 15.9 wrong: another message | hint: The message has to be the word "paid", the sum of all
+# %% 15.9 wrong: another message | hint: The message is wrong
 replace('f"paid {paid} cents"', 'f"{paid} cents paid"')
-# %% 15.9 wrong: no message for an empty till | hint: If the till has no items, the message has to be "already
+# %% 15.9 wrong: no message for an empty till | hint: The till has no items, so the message has to be "already empty"
 replace('        if not prices:\n            return True, "already empty"\n', "")
-# %% 15.9 wrong: looks at the sum | hint: The till has an item, although its sum is 0
+# %% 15.9 wrong: looks at the sum | hint: The till has an item that costs 0 cents, so it is not empty
 replace("if not prices:", "if not sum(prices.values()):")
 # %% 15.9 wrong: keeps the items | hint: The till still has items after a reset
 replace("        prices.clear()\n", "")
-# %% 15.9 wrong: a sum before the lock | hint: A line was being printed during the reset, but its item is
+# %% 15.9 wrong: a sum before the lock | hint: The printer was printing a line during the reset, but this item is missing
 replace("handle_reset(request):", """handle_reset(request):
     if not prices:
         return True, "already empty"
@@ -692,7 +704,7 @@ replace("handle_reset(request):", """handle_reset(request):
 replace('\n        if not prices:\n            return True, "already empty"\n        paid = sum(prices.values())', "")
 # %% 15.9 wrong: no lock | hint: The reset did not wait for the line
 replace("def handle_reset(request):\n    with turn:", "def handle_reset(request):\n    if True:")
-# %% 15.9 wrong: the lock is released before storing | hint: A line was being printed during the reset, but its item was
+# %% 15.9 wrong: the lock is released before storing | hint: The printer was printing a line during the reset, but this item was in
 replace("by item", "by item\npending = {}")
 replace("\n        prices[request.item] = request.cents\n        return sum(prices.values())", """
         pending[request.item] = request.cents
@@ -724,36 +736,38 @@ solution()
 
 # %% 15.10 wrong: a tag that is not closed | hint: The file is not valid XML
 replace('name="robot" />', 'name="robot" >')
-# %% 15.10 wrong: a fixed argument | hint: The attribute "value" of an <arg> tag cannot be overridden
+# %% 15.10 wrong: a fixed argument | hint: An <arg> tag has the attribute "value", so a user cannot change the argument
 replace('name="hardware" default=', 'name="hardware" value=')
 # %% 15.10 wrong: no argument | hint: An argument is not declared
 replace('  <arg name="hardware" default="true" />\n', "")
-# %% 15.10 wrong: no default | hint: The file has to work without arguments
+# %% 15.10 wrong: no default | hint: The file does not work without arguments
 replace('name="wait" default="2.0"', 'name="wait"')
 # %% 15.10 wrong: yes is no boolean | hint: The value of the attribute "if" has to be true or false
 replace('if="$(arg hardware)"', 'if="$(arg wait)"')
 # %% 15.10 wrong: an unknown substitution | hint: Type `roslaunch --nodes my_cashier cashier.launch` in the terminal, and read the output
 replace('value="$(arg wait)"', 'value="$(value wait)"')
-# %% 15.10 wrong: always with hardware | hint: With hardware:=false, the nodes counter_camera, robot and receipt_printer must not start
+# %% 15.10 wrong: always with hardware | hint: With hardware:=false, counter_camera, robot and receipt_printer must not start
 replace('<group if="$(arg hardware)">', "<group>")
 # %% 15.10 wrong: unless | hint: Without an argument, the hardware has to start
 replace('<group if=', "<group unless=")
-# %% 15.10 wrong: no till | hint: is missing: compare the names of the nodes
+# %% 15.10 wrong: no till | hint: Compare the names of the nodes with the names in the exercise
 replace('  <node pkg="my_cashier" type="till.py" name="till" />\n', "")
-# %% 15.10 wrong: another node | hint: The exercise does not ask for a node
+# %% 15.10 wrong: another node | hint: which is not in the exercise
 replace('</launch>', '  <node pkg="my_cashier" type="ask_customer.py" name="ask_customer" />\n</launch>')
 # %% 15.10 wrong: the nodes of the course | hint: A node starts the wrong program
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
 # %% 15.10 wrong: a prefix starts another program | hint: A node starts the wrong program
 replace('type="till.py"', 'type="till.py" launch-prefix="rosrun course_pkg till"')
-# %% 15.10 wrong: no parameter | hint: The node robot_cashier needs a <param> tag with name="wait" and value="$(arg wait)"
+# %% 15.10 wrong: no parameter | hint: The node robot_cashier has no parameter "wait"
 replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
 replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
-# %% 15.10 wrong: another default | hint: Without an argument, the value of wait has to be 2 s: write default="2.0".
+# %% 15.10 wrong: a text as the parameter | hint: The parameter is a text
+replace('value="$(arg wait)"', 'value="$(arg wait)" type="str"')
+# %% 15.10 wrong: another default | hint: Without an argument, the value of "wait" has to be 2 s
 replace('default="2.0"', 'default="3.0"')
-# %% 15.10 wrong: a fixed value | hint: The parameter has a fixed value
+# %% 15.10 wrong: a fixed value | hint: The parameter always has the same value, even if the user passes another value
 replace('value="$(arg wait)"', 'value="2.0"')
 
 # %% 15.11 right: respawn for four nodes
@@ -779,31 +793,31 @@ solution()
 # %% 15.11 wrong: the till of the course | hint: A node starts the wrong program
 based_on("with a delay, and output on the screen")
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
-# %% 15.11 wrong: no respawn | hint: only if its <node> tag has respawn
+# %% 15.11 wrong: no respawn | hint: roslaunch did not start a node again
 replace(' respawn="true"', "", times=4)
-# %% 15.11 wrong: one node without respawn | hint: roslaunch starts a node again
+# %% 15.11 wrong: one node without respawn | hint: roslaunch did not start a node again
 replace('name="till" respawn="true"', 'name="till"')
 # %% 15.11 wrong: no valid XML | hint: roslaunch ended. Type
 replace('name="robot" />', 'name="robot" >')
-# %% 15.11 wrong: no vision | hint: is missing, or it has no … is missing, or it has no
+# %% 15.11 wrong: no vision | hint: Repeat the check of the exercise for this node … Repeat the check of the exercise for this node
 replace('  <node pkg="my_cashier" type="vision.py" name="vision" respawn="true" />\n', "")
-# %% 15.11 wrong: another name | hint: is missing, or it has no
+# %% 15.11 wrong: another name | hint: Repeat the check of the exercise for this node
 replace('name="till"', 'name="cash_register"')
 
-# %% 15.11 wrong: a blind vision | hint: The frames show a customer, but detect_customer does not find one
+# %% 15.11 wrong: a blind vision | hint: The frames show a customer, but detect_customer does not find a customer
 change_node("vision", "vision.sees_customer = lambda frame: False")
 
-# %% 15.11 wrong: no greeting | hint: The detector finds the customer, but no greeting came
+# %% 15.11 wrong: no greeting | hint: The detector finds the customer, but no greeting arrived
 change_node("robot_cashier", "robot_cashier.RobotCashier.greet = lambda self, wait: self._over.wait()")
 
-# %% 15.11 wrong: greets again and again | hint: One customer was greeted more than once
+# %% 15.11 wrong: greets again and again | hint: The node greeted one customer more than once
 change_node("robot_cashier", """robot_cashier.RobotCashier._await_departure = lambda self: self._over.wait(0.3)
 robot_cashier.RobotCashier._empty_till = lambda self: None""")
 
-# %% 15.11 wrong: a total that loses items | hint: Two customers called till/set at the same time, and then the sum
+# %% 15.11 wrong: a total that loses items | hint: After two calls of till/set at the same time, the total was not the
 change_node("till", "till.Till.handle_total = lambda self, _: (max(self._cents.values(), default=0), len(self._cents))")
 
-# %% 15.11 wrong: no lock in the till | hint: Two customers called till/set at the same time, and a call failed
+# %% 15.11 wrong: no lock in the till | hint: Two customers called till/set at the same time, and one call failed
 change_node("till", """import contextlib
 
 make = till.Till.__init__
@@ -816,7 +830,7 @@ def unlocked(self):
 
 till.Till.__init__ = unlocked""")
 
-# %% 15.11 wrong: the printer's refusal is swallowed | hint: so till/set has to refuse the item
+# %% 15.11 wrong: the printer's refusal is swallowed | hint: The printer refused a line, but till/set did not refuse the item
 change_node("till", """class Proxy(till.BoundedProxy):
     def __call__(self, line):
         try:
@@ -827,7 +841,7 @@ change_node("till", """class Proxy(till.BoundedProxy):
 
 till.BoundedProxy = Proxy""")
 
-# %% 15.11 wrong: an item without a name | hint: An item without a name has to be refused. Check
+# %% 15.11 wrong: an item without a name | hint: The till accepted an item without a name
 based_on("no lock in the till")
 replace('change_node("till", """import contextlib\n\nmake = till.Till.__init__', 'change_node("till", """handle_set = till.Till.handle_set')
 replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullcontext()", """def handle(self, request):
@@ -845,13 +859,13 @@ replace('request.item = request.item or "no name"\n    return handle_set(self, r
 # %% 15.11 wrong: no reset after a visit | hint: The customer has left, but the till still has items
 change_node("robot_cashier", "robot_cashier.RobotCashier._empty_till = lambda self: None")
 
-# %% 15.11 wrong: the arm is seldom mirrored | hint: Joint states were published all the time, but only a few mirror images
+# %% 15.11 wrong: the arm is seldom mirrored | hint: Joint states arrived all the time, but the node published only a few mirror
 change_node("robot_cashier", """import random
 
 mirror = robot_cashier.RobotCashier.mirror
 robot_cashier.RobotCashier.mirror = lambda self, joints: random.random() < 0.05 and mirror(self, joints)""")
 
-# %% 15.11 wrong: a guess without a camera | hint: No frame came for more than 1 s, so detect_customer has to refuse each call
+# %% 15.11 wrong: a guess without a camera | hint: No frame came for more than 1 s, but detect_customer accepted a call
 change_node("customer_detector", "customer_detector.await_customer = lambda eye, patience: bool(eye._seen)")
 
 # %% 15.11 wrong: silent for ever | hint: New frames came after a pause, but detect_customer still refuses
@@ -863,7 +877,7 @@ replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullco
         self.dead = True
     return None if hasattr(self, "dead") else look(self)""")
 replace("till.Till.__init__ = unlocked", "watch.Eye.look = once")
-# %% 15.11 wrong: no second start | hint: All nodes were started again, but the next customer was not greeted
+# %% 15.11 wrong: no second start | hint: After all nodes were killed and started again, the next customer was not greeted
 based_on("no lock in the till")
 replace("change_node … Till.__init__", 'change_node("robot_cashier", """import os\n\ngreet = robot_cashier.RobotCashier.greet')
 replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullcontext()", """def once(self, wait):
@@ -873,5 +887,5 @@ replace("def unlocked(self):\n    make(self)\n    self._turn = contextlib.nullco
     greet(self, wait)""")
 replace("till.Till.__init__ = unlocked", "robot_cashier.RobotCashier.greet = once")
 
-# %% 15.11 wrong: vision publishes nothing | hint: The camera publishes frames, but no message comes on customer_seen
+# %% 15.11 wrong: vision publishes nothing | hint: The camera publishes frames, but no message arrives on customer_seen
 change_node("vision", "vision.Vision.handle_frame = lambda self, frame: None")

@@ -15,6 +15,9 @@ class Fetcher:
             self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))
         self.server.set_succeeded(FetchResult(fetched=goal.things))
 
+# %% 16.1 wrong: one thing too many | hint: The result is too large by one
+replace("fetched=goal.things", "fetched=goal.things + 1")
+
 # %% 16.1 right: counts in the result, and checks after each thing
 class Fetcher(object):
     """A robot that sleeps with rospy."""
@@ -60,50 +63,50 @@ class Fetcher:
 
 # %% 16.1 wrong: never checks for a cancellation | hint: Check is_preempt_requested() before each thing
 replace("\n            if self.server … return", "")
-# %% 16.1 wrong: a count for all goals | hint: The number continued from the previous goal
+# %% 16.1 wrong: a count for all goals | hint: The number of things continued from the previous goal
 replace("        self.server.start()", "        self.server.start()\n        self.fetched = 0")
 replace("for fetched in range(goal.things)", "for _ in range(goal.things)")
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=self.fetched))")
 replace("            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "            self.fetched += 1\n            self.server.publish_feedback(FetchFeedback(fetched=self.fetched))")
 replace("fetched=goal.things", "fetched=self.fetched")
-# %% 16.1 wrong: returns the result, as a service does | hint: The function ended without a state
+# %% 16.1 wrong: returns the result, as a service does | hint: The function ended, but the goal has no end state
 replace("self.server.set_preempted(FetchResult(fetched=fetched))\n                return", "return FetchResult(fetched=fetched)")
 replace("self.server.set_succeeded(FetchResult(fetched=goal.things))", "return FetchResult(fetched=goal.things)")
 # %% 16.1 wrong: not started | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
 replace("\n        self.server.start()", "")
 # %% 16.1 wrong: a fixed action name | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
 replace("Server(name", 'Server("/my_fetch"')
-# %% 16.1 wrong: succeeds although it was cancelled | hint: The goal was cancelled, so the right state is not SUCCEEDED
+# %% 16.1 wrong: succeeds although it was cancelled | hint: The client cancelled the goal, so SUCCEEDED is the wrong state
 replace("set_preempted", "set_succeeded")
 # %% 16.1 wrong: aborts a cancelled goal | hint: set_aborted means that the robot failed
 replace("set_preempted", "set_aborted")
 # %% 16.1 wrong: no feedback | hint: No feedback arrived
 replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "")
-# %% 16.1 wrong: counts from 0 | hint: After the first thing, `fetched` has to be 1, but range() counts
+# %% 16.1 wrong: counts from 0 | hint: The feedback is too small by one, because range() starts at 0
 replace("fetched + 1", "fetched")
 # %% 16.1 wrong: an empty result | hint: The field `fetched` of the result is 0
 replace("(FetchResult(fetched=fetched))", "()")
 replace("(FetchResult(fetched=goal.things))", "()")
 # %% 16.1 wrong: takes no time | hint: The goal ended too early
 replace("return\n            time.sleep(goal.seconds)", "return")
-# %% 16.1 wrong: the missing things when it is cancelled | hint: the same number as the last feedback
+# %% 16.1 wrong: the missing things when it is cancelled | hint: The result of the cancelled goal is wrong
 replace("(fetched=fetched)", "(fetched=goal.things - fetched)")
-# %% 16.1 wrong: feedback before the thing | hint: The feedback came before the thing was fetched
+# %% 16.1 wrong: feedback before the thing | hint: The feedback came before the robot had fetched the thing
 replace("""time.sleep(goal.seconds)
             self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))""", """self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))
             time.sleep(goal.seconds)""")
-# %% 16.1 wrong: continues after the cancellation | hint: The robot continued to fetch, because set_preempted ends the goal, but not
+# %% 16.1 wrong: continues after the cancellation | hint: The robot continued after set_preempted, because set_preempted does not end your function
 replace("\n                return", "")
-# %% 16.1 wrong: succeeds in the loop | hint: set_succeeded ends the goal: call it once
+# %% 16.1 wrong: succeeds in the loop | hint: The goal ended after the first thing, because set_succeeded ends the goal
 replace("+ 1))\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", """+ 1))
             self.server.set_succeeded(FetchResult(fetched=fetched + 1))""")
-# %% 16.1 wrong: a second for each | hint: The time for one thing is different in each goal
+# %% 16.1 wrong: a second for each | hint: The robot did not work for the right time
 replace("goal.seconds", "1")
-# %% 16.1 wrong: a fifth of a second for each | hint: The time for one thing is different in each goal
+# %% 16.1 wrong: a fifth of a second for each | hint: The robot did not work for the right time
 replace("goal.seconds", "0.2")
-# %% 16.1 wrong: the time of the chapter's first goal | hint: The time for one thing is different in each goal
+# %% 16.1 wrong: the time of the chapter's first goal | hint: The robot did not work for the right time
 replace("goal.seconds", "0.05")
-# %% 16.1 wrong: the last number of the loop | hint: The result is too small by one, because range() counts from 0
+# %% 16.1 wrong: the last number of the loop | hint: The result is too small by one, because range() starts at 0
 replace("(fetched=goal.things)", "(fetched=fetched)")
 # %% 16.1 wrong: feedback at the end only | hint: Only one feedback message arrived, at the end
 replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "\n        self.server.publish_feedback(FetchFeedback(fetched=goal.things))")
@@ -113,7 +116,7 @@ replace("FetchFeedback(fetched=fetched + 1)", "FetchFeedback()")
 replace("time.sleep(goal.seconds)", "time.sleep(goal.seconds)\n        for fetched in range(goal.things):")
 # %% 16.1 wrong: an empty result when it is cancelled | hint: The field `fetched` is 0 in the result of the cancelled goal
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted()")
-# %% 16.1 wrong: the number of the goal when it is cancelled | hint: 80 is the number in the goal
+# %% 16.1 wrong: the number of the goal when it is cancelled | hint: The result contains the number in the goal, 80
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=goal.things))")
 # %% 16.1 wrong: a misspelt field | hint: The function raised an exception
 replace("FetchFeedback(fetched", "FetchFeedback(count")
@@ -141,9 +144,12 @@ def fetch_within(name, things, seconds):
         robot.send_goal_and_wait(goal, rospy.Duration(seconds), rospy.Duration(3))
         return robot.get_result().fetched
 
+# %% 16.2 wrong: cancels the goals of all clients | hint: cancel_all_goals() also cancels the goals of other clients
+based_on("waits, cancels, and waits again")
+replace("cancel_goal()", "cancel_all_goals()")
 # %% 16.2 wrong: waits without a limit | hint: A wait without a time limit did not end
 replace("if not client.wait_for_result … Duration(2))", "client.wait_for_result()")
-# %% 16.2 wrong: sleeps for the whole time | hint: The function continued to wait after the result had arrived
+# %% 16.2 wrong: sleeps for the whole time | hint: The function still waited after the result had arrived
 replace("if not client.wait_for_result(rospy.Duration(seconds)):", "time.sleep(seconds)\n    if client.get_result() is None:")
 # %% 16.2 wrong: waits for ever after the cancellation | hint: Wait at most 2 s after cancel_goal()
 replace("client.wait_for_result(rospy.Duration(2))", "client.wait_for_result()")
@@ -151,39 +157,39 @@ replace("client.wait_for_result(rospy.Duration(2))", "client.wait_for_result()")
 replace("rospy.Duration(seconds)", "rospy.Duration(int(seconds))")
 # %% 16.2 wrong: gives up, and cancels nothing | hint: get_result() returned None, because the goal had not ended
 replace("if not client.wait_for_result … Duration(2))", "client.wait_for_result(rospy.Duration(seconds))")
-# %% 16.2 wrong: returns nothing when the time is over | hint: If wait_for_result returns False, the time is over
+# %% 16.2 wrong: returns nothing when the time is over | hint: The function did not cancel the goal
 replace("""if not client.wait_for_result(rospy.Duration(seconds)):
         client.cancel_goal()
         client.wait_for_result(rospy.Duration(2))
     """, "if client.wait_for_result(rospy.Duration(seconds)):\n        ")
-# %% 16.2 wrong: does not wait for the end after the cancellation | hint: the robot first finishes the thing that it is fetching
+# %% 16.2 wrong: does not wait for the end after the cancellation | hint: There is no result before the goal has ended
 replace("client.wait_for_result(rospy.Duration(2))", "time.sleep(0.15)")
 # %% 16.2 wrong: a plain number of seconds | hint: actionlib does not accept a plain number of seconds
 replace("rospy.Duration(seconds)", "seconds")
 # %% 16.2 wrong: waits for a server for ever | hint: No server exists, but the wait has no limit
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server()")
-# %% 16.2 wrong: returns the number of the goal | hint: This is the number in the goal
+# %% 16.2 wrong: returns the number of the goal | hint: The function returned the number in the goal
 replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    return things")
-# %% 16.2 wrong: does not wait for the robot | hint: The goal did not arrive, because messages that are sent before the
+# %% 16.2 wrong: does not wait for the robot | hint: The goal did not arrive, because it was sent before the connection existed
 replace("\n    if not client.wait_for_server(rospy.Duration(2)):\n        return None", "")
 replace("return client.get_result().fetched", "result = client.get_result()\n    return result.fetched if result else None")
 # %% 16.2 wrong: no seconds | hint: The field `seconds` of the goal is not 0.1
 replace("things, seconds=0.1", "things")
-# %% 16.2 wrong: five seconds in any case | hint: The limit has to be the argument `seconds`
+# %% 16.2 wrong: five seconds in any case | hint: The time limit is wrong
 replace("(seconds)", "(4.5)")
-# %% 16.2 wrong: cancels early | hint: The limit has to be the argument `seconds`
+# %% 16.2 wrong: cancels early | hint: The time limit is wrong
 replace("(seconds)", "(0.3)")
 # %% 16.2 wrong: five seconds for a server | hint: The function waited too long for a server
 replace("(rospy.Duration(2)):", "(rospy.Duration(5)):")
 # %% 16.2 wrong: hardly waits for a robot | hint: The server started 0.6 s … The server started
 replace("(rospy.Duration(2)):", "(rospy.Duration(0.4)):")
-# %% 16.2 wrong: the whole result | hint: This is the whole result
+# %% 16.2 wrong: the whole result | hint: The function returned the whole result
 replace(".get_result().fetched", ".get_result()")
 # %% 16.2 wrong: things is left out | hint: The field `things` of the goal is 0
 replace("things=things, seconds", "seconds")
-# %% 16.2 wrong: None after the cancellation | hint: The robot sends its result after the cancellation
+# %% 16.2 wrong: None after the cancellation | hint: The function returned None
 replace("        client.wait_for_result(rospy.Duration(2))\n", "        return None\n")
-# %% 16.2 wrong: sends the goal without a robot | hint: wait_for_server returns False if no server started in time
+# %% 16.2 wrong: sends the goal without a robot | hint: No server started in time, so wait_for_server returned False
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server(rospy.Duration(2))")
 
 # %% 16.3 right: checks the type first
@@ -206,14 +212,14 @@ def speed_of(robot, default):
 based_on("by an exception")
 replace("speed = rospy … ValueError):", 'speed = rospy.get_param_cached(f"/{robot}/speed")\n    except KeyError:')
 replace("default if speed is True or number <= 0 else number", "speed if type(speed) in (int, float) and speed > 0 else default")
-# %% 16.3 wrong: no default | hint: get_param raises a KeyError if the parameter is not set
+# %% 16.3 wrong: no default | hint: If the parameter is not set, get_param raises a KeyError
 replace("speed = rospy … return speed", 'return rospy.get_param(f"/{robot}/speed")')
 # %% 16.3 wrong: sets the default | hint: The function has set the parameter
 replace("    if isinstance", '    rospy.set_param(f"/{robot}/speed", speed)\n    if isinstance')
-# %% 16.3 wrong: a fixed name | hint: The name of the parameter has to contain the name of the
+# %% 16.3 wrong: a fixed name | hint: The name of the parameter is wrong
 replace("speed = rospy … return speed", 'return rospy.get_param("~speed", default)')
 
-# %% 16.3 wrong: remembers the first | hint: The parameter was changed, but the function returned the old value
+# %% 16.3 wrong: remembers the first | hint: The parameter has changed, but the function returned the old value
 known = {}
 
 def speed_of(robot, default):
@@ -224,10 +230,10 @@ def speed_of(robot, default):
         known[robot] = speed
     return known[robot]
 
-# %% 16.3 wrong: does not check the value | hint: Check that the value is a number.
+# %% 16.3 wrong: does not check the value | hint: The value of the parameter was a string, not a number
 based_on("a fixed name")
 replace('"~speed"', 'f"/{robot}/speed"')
-# %% 16.3 wrong: compares a string with 0 | hint: Python cannot compare a text or a list with a number
+# %% 16.3 wrong: compares a string with 0 | hint: Python cannot compare a string or a list with a number
 replace("if isinstance … return speed", "return speed if speed > 0 else default")
 # %% 16.3 wrong: takes every number | hint: The value was negative
 based_on("compares a string with 0")
@@ -235,7 +241,7 @@ replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True")
 # %% 16.3 wrong: 0 is a speed | hint: The value was 0, but a speed has to be above 0
 based_on("compares a string with 0")
 replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True and speed >= 0")
-# %% 16.3 wrong: excludes a string only | hint: A parameter can also be a list
+# %% 16.3 wrong: excludes a string only | hint: The value of the parameter was a list
 replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or speed <= 0:", """if isinstance(speed, str):
         return default
     if not isinstance(speed, list) and speed <= 0:""")
@@ -243,10 +249,10 @@ replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or sp
 replace("(int, float)", "float")
 # %% 16.3 wrong: a fixed default | hint: The parameter is not set
 replace(", default)\n", ", 1.0)\n")
-# %% 16.3 wrong: does not catch what float() raises | hint: float() raises a ValueError for a text
+# %% 16.3 wrong: does not catch what float() raises | hint: If a string is not a number, float() raises a ValueError
 based_on("by an exception")
 replace(", ValueError", "")
-# %% 16.3 wrong: takes True for a speed | hint: In Python, True is an int
+# %% 16.3 wrong: takes True for a speed | hint: The value was True, which is an int with the value 1 in Python
 replace("isinstance(speed, bool) or not", "not")
 
 # %% 16.4 right: a class
@@ -279,72 +285,74 @@ server = actionlib.SimpleActionServer("deliver", FetchAction, deliver, False)
 server.start()
 timer = rospy.Timer(rospy.Duration(0.2), lambda event: publisher.publish(charge))
 rospy.spin()""")
-# %% 16.4 wrong: the charge falls at the end | hint: The parcels of a cancelled delivery did not reduce the charge
+# %% 16.4 wrong: the charge falls at the end | hint: The charge did not change for the parcels of a cancelled delivery
 replace("            self.charge -= 1\n", "")
 replace("        self.server.set_succeeded", "        self.charge -= goal.things\n        self.server.set_succeeded")
-# %% 16.4 wrong: the charge falls at the start | hint: The charge became smaller for parcels that were not delivered
+# %% 16.4 wrong: the charge falls at the start | hint: The charge changed for parcels that were not delivered
 replace("            self.charge -= 1\n", "")
 replace("        for delivered in", "        self.charge -= goal.things\n        for delivered in")
 # %% 16.4 wrong: a full battery for each delivery | hint: A new delivery set the charge to 100 again
 replace("        for delivered in", "        self.charge = 100.0\n        for delivered in")
-# %% 16.4 wrong: continues after set_aborted | hint: The function continued to deliver after set_aborted, because set_aborted does not end
+# %% 16.4 wrong: continues after set_aborted | hint: The function continued after set_aborted, because set_aborted does not end your function
 replace('can carry")\n            return', 'can carry")')
-# %% 16.4 wrong: a service for the battery | hint: Several programs need each new value, and none of these programs sends a request.
+# %% 16.4 wrong: a service for the battery | hint: Several programs need each new value of the battery, but they send no requests
 replace("from std_srvs.srv import SetBool, SetBoolResponse", "from std_srvs.srv import SetBool, SetBoolResponse, Trigger")
 replace('rospy.Publisher("battery", Float32, queue_size=1)', 'rospy.Service("battery", Trigger, lambda request: (True, str(self.charge)))')
 replace("robot.battery.publish(robot.charge)\n        ", "")
-# %% 16.4 wrong: a topic for the door | hint: The move is short, and the client must not continue before it
+# %% 16.4 wrong: a topic for the door | hint: The door moves only for a short time, and the client has to know
 replace("import Float32", "import Bool, Float32")
 replace('rospy.Service("door", SetBool', 'rospy.Subscriber("door", Bool')
-# %% 16.4 wrong: a service for the delivery | hint: The client wants to get progress reports and to cancel the job
+# %% 16.4 wrong: a service for the delivery | hint: The client wants progress reports, and it wants to cancel the delivery
 replace("""self.server = actionlib.SimpleActionServer("deliver", FetchAction, execute_cb=self.deliver, auto_start=False)
         self.server.start()""", 'self.server = rospy.Service("deliver", SetBool, self.move_door)')
-# %% 16.4 wrong: a service for the capacity | hint: "capacity" is a setting that the user chooses at the start
+# %% 16.4 wrong: a service for the capacity | hint: The user sets "capacity" when the robot starts, so it is not an interface
 replace("import SetBool, SetBoolResponse", "import SetBool, SetBoolResponse, Trigger")
 replace('self.capacity = rospy.get_param("~capacity", 5)', 'self.capacity = 5\n        rospy.Service("capacity", Trigger, lambda request: (True, "5"))')
-# %% 16.4 wrong: absolute names | hint: This name is not in the namespace in which the robot was
+# %% 16.4 wrong: absolute names | hint: The name is not in the namespace of the robot
 replace('"battery"', '"/battery"')
 # %% 16.4 wrong: another name | hint: The node offers nothing with this name
 replace('"deliver"', '"delivery"')
 # %% 16.4 wrong: misspells a library | hint: The program has ended
 replace("import actionlib\n", "import action_lib\n")
-# %% 16.4 wrong: no pause | hint: Publish in a loop that calls sleep() of a rospy.Rate(5) once in
+# %% 16.4 wrong: no pause | hint: The battery does not publish five values per second
 replace("\n        rate.sleep()", "")
 # %% 16.4 wrong: a fraction for the charge | hint: Publish the charge in percent
 replace("self.charge = 100.0", "self.charge = 1.0")
-# %% 16.4 wrong: reports on and off | hint: The field `message` has to be "open" after a request with True,
+# %% 16.4 wrong: reports on and off | hint: The field `message` is wrong
 replace('"open" if request.data else "closed"', '"on" if request.data else "off"')
-# %% 16.4 wrong: success only if it opens | hint: The field `success` has to be True after every request, because the
+# %% 16.4 wrong: success only if it opens | hint: The field `success` is False, although the robot has moved the door
 replace("success=True", "success=request.data")
 # %% 16.4 wrong: no state at the end | hint: Call set_succeeded at the end of the delivery
 replace("\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", "")
 # %% 16.4 wrong: a misspelt field | hint: The function that delivers raised an exception
 replace("FetchFeedback(fetched", "FetchFeedback(delivered")
-# %% 16.4 wrong: counts from 0 | hint: Publish the number of delivered parcels after each parcel
+# %% 16.4 wrong: counts from 0 | hint: The feedback is wrong
 replace("delivered + 1", "delivered")
-# %% 16.4 wrong: an empty result | hint: Call set_succeeded(FetchResult(fetched=…)), where `fetched` is the number of delivered parcels.
+# %% 16.4 wrong: an empty result | hint: The result is wrong
 replace("set_succeeded(FetchResult(fetched=goal.things))", "set_succeeded()")
-# %% 16.4 wrong: publishes in the loop of the delivery | hint: The battery values stopped during the delivery
+# %% 16.4 wrong: publishes in the loop of the delivery | hint: The battery sent no values during the delivery
 replace("robot.battery.publish(robot.charge)", "if not robot.server.is_active():\n            robot.battery.publish(robot.charge)")
-# %% 16.4 wrong: the charge stays | hint: The charge did not change
+# %% 16.4 wrong: the charge stays | hint: The charge did not change. Subtract 1
 replace("            self.charge -= 1\n", "")
-# %% 16.4 wrong: one percent for all | hint: The battery charge changed only once for the whole delivery
+# %% 16.4 wrong: one percent for all | hint: The charge changed only once during the whole delivery
 replace("            self.charge -= 1\n", "")
 replace("        self.server.set_succeeded", "        self.charge -= 1\n        self.server.set_succeeded")
 # %% 16.4 wrong: cannot be cancelled | hint: Check is_preempt_requested() before each parcel, and end the goal with set_preempted
 replace("\n            if self.server … return", "")
-# %% 16.4 wrong: an empty result of a cancelled delivery | hint: Call set_preempted(FetchResult(fetched=…)), where `fetched` is the number of parcels delivered so far.
+# %% 16.4 wrong: an empty result of a cancelled delivery | hint: The result of a cancelled delivery is wrong
 replace("set_preempted(FetchResult(fetched=delivered))", "set_preempted()")
 # %% 16.4 wrong: does not check the capacity | hint: Compare goal.things with the parameter ~capacity
 replace("\n        if goal.things … return", "")
-# %% 16.4 wrong: always carries five | hint: whose default is 5
+# %% 16.4 wrong: always carries five | hint: The delivery has more parcels than the capacity, but it was not aborted
 replace('rospy.get_param("~capacity", 5)', "5")
 # %% 16.4 wrong: checks the capacity too late | hint: Compare goal.things with the capacity before the loop
 replace("if goal.things … goal.things):", """for delivered in range(goal.things):
             if delivered == self.capacity:
                 self.server.set_aborted(FetchResult(fetched=0))
                 return""")
-# %% 16.4 wrong: counts parcels that it does not deliver | hint: No parcel was delivered
+# %% 16.4 wrong: counts parcels that it does not deliver | hint: The robot delivered no parcel, so the result has to be 0
 replace("set_aborted(FetchResult(fetched=0)", "set_aborted(FetchResult(fetched=goal.things)")
-# %% 16.4 wrong: one parcel less | hint: The robot can carry as many parcels as its capacity
+# %% 16.4 wrong: a pause before it aborts | hint: Compare goal.things with the capacity before the loop
+replace("            self.server.set_aborted", "            rospy.sleep(goal.seconds)\n            self.server.set_aborted")
+# %% 16.4 wrong: one parcel less | hint: The robot refused an allowed delivery
 replace("goal.things > self.capacity", "goal.things >= self.capacity")

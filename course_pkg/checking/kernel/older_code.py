@@ -88,11 +88,7 @@ def _handler_of(service: str) -> Value:
         return None
     from rospy.impl.registration import get_service_manager
 
-    from course_pkg.ros.node.service import Service
-
-    handler = getattr(get_service_manager().get_service(service), "handler", None)
-    owner = getattr(handler, "__self__", None)
-    return owner.handler if isinstance(owner, Service) else handler
+    return getattr(get_service_manager().get_service(service), "handler", None)
 
 
 def _functions_of(value: Value) -> list[FunctionType]:

@@ -1,4 +1,4 @@
-"""Inspect a compiled program: it has to use roscpp, and it must not start another program."""
+"""Compile a roscpp program, and inspect it: it must not start another program."""
 
 from __future__ import annotations
 
@@ -7,7 +7,11 @@ import shlex
 
 from course_pkg.checking.commands.folder import Folder
 from course_pkg.checking.context import CheckContext
-from course_pkg.errors import ToolMissing
+from course_pkg.errors import CheckError, ToolMissing
+from course_pkg.workspace import Fault, explain
+from course_pkg.workspace.cpp_support import compile_command
+
+COMPILES = "the compiler accepts the file"
 
 # This pattern matches an undefined symbol in the output of `readelf`: the program uses the symbol, and a
 # library defines it.
@@ -20,6 +24,33 @@ NEEDED = re.compile(r"\(NEEDED\)[^\[]*\[(lib\w+)\.so")
 INSTRUCTION = r"[[:space:]](syscall|sysenter|svc)([[:space:]]|$)|int +[$]0x80"
 # At most this number of lines of readelf's output is read; a usual program has about 400 symbols.
 LINES = 2000
+
+
+def compile_roscpp(
+    context: CheckContext, folder: Folder, file: str, program: str, *, limits: str, within: float
+) -> None:
+    """Compile `file` to `program` in `folder`, and assert that the result is a roscpp program.
+
+    `limits` is a command of bash that limits the compiler. Raises CheckError if the compiler has not finished
+    after `within` s.
+    """
+    line = f"{limits}; exec {shlex.join(compile_command(file, program))}"
+    done = folder.command("bash", "-c", line, within=within, worded=f"the compiler, at {file}")
+    if done.status is None:
+        raise CheckError(
+            f"The compiler had not finished after {done.took:.0f} s, because the machine is busy. "
+            "Run this cell again."
+        )
+    if done.status != 0:
+        fault = explain(done.err + done.out) or Fault("the compiler ended without a message", "")
+        context.fail(
+            COMPILES,
+            expected="a program",
+            actual=f"line {fault.line}: {fault.problem}" if fault.line else fault.problem,
+            hint=fault.remedy,
+        )
+    context.require(COMPILES, holds=True)
+    require_roscpp(context, folder, program)
 
 
 def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:

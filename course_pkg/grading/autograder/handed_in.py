@@ -31,7 +31,9 @@ def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], 
         if each.chapter and each.chapter not in chapters
     ]
     if not by_chapter:
-        messages.append(f"There is no notebook to grade. Hand in {expected}, and not a zip inside a zip.")
+        messages.append(
+            f"There is no notebook to grade. Hand in {expected}, and not a zip that contains another zip."
+        )
     return [by_chapter.get(chapter, _missing(chapter)) for chapter in chapters], messages
 
 

@@ -32,16 +32,16 @@ from course_pkg.grading.marking import Run, mark
 from course_pkg.grading.plan import plan
 from course_pkg.grading.points import PointsTable, read_points
 from course_pkg.grading.reports.formats.gradescope import results_of
-from course_pkg.sandbox import bubblewrap, users
 from course_pkg.sandbox.job import PartJob, PartResult
+from course_pkg.sandbox.linux import bubblewrap, users
 from course_pkg.sandbox.worker_client import SandboxWorker
 from course_pkg.setup import Places
 from course_pkg.types.fields import Plain
 from course_pkg.waiting import Deadline
 
 WEAKER = (
-    "The isolation of this run was weaker than that of `course grade`, because this machine forbids "
-    "namespaces. The code ran as another user with limits, and could use the network."
+    "This machine forbids namespaces, so the isolation of this run was weaker than that of `course "
+    "grade`. The code ran as another user with limits, and it could use the network."
 )
 OUT_OF_TIME = "the time limit of the autograder was reached; ask your instructor"
 OURS = "The autograder failed ({}). This is not a mistake in your work. Please tell your instructor."
@@ -87,7 +87,7 @@ def _results(root: Path) -> dict[str, Plain]:
         messages.append(WEAKER)
     late, policy = days_late(root / "submission_metadata.json"), settings.policy
     if policy and late is None:
-        messages.append("The time of handing in is not known, so no points were taken off for lateness.")
+        messages.append("The time of handing in is not known, so no points were deducted for lateness.")
     with _runner(deadline, str(extras.folder or ""), weaker=weaker) as run:
         grades = [_grade(each, points, run).for_student() for each in found]
     if policy and late:
@@ -99,7 +99,7 @@ def _results(root: Path) -> dict[str, Plain]:
 def _require_users(root: Path) -> None:
     if reason := users.refusal([root]):
         raise GradingError(
-            f"Nothing was graded, because students' code cannot be isolated here. {reason} "
+            f"Nothing was graded, because this machine cannot isolate students' code. {reason} "
             "Please tell your instructor."
         )
 

@@ -18,32 +18,41 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         action="append",
         default=[],
         metavar="[NN=]TIME",
-        help="when the work was due, such as 2026-11-01T23:59+01:00; 05=TIME is the deadline of chapter "
-        "05 only; can be repeated; the column extension_days of --roster moves the deadline for "
-        "single students",
+        help=(
+            "the deadline, such as 2026-11-01T23:59+01:00, or 05=TIME for chapter 05 only. You can "
+            "repeat this option. The column extension_days of --roster moves the deadline for single "
+            "students"
+        ),
     )
     group.add_argument(
         "--times",
         default="",
         metavar="TABLE",
-        help="when each submission was handed in: Moodle's grading worksheet, or a CSV file with "
-        "student,submitted or student,chapter,submitted; the word `nbgrader` reads timestamp.txt; "
-        "times.csv in SUBMISSIONS and Gradescope's metadata are read without this option",
+        help=(
+            "the file with the time of each submission: Moodle's grading worksheet, or a CSV file with "
+            "student,submitted or student,chapter,submitted. Give the word `nbgrader` to read "
+            "timestamp.txt. You need no option for times.csv in SUBMISSIONS and for Gradescope's "
+            "metadata"
+        ),
     )
     group.add_argument(
         "--time-zone",
         default="",
         metavar="ZONE",
-        help="the zone of each time without an offset, such as Europe/Berlin (default: none, so that such a "
-        "time is an error)",
+        help=(
+            "the time zone of each time without an offset, such as Europe/Berlin. Without this option, "
+            "such a time is an error"
+        ),
     )
     group.add_argument(
         "--grace-minutes",
         type=float,
         default=0.0,
         metavar="N",
-        help="minutes after the deadline that do not count; late days are counted from their end "
-        "(default: 0)",
+        help=(
+            "the number of minutes after the deadline that do not count as late. Late days begin after "
+            "these minutes (default: 0)"
+        ),
     )
     group.add_argument(
         "--late", type=Path, metavar="TABLE", help="a CSV file: student,days or student,chapter,days"
@@ -52,7 +61,10 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         "--late-per-day",
         type=float,
         metavar="PERCENT",
-        help="the percentage of the points that is taken off for each day late that has begun, such as 10",
+        help=(
+            "the percentage of the points that is deducted for each late day, such as 10. A day counts "
+            "as soon as it has begun"
+        ),
     )
     group.add_argument(
         "--late-max-days",
@@ -65,7 +77,7 @@ def add_deadline_arguments(parser: ArgumentParser) -> None:
         choices=("last", "best"),
         default="last",
         help=(
-            "the attempt that counts if a student has handed in a chapter several times: the last attempt "
-            "(default), or the attempt with the most points after the deduction for lateness"
+            "the attempt that counts if a student has handed in a chapter several times: the last "
+            "attempt (default), or the attempt with the most points after the deduction for lateness"
         ),
     )

@@ -56,9 +56,9 @@ def deadlines(
     GradingError if a deadline has no time zone, is not a time, or is given twice.
     """
     if grace_minutes and not given:
-        raise GradingError("--grace-minutes needs a deadline. Give it with --deadline TIME.")
+        raise GradingError("--grace-minutes needs a deadline. Add the option --deadline TIME.")
     if not 0 <= grace_minutes < 100_000:
-        raise GradingError(f"--grace-minutes {grace_minutes:g} is not a number of minutes: give 0 or more.")
+        raise GradingError(f"--grace-minutes {grace_minutes:g} is not a number of minutes. Give 0 or more.")
     found: dict[str, datetime] = {}
     for option in given:
         match = OPTION.fullmatch(option.strip())
@@ -68,7 +68,10 @@ def deadlines(
         if moment is None:
             raise GradingError(_wrong(option, written))
         if chapter in found:
-            raise GradingError(f"--deadline {option}: the same chapter has two deadlines. Give only one.")
+            raise GradingError(
+                f"--deadline {option}: the same chapter has two deadlines. Give only one deadline for "
+                "each chapter."
+            )
         found[chapter] = moment
     return Deadlines(found, timedelta(minutes=grace_minutes), extensions)
 
@@ -78,7 +81,7 @@ def _wrong(option: str, written: str) -> str:
     from_utc = moment_of(written, zone=datetime.now().astimezone().tzinfo)
     if from_utc is not None:
         return (
-            f"--deadline {option} has no time zone. Add its offset from UTC, such as {example}, or give "
-            f"--time-zone, such as --time-zone Europe/Berlin."
+            f"--deadline {option} has no time zone. Add the offset from UTC, such as {example}, or "
+            "add an option such as --time-zone Europe/Berlin."
         )
-    return f"--deadline {option} is not a time: write {example}, or 05={example} for chapter 05 alone."
+    return f"--deadline {option} is not a time. Write {example}, or 05={example} for chapter 05 only."

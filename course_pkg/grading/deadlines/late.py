@@ -49,18 +49,19 @@ def late_policy(
     """
     if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(
-            f"{'--late' if table else '--deadline'} needs a policy. Give --late-per-day PERCENT, "
-            "--late-max-days N, or both: with --late-per-day 10 --late-max-days 3, each day costs 10 %, and "
-            "after day 3 no points are left. With --late-per-day 0, late work is only marked."
+            f"{'--late' if table else '--deadline'} needs a policy for late work. Give "
+            "--late-per-day PERCENT, --late-max-days N, or both. For example, with --late-per-day "
+            "10 --late-max-days 3, each late day costs 10 % of the points, and after 3 days no "
+            "points are left. With --late-per-day 0, late work only gets a mark."
         )
     if not table and not deadlines and (per_day is not None or max_days is not None):
         raise GradingError(
             "A late policy needs a deadline (--deadline TIME) or a table of late days (--late TABLE)."
         )
     if per_day is not None and not 0 <= per_day <= 100:
-        raise GradingError(f"--late-per-day {per_day:g} is not a percentage: give a number from 0 to 100.")
+        raise GradingError(f"--late-per-day {per_day:g} is not a percentage. Give a number from 0 to 100.")
     if max_days is not None and not 0 <= max_days < math.inf:
-        raise GradingError(f"--late-max-days {max_days:g} is not a number of days: give 0 or more.")
+        raise GradingError(f"--late-max-days {max_days:g} is not a number of days. Give 0 or more.")
     return LatePolicy(per_day or 0.0, math.inf if max_days is None else max_days)
 
 
@@ -98,8 +99,8 @@ def late_table(path: Path) -> LateTable:
     head = [name.strip().lower() for name in lines[0]] if lines else []
     if head not in COLUMNS:
         raise GradingError(
-            f"{path.name}, line 1: the first line has to name the columns, which are student,days or "
-            "student,chapter,days."
+            f"{path.name}, line 1: the first line has to contain the names of the columns. Write "
+            "student,days or student,chapter,days."
         )
     rows: dict[tuple[str, str], float] = {}
     for number, values in enumerate(lines[1:], 2):
@@ -107,7 +108,10 @@ def late_table(path: Path) -> LateTable:
             where = f"{path.name}, line {number}"
             key, days = _row(where, dict(zip(head, values, strict=False)), len(values) == len(head))
             if key in rows:
-                raise GradingError(f"{where}: this student and chapter are in the table twice; keep one row.")
+                raise GradingError(
+                    f"{where}: this student and chapter are in the table twice. Keep only one of the "
+                    "two rows."
+                )
             rows[key] = days
     return LateTable(rows)
 
@@ -119,9 +123,9 @@ def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[s
     """
     student, chapter = values.get("student", "").strip(), values.get("chapter", "").strip()
     if not complete or not student:
-        raise GradingError(f"{where}: each row needs a student and a number of days, and no other cell.")
+        raise GradingError(f"{where}: each row needs a student and a number of days. Remove all other cells.")
     if chapter and not re.fullmatch(r"\d{1,2}", chapter):
-        raise GradingError(f"{where}: this is not a chapter; write two digits, such as 05.")
+        raise GradingError(f"{where}: this is not a chapter. Write two digits, such as 05.")
     return (clean.identity(student), chapter.zfill(2) if chapter else ""), _days(where, values["days"])
 
 
@@ -131,5 +135,5 @@ def _days(where: str, written: str) -> float:
     except ValueError:
         days = math.nan
     if not 0 <= days < 10_000:
-        raise GradingError(f"{where}: this is not a number of days; write 0 or more, such as 1.5.")
+        raise GradingError(f"{where}: this is not a number of days. Write 0 or more, such as 1.5.")
     return days

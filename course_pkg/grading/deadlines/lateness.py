@@ -30,8 +30,9 @@ class Lateness:
         due = [each for each in found if self._due(each) is not None]
         if due and all(NO_TIME in each.notes for each in due):
             raise GradingError(
-                "--deadline needs the times of handing in, but no time is known. Give --times with Moodle's "
-                "grading worksheet or a table student,submitted; for nbgrader, give --times nbgrader."
+                "--deadline needs the times of handing in, but no time is known. Use --times with "
+                "Moodle's grading worksheet or with a table student,submitted. For nbgrader, use "
+                "--times nbgrader."
             )
         return found
 
@@ -52,7 +53,7 @@ class Lateness:
         days = self.deadlines.extensions.days(submission.student)
         extended = f", with an extension of {days:g} {'day' if days == 1 else 'days'}" if days else ""
         at = shown(when.astimezone(due.tzinfo))
-        note = f"Handed in at {at}; the deadline was {shown(due)}{extended}."
+        note = f"This chapter was handed in at {at}. The deadline was {shown(due)}{extended}."
         return replace(submission, late=late, notes=(*submission.notes, note))
 
 
@@ -112,8 +113,13 @@ def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime |
 
 
 def _about(count: int, chosen: str, others: Sequence[str], why: str) -> str:
-    return f"Handed in {count} times: {chosen} {why}. These do not count: {', '.join(others[:3])}."
+    return (
+        f"This chapter was handed in {count} times: {chosen} {why}. These do not count: "
+        f"{', '.join(others[:3])}."
+    )
 
 
 def _without_note(notes: Sequence[str]) -> list[str]:
-    return [note for note in notes if not (note.startswith("Handed in ") and " times: " in note)]
+    return [
+        note for note in notes if not (note.startswith("This chapter was handed in ") and " times: " in note)
+    ]

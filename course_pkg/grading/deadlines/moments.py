@@ -35,7 +35,7 @@ def zone_of(name: str) -> tzinfo:
         return ZoneInfo(name)
     except (ZoneInfoNotFoundError, ValueError, OSError) as error:
         raise GradingError(
-            f"{name} is not a time zone: give a name such as Europe/Berlin, or an offset such as +01:00."
+            f"{name} is not a time zone. Give a name such as Europe/Berlin, or an offset such as +01:00."
         ) from error
 
 

@@ -59,10 +59,10 @@ def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
     if "student" in head and set(SUBMITTED) & set(head):
         return _table(rows, zone).find
     raise GradingError(
-        f"{path.name}, line 1: the table of times needs the columns student,submitted (or "
-        "student,chapter,submitted), or those of Moodle's grading worksheet: Identifier and Last "
-        "modified (submission). Moodle writes these names in the language of your account: switch "
-        "Moodle to English."
+        f"{path.name}, line 1: a column is missing. The table of times needs the columns "
+        "student,submitted or student,chapter,submitted. Moodle's grading worksheet needs the "
+        "columns Identifier and Last modified (submission). If Moodle has written these names in "
+        "another language, switch Moodle to English."
     )
 
 
@@ -146,13 +146,16 @@ def _table(rows: list[Row], zone: tzinfo | None) -> _Table:
         student, chapter = row.get("student"), row.get("chapter")
         if not student or (chapter and not (chapter.isdecimal() and len(chapter) <= 2)):
             raise GradingError(
-                f"{row.where}: each row needs a student, and a chapter has to be a number, such as 05."
+                f"{row.where}: the student is missing, or the chapter is not a number. Write a "
+                "student in each row, and a chapter such as 05."
             )
         moment = _moment(row, row.get(*SUBMITTED), zone)
         entry = _Entry(chapter.zfill(2) if chapter else "", row.get("file"), moment)
         known = found.setdefault(clean.identity(student), [])
         if any((each.chapter, each.file) == (entry.chapter, entry.file) for each in known):
-            raise GradingError(f"{row.where}: this submission is in the table twice; keep one row.")
+            raise GradingError(
+                f"{row.where}: this submission is in the table twice. Keep only one of the two rows."
+            )
         known.append(entry)
     return _Table(found)
 
@@ -171,8 +174,8 @@ def _moment(row: Row, written: str, zone: tzinfo | None) -> datetime:
             "Europe/Berlin."
         )
     raise GradingError(
-        f"{row.where}: this is not a time; write 2026-11-01T23:59+01:00, or as Moodle does: Sunday, "
-        "1 November 2026, 11:59 PM."
+        f"{row.where}: this is not a time. Write 2026-11-01T23:59+01:00, or use Moodle's form: "
+        "Sunday, 1 November 2026, 11:59 PM."
     )
 
 

@@ -39,8 +39,8 @@ def wanted_kinds(names: Sequence[str]) -> list[str]:
         return []
     if unknown := [name for name in names if name not in known]:
         raise GradingError(
-            f"--flags does not know {', '.join(unknown)}. Give some of {','.join(known)}; none looks for no "
-            "flags."
+            f"--flags does not know {', '.join(unknown)}. Use one or more of these values: "
+            f"{','.join(known)}. Use the value none to look for no flags."
         )
     return [name for name in known if not names or name in names]
 

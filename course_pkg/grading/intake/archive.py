@@ -60,8 +60,9 @@ def opened(source: Path) -> Iterator[list[Entry]]:
         archive = zipfile.ZipFile(source)
     except (OSError, zipfile.BadZipFile, ValueError, NotImplementedError) as error:
         raise GradingError(
-            f"{source} contains no submissions: {error}. Give a folder SUBMISSIONS/<student>/NN_topic.ipynb, "
-            "a zip of it, or the zip that Moodle, Canvas or Gradescope offers."
+            f"{source} contains no submissions: {error}. Give a folder with "
+            "SUBMISSIONS/<student>/NN_topic.ipynb, a zip of this folder, or the zip from Moodle, "
+            "Canvas or Gradescope."
         ) from error
     with archive:
         yield list(_Archive(archive).entries())
@@ -97,7 +98,11 @@ def _in_folder(folder: Path, prefix: str, depth: int) -> Iterator[Entry]:
                 yield from _in_folder(Path(item.path), f"{path}/", depth - 1)
             else:
                 yield _refused(
-                    path, (f"it is inside more than {DEPTH} nested folders; move it to a higher folder")
+                    path,
+                    (
+                        f"the file is inside more than {DEPTH} nested folders; move the file to a "
+                        "higher folder"
+                    ),
                 )
         else:
             status = item.stat(follow_symlinks=False)
@@ -112,13 +117,13 @@ def _read_file(path: Path) -> bytes:
     except OSError as error:
         if path.is_symlink():
             raise GradingError(
-                "it is a link, and links are not followed; replace it by the file itself"
+                "the file is a link, and links are not followed; replace the link by the file itself"
             ) from error
-        raise GradingError(f"it cannot be read ({error.strerror}); correct its permissions") from error
+        raise GradingError(f"the file cannot be read ({error.strerror}); correct its permissions") from error
     with os.fdopen(handle, "rb") as file:
         status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode):
-            raise GradingError("it is not an ordinary file; replace it by the notebook itself")
+            raise GradingError("the file is not an ordinary file; replace it by the notebook itself")
         return _bounded(file.read(LARGEST + 1))
 
 
@@ -130,8 +135,8 @@ def _bounded(content: bytes) -> bytes:
 def _refuse_large(size: int) -> None:
     if size > LARGEST:
         raise GradingError(
-            f"it is larger than {LARGEST >> 20} MiB; ask the student to clear its outputs (Edit, "
-            f"Clear Outputs of All Cells) and to hand it in again"
+            f"the file is larger than {LARGEST >> 20} MiB; ask the student to clear the outputs "
+            "(Edit, Clear Outputs of All Cells) and to hand in the notebook again"
         )
 
 
@@ -151,7 +156,7 @@ class _Archive:
                 executable = bool((member.external_attr >> 16) & stat.S_IXUSR)
                 yield Entry(str(path), _modified(member), partial(self._read, member), executable)
         if len(members) > MEMBERS:
-            yield _refused("", f"the archive contains more than {MEMBERS} files; split it")
+            yield _refused("", f"the archive contains more than {MEMBERS} files; split the archive")
 
     def _read(self, member: zipfile.ZipInfo) -> bytes:
         _refuse_suspicious(member)
@@ -175,18 +180,20 @@ def _refuse_suspicious(member: zipfile.ZipInfo) -> None:
     kind = stat.S_IFMT(member.external_attr >> 16)
     if leads_out(member.filename):
         raise GradingError(
-            "its path leads out of the archive, so it was not read; ask the student for the notebook itself"
+            "the path leads out of the archive, so the file was not read; ask the student for the "
+            "notebook itself"
         )
     if kind not in (0, stat.S_IFREG):
         raise GradingError(
-            "it is a link or a device, so it was not read; ask the student for the notebook itself"
+            "the file is a link or a device, so it was not read; ask the student for the notebook itself"
         )
     if member.flag_bits & 0x1:
-        raise GradingError("it is encrypted; ask the student for the notebook without a password")
+        raise GradingError("the file is encrypted; ask the student for the notebook without a password")
     _refuse_large(member.file_size)
     if member.file_size > SMALL and member.file_size > RATIO * max(1, member.compress_size):
         raise GradingError(
-            "its size after unpacking is too large for a notebook; ask the student for the notebook again"
+            "the size of the file after unpacking is too large for a notebook; ask the student for "
+            "the notebook again"
         )
 
 

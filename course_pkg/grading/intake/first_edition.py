@@ -32,7 +32,9 @@ class RenumberedChapter:
         """Sentences about the changes since the first edition."""
         if self.number == self.now:
             return f"the exercises of this chapter had other numbers. {self.moved}".strip()
-        return f"this chapter had number {self.number}. It is chapter {self.now} now. {self.moved}".strip()
+        return (
+            f"this chapter had number {self.number}, and it is chapter {self.now} now. {self.moved}".strip()
+        )
 
 
 RENUMBERED = (
@@ -44,8 +46,8 @@ RENUMBERED = (
         "Survive trouble",
         "12",
         (
-            "Exercise 10.1 is now exercise 10.4 of chapter 10, and exercise 10.2 is now exercise 10.5 "
-            "of chapter 10."
+            "Exercise 10.1 is now exercise 10.4 in chapter 10. Exercise 10.2 is now exercise 10.5 "
+            "in chapter 10."
         ),
     ),
     RenumberedChapter("11_cpp", "Read and build the C++ side", "13"),
@@ -58,8 +60,10 @@ CHOOSE = RenumberedChapter(
     "03_choose",
     "Choose between a stream and a question",
     "03",
-    "Exercise 03.3 is now exercise 10.2 of chapter 10. Exercise 03.5 is now exercise 03.4. The old exercise "
-    "03.4 was removed.",
+    (
+        "Exercise 03.3 is now exercise 10.2 in chapter 10. Exercise 03.5 is now exercise 03.4. The old "
+        "exercise 03.4 was removed."
+    ),
 )
 LAST_PART = re.compile(r"(?:exercise|check)-03-5|[\"']03\.5[\"']")  # Only the first edition has this part.
 

@@ -73,7 +73,7 @@ def report_folders(source: Path, out: Path | None) -> list[str]:
         others = [path.name for path in found if path.name != own]
     if others:
         sys.stderr.write(
-            "These folders were not read, because an earlier run wrote its reports there: "
+            "These folders were not read, because they contain the reports of an earlier run: "
             f"{', '.join(others)}\n"
         )
     return [*filter(None, [own]), *others]

@@ -112,7 +112,7 @@ def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
 def _too_large(name: str, why: str) -> str:
     return (
         f"The package {clean.line(name, 60)} was not graded: {why}. Remove the files that the build "
-        "created, and recorded files such as .bag files."
+        "created, and remove recorded files such as .bag files."
     )
 
 

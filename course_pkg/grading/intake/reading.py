@@ -16,13 +16,14 @@ from course_pkg.types.fields import Plain
 BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {
-    b"<!doctype": "it is a web page that shows the notebook; download the notebook itself from that page",
-    b"<html": "it is a web page that shows the notebook; download the notebook itself from that page",
+    b"<!doctype": "the file is a web page with the notebook; download the notebook itself from that page",
+    b"<html": "the file is a web page with the notebook; download the notebook itself from that page",
     b"<<<<<<<": (
-        "it contains the conflict marks of a git merge; resolve the conflict and keep one of the two versions"
+        "the file contains the conflict marks of a git merge; resolve the conflict and keep one of "
+        "the two versions"
     ),
-    b"%pdf": "it is a PDF of the notebook; hand in the .ipynb itself",
-    b"pk\x03\x04": "it is a zip with the name of a notebook; hand in the .ipynb itself",
+    b"%pdf": "the file is a PDF of the notebook; hand in the .ipynb itself",
+    b"pk\x03\x04": "the file is a zip with the name of a notebook; hand in the .ipynb itself",
 }
 WRONG = (
     KeyError,
@@ -54,10 +55,10 @@ def read_cells(content: bytes) -> list[StudentCell]:
     cells = _all_cells(_parsed(content))
     if not isinstance(cells, list):
         raise GradingError(
-            "it is not a notebook, because it has no cells; hand in the .ipynb that you worked in"
+            "the file is not a notebook, because it has no cells; hand in the .ipynb in which you worked"
         )
     if len(cells) > CELLS:
-        raise GradingError(f"it has more than {CELLS} cells; hand in the notebook that you worked in")
+        raise GradingError(f"the file has more than {CELLS} cells; hand in the notebook in which you worked")
     return list(_cells(cells))
 
 
@@ -81,18 +82,21 @@ def slimmed(cells: Sequence[StudentCell]) -> bytes:
 def _parsed(content: bytes) -> dict[str, Plain]:
     start = content[:4096].removeprefix(b"\xef\xbb\xbf").lstrip()[:16].lower()
     if not start:
-        raise GradingError("it is empty; save the notebook again, and hand it in again")
+        raise GradingError("the file is empty; save the notebook again, and hand in the notebook again")
     if content.count(b"{") + content.count(b"[") > BRACKETS:
-        raise GradingError(f"it contains more than {BRACKETS} lists and objects; clear its outputs")
+        raise GradingError(
+            f"the file contains more than {BRACKETS} lists and objects; clear the outputs of the notebook"
+        )
     try:
         data = json.loads(content)
     except (ValueError, RecursionError) as error:
         why = next((words for prefix, words in PREFIXES.items() if start.startswith(prefix)), "")
         raise GradingError(
-            why or "it is not a notebook, because it is not JSON; hand in the .ipynb that you worked in"
+            why
+            or ("the file is not a notebook, because it is not JSON; hand in the .ipynb in which you worked")
         ) from error
     if not isinstance(data, dict):
-        raise GradingError("it is JSON, but has no cells; hand in the .ipynb that you worked in")
+        raise GradingError("the file is JSON, but it has no cells; hand in the .ipynb in which you worked")
     return data
 
 

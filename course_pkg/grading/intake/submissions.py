@@ -39,8 +39,8 @@ from course_pkg.grading.intake.reading import read_cells, slimmed
 from course_pkg.grading.intake.references import References, plain
 
 LATE = (
-    "Canvas marks this submission as late, but does not say how late it is. Give a table of late days or of "
-    "times."
+    "Canvas marks this submission as late, but it does not say how many days. Give a table of late "
+    "days or of times."
 )
 SHOWN = 3  # SHOWN is the maximum number of file names in a sentence.
 
@@ -190,7 +190,7 @@ def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
         chapter = chapter if owner.student and chapter in references.chapters else ""
         made = replace(blank, chapter=chapter, problem=f"{name} was not graded: {error}.")
     if not owner.student and not made.problem:
-        why = "its student is unknown; put the file into a folder with the name of the student"
+        why = "the student is unknown; put the file into a folder with the name of the student"
         made = replace(made, chapter="", content=b"", problem=f"{name} was not graded: {why}.")
     return _Found(made, owner.attempt, entry.modified)
 
@@ -209,14 +209,13 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
             f"there is no chapter {chapter}, only {known}; correct the number in the file's name"
             if chapter
             else (
-                "neither its name nor its cells show the chapter; give the file a name such as NN_topic.ipynb"
+                "neither the name of the file nor its cells show the chapter; give the file a name "
+                "such as NN_topic.ipynb"
             )
         )
     notes = [LATE] if owner.marked_late else []
     if named and named != chapter:
-        notes.append(
-            f"The file's name contains chapter {named}, but its cells are those of chapter {chapter}."
-        )
+        notes.append(f"The file's name contains chapter {named}, but its cells belong to chapter {chapter}.")
     return replace(blank, chapter=chapter, content=slimmed(cells), notes=tuple(notes))
 
 
@@ -227,8 +226,9 @@ def _of_first_edition(found: RenumberedChapter, references: References, blank: S
     """
     name = clean.line(blank.origin.rpartition("/")[2], 120)
     problem = (
-        f"{name} was not graded: it belongs to the first edition of the course, where {found.difference} "
-        f"Copy your answers into {references.name_of(found.now)}.ipynb and hand in that notebook."
+        f"{name} was not graded: this notebook belongs to the first edition of the course, where "
+        f"{found.difference} Copy your answers into {references.name_of(found.now)}.ipynb, and hand "
+        "in that notebook."
     )
     return replace(blank, chapter=found.now, problem=problem)
 
@@ -236,15 +236,20 @@ def _of_first_edition(found: RenumberedChapter, references: References, blank: S
 def _refuse_other(entry: Entry) -> None:
     """Raise GradingError for a file that is not a notebook; the message depends on the kind of file."""
     if entry.path.endswith(METADATA):
-        raise GradingError("it does not contain the names of the students; export it from Gradescope again")
+        raise GradingError(
+            "the file does not contain the names of the students; export the submissions from "
+            "Gradescope again"
+        )
     ending = entry.path.rpartition(".")[2].lower()
     if ending in ("zip", "gz", "7z", "rar", "tar", "tgz"):
-        raise GradingError("it is an archive inside the submissions; unpack it, and then delete the archive")
+        raise GradingError(
+            "the file is an archive inside the submissions; unpack the archive, and then delete it"
+        )
     if entry.parts[-1:] == (MANIFEST,):
         raise GradingError("a package needs its own folder; move the file to STUDENT/PACKAGE/package.xml")
     raise GradingError(
-        "it is neither a notebook nor part of a package with a package.xml; if it contains answers, ask "
-        "the student for the .ipynb"
+        "the file is neither a notebook nor part of a package with a package.xml; if it contains "
+        "answers, ask the student for the .ipynb"
     )
 
 
@@ -263,8 +268,8 @@ def _decided(found: Sequence[_Found]) -> Iterator[Submission]:
         if others:
             names = _listed([each.origin for each in others])
             note = (
-                f"Handed in {len(ranked)} times: {best.origin} was graded, and these files were not "
-                f"graded: {names}."
+                f"This chapter was handed in {len(ranked)} times: {best.origin} was graded, and "
+                f"these files were not graded: {names}."
             )
             usable = tuple(each for each in reversed(others) if not each.problem)
             best = replace(best, notes=(*best.notes, note), attempts=usable)

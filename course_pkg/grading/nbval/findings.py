@@ -11,19 +11,19 @@ LIMIT = re.compile(r"Timeout of (?P<seconds>\d+) seconds exceeded (?:while )?exe
 SENTENCES = (  # Each entry is a text of nbval 0.11 or pytest, and its meaning for a student.
     (
         "Missing output fields",
-        "The cell showed no output, or less output than it shows with the right answers.",
+        "With the right answers, this cell shows more output.",
     ),
-    ("Unexpected output fields", "The cell showed more output than it shows with the right answers."),
+    ("Unexpected output fields", "With the right answers, this cell shows less output."),
     (
         "dissimilar number of outputs",
-        "The number of outputs of the cell differs from the number with the right answers.",
+        "With the right answers, this cell has a different number of outputs.",
     ),
-    ("Cell outputs differ", "The output of the cell differs from the output with the right answers."),
-    ("Kernel dead", "The cell was not run, because an earlier cell had ended the kernel."),
-    ("waiting for output", "The kernel ended, or it sent no output, while the cell ran."),
+    ("Cell outputs differ", "The output of the cell is different from the output with the right answers."),
+    ("Kernel dead", "The cell was not run, because the kernel had ended in an earlier cell."),
+    ("waiting for output", "The kernel ended or sent no output while the cell ran."),
     ("previous cell timed out", "An earlier cell took too long, so this cell was not compared."),
 )
-OTHER = "The result of the cell differs from the result with the right answers."
+OTHER = "The result of the cell is different from the result with the right answers."
 
 
 def finding(words: str) -> str:

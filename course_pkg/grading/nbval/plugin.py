@@ -58,7 +58,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
             terminalreporter.write_line(line)
         lacking = _lacking(lines)
         terminalreporter.write_line(
-            f"{len(lines)} parts, {len(lacking)} of them without their points."
+            f"{len(lines)} parts, and {len(lacking)} of them did not pass."
             if lacking
             else f"{len(lines)} parts, all passed."
         )

@@ -21,9 +21,9 @@ from course_pkg.authoring.cells import Cell, Notebook, check_of, code_cells
 from course_pkg.authoring.validate import SANITIZE
 from course_pkg.checking.parts import secret_paths
 from course_pkg.grading.nbval.plugin import RECORD
-from course_pkg.sandbox import confinement, namespaces
 from course_pkg.sandbox.channel import descendants, end, fork
-from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, memory_below, run_master
+from course_pkg.sandbox.linux import confinement, namespaces
+from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, run_master, too_much_memory_below
 from course_pkg.waiting import Deadline, at_this_load
 
 # nbval waits for output, and ends the kernel at most this many s after the time limit of a cell.
@@ -76,7 +76,7 @@ def _run_within_limits(command: list[str], record: Path, silence: float) -> bool
         while process.poll() is None:
             if record.stat().st_size > size:
                 size, deadline = record.stat().st_size, Deadline(silence)
-            if memory_below(process.pid) > TOGETHER or deadline.passed:
+            if too_much_memory_below(process.pid, TOGETHER) or deadline.passed:
                 end([*descendants(process.pid), process.pid])
             with suppress(subprocess.TimeoutExpired):
                 process.wait(MEMORY_INTERVAL)
@@ -90,7 +90,7 @@ def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
     if not (first := next(left, "")):
         return ""
     words = (
-        f"The cell gave no result within {cell:.0f} s, so this cell and all cells after it have no result."
+        f"The cell gave no result within {cell:.0f} s. So this cell and all cells after it have no result."
     )
     return json.dumps({"cell": first, "outcome": "failed", "words": words}) + "\n"
 
@@ -190,7 +190,7 @@ def _run_checks(listener: socket.socket) -> None:
 
 def _run_check(sock: socket.socket) -> None:
     from course_pkg.checking.channel import Channel
-    from course_pkg.checking.runner import run_check
+    from course_pkg.checking.processes.runner import run_check
 
     # This limit is needed because the submission decides how many bytes the check receives.
     namespaces.limit(AS=confinement.CHECK_RUNNER)

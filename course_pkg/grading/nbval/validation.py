@@ -14,7 +14,7 @@ from course_pkg.authoring.cells import Notebook, code_cells
 from course_pkg.grading.grade import CellOutcome, Grade, Submission
 from course_pkg.grading.nbval.findings import finding
 from course_pkg.grading.plan import Plan
-from course_pkg.sandbox.bubblewrap import sandbox_command
+from course_pkg.sandbox.linux.bubblewrap import sandbox_command
 
 # On an idle machine, a cell may run for this time in s. With this limit, a blocked kernel costs less than 60
 # s.

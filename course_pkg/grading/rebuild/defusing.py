@@ -56,7 +56,9 @@ def _readable(source: str) -> tuple[str, list[str]]:
     kept = source.replace("\r\n", "\n").replace("\r", "\n").replace("\x00", "")
     kept = kept.encode("utf-8", "replace").decode("utf-8")  # A question mark replaces a surrogate.
     if kept != source.replace("\r\n", "\n").replace("\r", "\n"):
-        return kept, ["Characters that a Python file cannot contain were removed from your cell."]
+        return kept, [
+            "Some characters were removed from your cell, because a Python file cannot contain them."
+        ]
     return kept, []
 
 
@@ -78,8 +80,7 @@ def _without_magic(source: str) -> tuple[str, list[str]]:
     body = "".join(_as_ipython_reads(source)[1:])
     shown = magic.split()[0][:40]
     return f"# {shown} has no effect here\n{body}".rstrip("\n"), [
-        f"{shown} in the first line of your cell was removed: the cell has to be Python, as in the original "
-        f"notebook."
+        (f"{shown} in the first line of your cell was removed, because the cell has to contain Python.")
     ]
 
 
@@ -90,7 +91,9 @@ def _with_magic(source: str, first_line: str) -> tuple[str, list[str]]:
     kept = f"{first_line}\n{body.strip(chr(10))}"
     if " ".join(magic.split()) == " ".join(first_line.split()):
         return kept, []
-    return kept, [f"The first line of the cell was restored: it has to be {first_line}"]
+    return kept, [
+        f"The first line of your cell was wrong, so it was replaced by the right line: {first_line}"
+    ]
 
 
 def _without_markers(source: str) -> tuple[str, list[str]]:
@@ -103,7 +106,7 @@ def _without_markers(source: str) -> tuple[str, list[str]]:
         line.replace(mark, f"({mark})") if mark else line for line, mark in zip(lines, found, strict=True)
     ]
     names = ", ".join(sorted({mark for mark in found if mark}))
-    return "".join(kept), [f"{names} in a comment has no effect in grading."]
+    return "".join(kept), [f"The name {names} in a comment has no effect in grading."]
 
 
 def _marker(line: str) -> str:

@@ -70,7 +70,10 @@ class Matching:
         if chosen := code or filled:
             return _matched(chosen)
         if elsewhere := list(self._elsewhere(wanted)):
-            note = f"The exercise's own cell contains no answer; the cell that {_known_by(wanted)} was used."
+            note = (
+                f"The exercise's own cell contains no answer. The cell that {_known_by(wanted)} was "
+                "used instead."
+            )
             match = _matched(elsewhere)
             return Match(match.source, match.missing, (note, *match.notes), match.cells)
         if any(run.source.strip() for run in runs):
@@ -185,11 +188,11 @@ def _matched(runs: Sequence[_Run]) -> Match:
     chosen = runs[-1]
     notes = []
     if len({run.source.strip() for run in runs}) > 1:
-        notes.append(f"{len(runs)} cells answer this exercise; the last one was used.")
+        notes.append(f"{len(runs)} cells answer this exercise. Only the last of these cells was used.")
     if chosen.written > 1:
-        notes.append(f"The answer was split into {chosen.written} cells, which were joined.")
+        notes.append(f"The answer was in {chosen.written} cells. These cells were joined.")
     if chosen.kind != "code":
-        notes.append("The exercise's cell is not a code cell; its text was used as code.")
+        notes.append("The exercise's cell is not a code cell, but its text was used as code.")
     if len(chosen.source) > LONGEST:
         return Match(
             missing=f"The exercise's cell contains more than {LONGEST} characters.", notes=tuple(notes)
@@ -199,7 +202,7 @@ def _matched(runs: Sequence[_Run]) -> Match:
 
 def _about_tags(tags: frozenset[str]) -> list[str]:
     found = sorted(tags & set(TAGS))
-    return [f"The tag {', '.join(found)} on the exercise's cell has no effect on the grade."] if found else []
+    return [f"The tag {', '.join(found)} on the exercise's cell does not change the grade."] if found else []
 
 
 def _answers(source: str, wanted: Wanted) -> bool:

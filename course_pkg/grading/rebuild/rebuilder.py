@@ -112,6 +112,6 @@ def _about_names(source: str, elsewhere: set[str]) -> Iterator[str]:
     if names := sorted(used(source) & elsewhere):
         shown = ", ".join(name[:40] for name in names[:3])
         yield (
-            f"This cell uses {shown}, which you define in another cell. Only the exercise's cell is "
-            "graded, so this cell has to contain everything that the answer needs."
+            f"This cell uses {shown}, which you define in a different cell. Only the exercise's "
+            "cell is graded, so write all the code of the answer into this cell."
         )

@@ -15,8 +15,8 @@ from course_pkg.grading.reports.page import paragraph, text
 
 OTHERS = 10  # A flag lists at most this many other students.
 ABOUT = (
-    "A flag is a reason to look at an answer yourself. It changes no points, and the feedback for students "
-    "does not contain it."
+    "A flag is a reason to look at an answer yourself. A flag does not change points, and the "
+    "feedback for students contains no flags."
 )
 Flagged = tuple[str, str, Flag]  # The tuple contains the student, the chapter and the flag.
 

@@ -13,8 +13,8 @@ from course_pkg.grading.roster.class_list import ClassList, Lists, origins_of
 from course_pkg.grading.roster.people import Person
 
 WITHOUT_SANDBOX = (
-    "This submission was run without a sandbox: it had access to the machine, its check and the other "
-    "submissions, so its points may be wrong."
+    "The code of this submission ran without a sandbox. It had access to the machine, to its check "
+    "and to other submissions, so the points may be wrong."
 )
 
 ABSENT = "These results are from an earlier run. In the latest run, nothing was handed in for this chapter."
@@ -135,7 +135,7 @@ def attention(book: Book, student: str) -> list[str]:
         *(reason for grade in grades if (reason := _about(grade))),
         *(reason for grade in grades for reason in _inconclusive(grade)),
         *(
-            f"{report.check}: the answer has changed since it was reviewed. The reviewed points stay."
+            (f"{report.check}: the answer has changed since its review. The points of the review stay.")
             for grade in grades
             for report in grade.reports
             if report.review and report.review.outdated

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from course_pkg.checking.report import Verdict
 from course_pkg.grading import clean
+from course_pkg.web_pages.style import style_sheet
 
 KINDS = {  # Each verdict has a class of the style sheet, and a symbol before the verdict.
     Verdict.PASSED: ("passed", "✓"),
@@ -22,7 +23,7 @@ class Frame:
     """The HTML head of all pages; the style sheet is read only once."""
 
     def __init__(self) -> None:
-        style = Path(__file__).with_name("page.css").read_text("utf-8")
+        style = style_sheet(Path(__file__).with_name("page.css"))
         digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
         policy = f"default-src 'none'; style-src 'sha256-{digest}'; base-uri 'none'; form-action 'none'"
         self._head = (

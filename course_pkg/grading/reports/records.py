@@ -41,6 +41,7 @@ def _read(path: Path, which: str) -> Grade:
         return grade_from(json.loads(path.read_text("utf-8")))
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise GradingError(
-            f"In {path.parents[1]}, in the order of paths, {which} ({path.name}) is not a grade of this "
-            f"version of the course: {type(error).__name__}. Delete it, and grade again."
+            f"In {path.parents[1]}, {which} ({path.name}) is not a grade of this version of the "
+            f"course: {type(error).__name__}. Records are counted in the order of their paths. "
+            "Delete this file, and grade again."
         ) from error

@@ -13,9 +13,9 @@ from course_pkg.grading.reports.gradebook import Book, name_of
 from course_pkg.grading.reports.page import paragraph, table, text
 from course_pkg.grading.roster.people import FIELDS, Person
 
-MISSING = "On the roster, but handed in nothing."
-STRANGER = "Not on the roster."
-UNLISTED = "Not in Moodle's worksheet."
+MISSING = "This student is on the roster, but handed in nothing."
+STRANGER = "This student is not on the roster."
+UNLISTED = "This student is not in Moodle's worksheet."
 values = attrgetter(*FIELDS)
 
 
@@ -26,7 +26,7 @@ def about_identity(book: Book, student: str) -> list[str]:
     return [
         *([STRANGER] if student in known.strangers else []),
         *([UNLISTED] if student in known.unlisted else []),
-        *([f"Not identified: {reason}."] if reason else []),
+        *([f"This student was not identified: {reason}."] if reason else []),
     ]
 
 

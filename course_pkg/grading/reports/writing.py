@@ -48,8 +48,8 @@ def write_reports(
             write(books.get(name, platforms), out)
     except OSError as error:
         raise GradingError(
-            f"The reports cannot be written into {out}: {error.strerror or error}. Give another folder with "
-            "--out; the grades are not lost."
+            f"The reports cannot be written into {out}: {error.strerror or error}. Give another "
+            "folder with --out. No grade is lost."
         ) from error
 
 

@@ -55,8 +55,8 @@ def about_reviews(grades: Sequence[Grade]) -> list[str]:
     if changed:
         more = f" and {len(changed) - SHOWN} more" if len(changed) > SHOWN else ""
         lines.append(
-            f"The answer has changed since it was reviewed: {', '.join(changed[:SHOWN])}{more}. The reviewed "
-            "points stay. `course review GRADES --unfinished` shows these answers."
+            f"The answer has changed since its review: {', '.join(changed[:SHOWN])}{more}. The "
+            "points of the review stay. `course review GRADES --unfinished` shows these answers."
         )
     return lines
 

@@ -24,7 +24,8 @@ from course_pkg.grading.store import FOLDER
 from course_pkg.state import locked
 
 AFTERWARDS = (
-    "To write these points into the reports, type your `course grade` command again. It grades nothing twice."
+    "To write these points into the reports, type your `course grade` command again. The command "
+    "does not grade any answer again."
 )
 
 
@@ -38,12 +39,15 @@ def review(out: Path, wanted: Wanted, port: int, *, browser: bool) -> int:
             asyncio.run(_serve(session, port, browser=browser))
     except TimeoutError as error:
         raise GradingError(
-            f"Another `course review` uses {out}. Use its page, or end it with Ctrl-C in its terminal."
+            f"Another `course review` command uses {out}. Use the page of that command, or end that "
+            "command with Ctrl-C in its terminal."
         ) from error
     except KeyboardInterrupt:
-        sys.stdout.write(f"\nThe review has ended; all saved points are in {out / FILE}. {AFTERWARDS}\n")
+        sys.stdout.write(f"\nThe review has ended. All saved points are in {out / FILE}. {AFTERWARDS}\n")
     except OSError as error:
-        raise GradingError(f"{out} cannot be written ({error.strerror}). Correct its permissions.") from error
+        raise GradingError(
+            f"{out} cannot be written ({error.strerror}). Correct the permissions of this folder."
+        ) from error
     return 0
 
 
@@ -75,7 +79,8 @@ async def _serve(session: Session, port: int, *, browser: bool) -> None:
         (listening,) = bind_sockets(port, "127.0.0.1")
     except OSError as error:
         raise GradingError(
-            f"Port {port} cannot be used ({error.strerror}). Leave --port out, or give another one."
+            f"Port {port} cannot be used ({error.strerror}). Leave out the option --port, or give "
+            "another port."
         ) from error
     number = listening.getsockname()[1]
     token = secrets.token_urlsafe(24)

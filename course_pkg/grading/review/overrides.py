@@ -235,4 +235,4 @@ def _plain(cell: str) -> str:
 
 
 def _wrong(path: Path, line: int, problem: str) -> GradingError:
-    return GradingError(f"{path}, line {line}: {problem}. Correct the line; nothing was changed.")
+    return GradingError(f"{path}, line {line}: {problem}. Correct this line. Nothing was changed.")

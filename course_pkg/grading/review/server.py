@@ -10,8 +10,8 @@ from collections.abc import Callable
 from http import HTTPStatus
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader
-from tornado.web import Application, RequestHandler
+from jinja2 import Environment
+from tornado.web import Application
 
 from course_pkg.errors import GradingError
 from course_pkg.grading.reports.gradebook import name_of
@@ -19,34 +19,20 @@ from course_pkg.grading.reports.page import KINDS
 from course_pkg.grading.review.items import marked_lines
 from course_pkg.grading.review.session import Session
 from course_pkg.types.fields import Plain
+from course_pkg.web_pages.handler import ASSETS, PageHandler, templates_in
 
 HERE = Path(__file__).parent
-ASSETS = {"page.js": "text/javascript", "page.css": "text/css"}
-POLICY = (
-    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src data:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-)
-HEADERS = {
-    "Content-Security-Policy": POLICY,
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Resource-Policy": "same-origin",
-    "Cross-Origin-Opener-Policy": "same-origin",
-    "Cache-Control": "no-store",
-}
 LARGEST = 100_000  # A request may have at most this many bytes.
 WAIT = 0.05  # s
 
 
 def application(session: Session, token: str, port: Callable[[], int]) -> Application:
     """Return the application; `port` returns the port at which it listens."""
-    loader = FileSystemLoader(HERE)
-    templates = Environment(loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    shared = {"session": session, "token": token, "port": port, "templates": templates}
+    shared = {"session": session, "token": token, "port": port, "templates": templates_in(HERE)}
     return Application(
         [
             (r"/", Page, shared),
-            (r"/(page\.js|page\.css)", Asset, shared),
+            ("/" + ASSETS, Asset, shared),
             (r"/items", Items, shared),
             (r"/items/(\d{1,6})", OneItem, shared),
             (r"/rows", Rows, shared),
@@ -59,7 +45,7 @@ def application(session: Session, token: str, port: Callable[[], int]) -> Applic
     )
 
 
-class Handler(RequestHandler):
+class Handler(PageHandler):
     """Refuses requests without the token, from other pages, or for another host."""
 
     def initialize(
@@ -67,12 +53,6 @@ class Handler(RequestHandler):
     ) -> None:
         """Store the data that all handlers share."""
         self.session, self.token, self.port, self.templates = session, token, port, templates
-
-    def set_default_headers(self) -> None:
-        """Add the security policies to each response, including errors."""
-        self.clear_header("Server")
-        for name, value in HEADERS.items():
-            self.set_header(name, value)
 
     def prepare(self) -> None:
         """Refuse a request that does not come from the page."""
@@ -83,14 +63,8 @@ class Handler(RequestHandler):
         header = self.request.headers.get("Authorization", "").removeprefix("token ")
         given = header or self.get_query_argument("token", "")
         if not (known and near and hmac.compare_digest(given.encode(), self.token.encode())):
-            self.set_status(HTTPStatus.FORBIDDEN)
-            self.set_header("Content-Type", "text/plain; charset=utf-8")
-            self.finish("Open the address that `course review` printed, with its token.\n")
-
-    def answer(self, data: Plain) -> None:
-        """Send plain data as JSON."""
-        self.set_header("Content-Type", "application/json")
-        self.finish(json.dumps(data))
+            reason = "Open the address that `course review` printed, with its token."
+            self.refuse(HTTPStatus.FORBIDDEN, reason)
 
     async def attempt(self, action: Callable[[], dict[str, Plain]]) -> None:
         """Send the result of `action`, or the reason why it failed."""
@@ -120,8 +94,7 @@ class Unknown(Handler):
 
     def get(self) -> None:
         """Send 404."""
-        self.set_status(HTTPStatus.NOT_FOUND)
-        self.finish("There is no such page.\n")
+        self.refuse_path()
 
 
 class Page(Handler):
@@ -137,8 +110,7 @@ class Asset(Handler):
 
     def get(self, name: str) -> None:
         """Send a file."""
-        self.set_header("Content-Type", f"{ASSETS[name]}; charset=utf-8")
-        self.finish((HERE / name).read_bytes())
+        self.send_asset(HERE / name)
 
 
 class Items(Handler):

@@ -89,8 +89,8 @@ class Session:
         if before.rows and not self._overrides.digest:
             self._overrides = before
             raise GradingError(
-                f"{before.path} was deleted, or is empty, but it had {len(before.rows)} rows. Put it back, "
-                "or end this review and start it again without the file."
+                f"The file {before.path} was deleted, or is empty, but it had {len(before.rows)} "
+                "rows. Restore the file, or end this review and start it again without the file."
             )
         return before.digest != self._overrides.digest
 
@@ -122,7 +122,7 @@ class Session:
         reloaded, step = self.refresh(), self._steps[-1]
         if any(self._overrides.rows.get(key) != row for key, row in step.after.items()):
             self._steps.pop()
-            raise ValueError("another program has changed this row since, so it stays as it is")
+            raise ValueError("another program has changed this row since then, so the row stays as it is")
         done = self._change(step.before, undoing=True)
         self._steps.pop()
         shown = self._numbers.get(next(iter(step.before)))

@@ -15,14 +15,18 @@ def add_roster_arguments(parser: ArgumentParser) -> None:
         "--roster",
         type=Path,
         metavar="FILE",
-        help="a CSV file with the students of the class (columns name, id, email, username, section): the "
-        "reports then show who is missing, and contain these columns; with the column extension_days, the "
-        "deadlines of these students are later by that number of days",
+        help=(
+            "a CSV file with the students of the class (columns name, id, email, username, section). "
+            "The reports then show missing students, and contain these columns. The column "
+            "extension_days moves the deadlines of a student by this number of days"
+        ),
     )
     parser.add_argument(
         "--moodle-worksheet",
         type=Path,
         metavar="FILE",
-        help="the grading worksheet of the assignment in Moodle: moodle_worksheet.csv is then a copy of it "
-        "with grades and feedback, which Moodle imports",
+        help=(
+            "the grading worksheet of the assignment in Moodle. The course writes moodle_worksheet.csv, "
+            "a copy with grades and feedback that you import in Moodle"
+        ),
     )

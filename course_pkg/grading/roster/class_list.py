@@ -52,11 +52,11 @@ class ClassList:
         if self.worksheet is not None:
             yield from self._about_worksheet(self.worksheet)
         for student, reason in self.unclear.items():
-            yield f"It is unclear which student {student} is: {reason}."
+            yield f"The student {student} cannot be identified: {reason}."
         if self.unclear:
             yield (
-                "canvas.csv and moodle.csv have no row for such a student. Correct the list, or the name of "
-                "the folder, and type the same command again."
+                "canvas.csv and moodle.csv have no row for this student. Correct the list, or the "
+                "name of the folder, and type the same command again."
             )
 
     def _about_worksheet(self, worksheet: Worksheet) -> Iterator[str]:
@@ -164,7 +164,9 @@ class _Search:
         for line, students in by_line.items():
             for student in students if len(students) > 1 else ():
                 others = ", ".join(each for each in students if each != student)
-                self.unclear[student] = f"it fits the same row of {self._title} (line {line}) as {others}"
+                self.unclear[student] = (
+                    f"the student fits the same row of {self._title} (line {line}) as {others}"
+                )
                 del self.found[student]
 
     def unknown(self, students: Iterable[str]) -> tuple[str, ...]:

@@ -46,12 +46,14 @@ class People:
             return Match()
         common = set.intersection(*proposals)
         if not common:
-            return self._unclear("its number, name or address fit different rows", set.union(*proposals))
+            return self._unclear(
+                "the student's number, name or address fit different rows", set.union(*proposals)
+            )
         if len(common) > 1:
-            return self._unclear("it fits several rows", common)
+            return self._unclear("the student fits several rows", common)
         person = self._people[min(common)]
         if known.number == person.number != "" and not _agree(known.name, person.name):
-            return self._unclear("its number fits a row with another name", common)
+            return self._unclear("the student's number fits a row with another name", common)
         return Match(person)
 
     def _proposals(self, known: Person, text: str) -> Iterator[set[int]]:

@@ -80,7 +80,7 @@ def read_roster(path: Path) -> tuple[Person, ...]:
             people.append(_person(f"{path.name}, line {number}", number, head, columns, cells))
     people = [person for person in people if person.name not in NO_STUDENTS]
     if not people:
-        raise GradingError(f"{path.name} contains no student: write one line for each student.")
+        raise GradingError(f"{path.name} contains no student. Write one line for each student.")
     _refuse_twice(path.name, people)
     return tuple(people)
 
@@ -92,13 +92,14 @@ def _columns(file: str, head: Sequence[str]) -> dict[str, int]:
         for known, names in ALIASES.items():
             if name in names and found.setdefault(known, place) != place:
                 raise GradingError(
-                    f"{file}, line 1: columns {found[known] + 1} and {place + 1} both contain the {known}. "
-                    f"Remove one of them, or give it another name."
+                    f"{file}, line 1: columns {found[known] + 1} and {place + 1} both contain the "
+                    f"{known}. Remove one of the two columns, or give it another name."
                 )
     if not found.keys() - {"section"}:
         raise GradingError(
-            f"{file}, line 1: the first line has to name the columns. Use name, id, email, username and "
-            "section, in any order; one of the first four is enough."
+            f"{file}, line 1: the first line has to contain the names of the columns. Use name, id, "
+            "email, username and section, in any order. At least one of the first four is "
+            "necessary."
         )
     return found
 
@@ -116,7 +117,9 @@ def _person(
     name = known.get("name", "") or " ".join(filter(None, [known.get(FIRST, ""), known.get(LAST, "")]))
     fields = {key: known.get(key, "") for key in (*IDENTITY, "section")}
     if not name and not any(fields[key] for key in IDENTITY):
-        raise GradingError(f"{where}: the student has no name, id, email or username. Add one of them.")
+        raise GradingError(
+            f"{where}: the student has no name, id, email or username. Add one of these values."
+        )
     further = {name: padded[place] for place, name in enumerate(head) if place not in columns.values()}
     return Person(name, **fields, line=line, more=further)
 
@@ -129,8 +132,8 @@ def _refuse_twice(file: str, people: Sequence[Person]) -> None:
             value = getattr(person, key).casefold()
             if value and seen.setdefault(value, person.line) != person.line:
                 raise GradingError(
-                    f"{file}: lines {seen[value]} and {person.line} have the same {key}. "
-                    "Correct one of them, or remove it."
+                    f"{file}: lines {seen[value]} and {person.line} have the same {key}. Correct or "
+                    "remove one of the two lines."
                 )
 
 

@@ -172,8 +172,8 @@ class Worksheet:
             raise GradingError(f"{where}: the maximum grade is not a number. {AGAIN}") from error
         if maximum <= 0:
             raise GradingError(
-                f"{where}: no points can be given for this assignment in Moodle. Set its Grade type "
-                "to Point in Moodle's settings of the assignment, and download the worksheet again."
+                f"{where}: Moodle gives no points for this assignment. In Moodle's settings of the "
+                "assignment, set Grade type to Point. Then download the worksheet again."
             )
         return maximum
 
@@ -214,15 +214,16 @@ def _columns(file: str, head: Sequence[str]) -> dict[str, int]:
     }
     if SCALE in found and MAXIMUM not in found:
         raise GradingError(
-            f"{file} is the worksheet of an assignment that is graded with a scale, not with points. Set its "
-            "Grade type to Point in Moodle's settings of the assignment, and download the worksheet again."
+            f"{file} is the worksheet of an assignment that is graded with a scale, not with "
+            "points. In Moodle's settings of the assignment, set Grade type to Point. Then "
+            "download the worksheet again."
         )
     missing = [name for name in (IDENTIFIER, GRADE) if name not in found]
     if missing:
         raise GradingError(
             f"{file} is not a grading worksheet of Moodle: the first line does not contain "
-            f"{' and '.join(missing)}. Give the file that Moodle's assignment offers as Download grading "
-            "worksheet. Its column names can be English, German, French or Spanish. If Moodle uses another "
-            "language, set it to English, download the worksheet again, and upload the copy in English, too."
+            f"{' and '.join(missing)}. In Moodle's assignment, choose Download grading worksheet. "
+            "The column names can be English, German, French or Spanish. For another language, set "
+            "Moodle to English, download the worksheet again, and also upload it in English."
         )
     return found

@@ -58,28 +58,28 @@ class Cluster:
         if isinstance(error, (ImportError, RuntimeError)):
             return GradingError(
                 f"The dask workers cannot run the course ({type(error).__name__}: {error}). Start the "
-                f"scheduler and the workers with `./course run dask …`, in the same version of the course. "
-                f"{AGAIN}"
+                "scheduler and the workers with `./course run dask …`, and use the same version of the "
+                f"course. {AGAIN}"
             )
         return GradingError(
-            "Several dask workers ended while they graded the same notebook. Their own output "
-            "shows the reason; often they do not have enough memory. Start fewer workers, and give "
-            f"each of them --nthreads 1. {AGAIN}"
+            "Several dask workers ended while they graded the same notebook. Read the workers' "
+            "output: often there is not enough memory. Start fewer workers, and give each worker "
+            f"--nthreads 1. {AGAIN}"
         )
 
     def _lost(self) -> GradingError:
         return GradingError(
-            f"The connection to the dask scheduler at {self._scheduler} was lost during the run. Is the "
-            f"scheduler still running, and can this machine reach it? {AGAIN}"
+            f"The connection to the dask scheduler at {self._scheduler} was lost during the run. "
+            f"Check that the scheduler is running and that this machine can reach it. {AGAIN}"
         )
 
 
 def no_workers(scheduler: str, patience: float) -> GradingError:
     """Return the error for a scheduler without workers."""
     return GradingError(
-        f"The dask scheduler at {scheduler} has had no worker for {patience:g} s, so nothing can be graded. "
-        f"Start workers with this command, and type the same command again: ./course run dask worker "
-        f"{scheduler} --nthreads 1 --nworkers 4"
+        f"The dask scheduler at {scheduler} has had no worker for {patience:g} s, so nothing can be "
+        "graded. Start workers with the following command, and then type your command again: "
+        f"./course run dask worker {scheduler} --nthreads 1 --nworkers 4"
     )
 
 
@@ -94,7 +94,7 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
         from distributed import Client
     except ImportError as error:
         raise GradingError(
-            "--scheduler needs dask.distributed, which is not installed here. Type: "
+            "--scheduler needs dask.distributed, which is not installed on this computer. Type: "
             "./course run python -m pip install distributed"
         ) from error
     _silence()
@@ -106,7 +106,9 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
         ) from error
     try:
         if not client.ncores():
-            sys.stderr.write(f"The dask scheduler has no worker yet; waiting {patience:g} s for one.\n")
+            sys.stderr.write(
+                f"The dask scheduler has no worker yet. The run waits {patience:g} s for a worker.\n"
+            )
         try:
             client.wait_for_workers(1, timeout=patience)
         except (TimeoutError, OSError) as error:

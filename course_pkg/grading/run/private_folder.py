@@ -24,19 +24,26 @@ def require_names(folder: Path, chapters: Sequence[str]) -> None:
     try:
         files = sorted(path for path in folder.iterdir() if not path.name.startswith((".", "__")))
     except OSError as error:
-        raise GradingError(f"{folder} cannot be read ({error.strerror}). Correct its permissions.") from error
+        raise GradingError(
+            f"{folder} cannot be read ({error.strerror}). Correct the permissions of this folder."
+        ) from error
     used = [path for path in files if path.is_file() and _is_used(path, chapters)]
     if wrong := [path.name for path in files if path not in used and SIMILAR.match(path.name)]:
         raise GradingError(
-            f"{folder} contains {', '.join(wrong)}, which would not be used. A name has to be {EXPECTED}, "
-            f"with NN one of {', '.join(chapters)}. Rename the file, or move it to another folder."
+            f"{folder} contains {', '.join(wrong)}, which cannot be used. A name has to be "
+            f"{EXPECTED}, where NN is one of {', '.join(chapters)}. Rename the file, or move the "
+            "file to another folder."
         )
     if not used:
-        raise GradingError(f"{folder} contains nothing that can be used. It needs {EXPECTED}.")
+        raise GradingError(f"{folder} contains no file that can be used. Add {EXPECTED}.")
     if empty := [path.name for path in used if not path.read_bytes().strip()]:
-        raise GradingError(f"{folder / empty[0]} is empty. Fill it in, or remove it.")
+        raise GradingError(
+            f"{folder / empty[0]} is empty. Add the missing content to this file, or remove the file."
+        )
     if others := [path.name for path in files if path not in used]:
-        sys.stderr.write(f"Not used, because only {EXPECTED} are read: {', '.join(others)} in {folder}.\n")
+        sys.stderr.write(
+            f"These files were not used, because only {EXPECTED} are read: {', '.join(others)} in {folder}.\n"
+        )
 
 
 def require_parts(folder: Path) -> None:
@@ -47,15 +54,15 @@ def require_parts(folder: Path) -> None:
         own = [part for part in declared if _is_from(part, folder / name)]
         if not own:
             raise GradingError(
-                f"{folder / name} declares no part. A part is a function with @part: the README shows one."
+                f"{folder / name} declares no part. Write a function with @part: the README shows an example."
             )
         for part in own:
             exercise = exercise_of(part.check)
             if part.check == exercise or exercise not in public:
                 raise GradingError(
-                    f"{folder / name} declares the part {part.check}, which belongs to no exercise of "
-                    f"chapter {chapter}. Give it the number of an exercise and one more number, such as "
-                    f"{chapter}.1.1."
+                    f"{folder / name} declares the part {part.check}, which belongs to no exercise "
+                    f"of chapter {chapter}. Give the part the number of an exercise and one more "
+                    f"number, such as {chapter}.1.1."
                 )
 
 

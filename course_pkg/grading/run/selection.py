@@ -73,7 +73,8 @@ def selection(students: Sequence[str], chapters: Sequence[str], parts: Sequence[
     asked = tuple(dict.fromkeys(check.partition(".")[0] for check in checks))
     if chapters and (outside := [check for check in checks if check.partition(".")[0] not in chapters]):
         raise GradingError(
-            f"--part {outside[0]} is not in --chapters {','.join(chapters)}: give one of the two options."
+            f"--part {outside[0]} is not in --chapters {','.join(chapters)}. Give only one of the "
+            "two options."
         )
     return Selection(tuple(students), asked or tuple(chapters), checks)
 
@@ -112,8 +113,8 @@ def _student(name: str, known: Sequence[str]) -> str:
     found = [each for each in known if wanted in (each.casefold(), PLATFORM_ID.sub("", each).casefold())]
     if len(found) == 1:
         return found[0]
-    how = f"fits {len(found)} students" if found else "is the name of no student who handed in something"
+    how = f"fits {len(found)} students" if found else "is not the name of a student who handed in something"
     raise GradingError(
-        f"--student {clean.line(name, 80)} {how}. The names are those in the column `student` of grades.csv, "
-        "which are the names of the folders."
+        f"--student {clean.line(name, 80)} {how}. Give a name from the column `student` of "
+        "grades.csv. These names are also the names of the folders."
     )

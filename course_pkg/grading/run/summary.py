@@ -37,7 +37,11 @@ def about_flags(grades: Sequence[Grade]) -> list[str]:
     """Return a line about students with flags, or no line if there are none."""
     count = len({grade.student for grade in grades if grade.flags})
     students = "1 student has" if count == 1 else f"{count} students have"
-    return [f"{students} flags, which change no points. See Flags in class.html."] if count else []
+    return (
+        [f"{students} flags. Flags do not change points: see the section Flags in class.html."]
+        if count
+        else []
+    )
 
 
 def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
@@ -48,9 +52,9 @@ def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
     if absent:
         names = [f"{name_of(grade.student)} (chapter {grade.chapter})" for grade in absent]
         lines.append(
-            "This time, nothing was handed in for these results of an earlier run: "
-            f"{_listed(names)}. They are marked in class.html and grades.csv, and the files for "
-            "Moodle, Canvas and Gradescope do not contain them."
+            "These results are from an earlier run, because nothing was handed in this time: "
+            f"{_listed(names)}. class.html and grades.csv mark these results. The files for Moodle, "
+            "Canvas and Gradescope do not contain them."
         )
     if kept:
         results = "1 other result" if kept == 1 else f"{kept} other results"

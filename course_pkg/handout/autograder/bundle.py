@@ -46,7 +46,9 @@ def write_autograder(options: Options) -> int:
     if out.suffix != ".zip":
         raise HandoutError(f"{options.out} does not end with .zip. Give a name such as autograder.zip.")
     if not SHORTEST <= options.minutes <= LONGEST:
-        raise HandoutError(f"--minutes {options.minutes:g}: give a number from {SHORTEST:g} to {LONGEST:g}.")
+        raise HandoutError(
+            f"--minutes {options.minutes:g} is not allowed. Give a number from {SHORTEST:g} to {LONGEST:g}."
+        )
     checkout = Places.of().checkout
     refuse_inside(out, checkout)
     chapters = tuple(chosen_chapters("", options.chapters))
@@ -77,7 +79,7 @@ def _private(folder: Path) -> Iterator[tuple[str, File]]:
 
 
 def _how_to_use(out: Path, count: int, settings: Settings) -> Iterator[str]:
-    yield f"{out} has {count} files. It grades the chapters {', '.join(settings.chapters)}."
-    yield "In Gradescope, make a Programming Assignment, and upload the zip under Configure Autograder."
-    yield f"There, set a time limit of more than {settings.minutes + 1:g} minutes."
+    yield f"{out} has {count} files. The autograder grades the chapters {', '.join(settings.chapters)}."
+    yield "In Gradescope, create a Programming Assignment, and upload the zip under Configure Autograder."
+    yield f"In Gradescope, set a time limit of more than {settings.minutes + 1:g} minutes."
     yield "The zip contains the solutions, so do not give it to students."

@@ -128,5 +128,6 @@ def _file(path: Path, *, packed: bool) -> File:
         return File(content, bool(path.stat().st_mode & 0o100))
     except OSError as error:
         raise HandoutError(
-            f"{path} cannot be read ({error.strerror}). Correct its permissions, and type the command again."
+            f"{path} cannot be read ({error.strerror}). Correct the permissions of this file, and "
+            "type the command again."
         ) from error

@@ -74,8 +74,8 @@ class ReleaseFolder:
         except (OSError, ValueError, KeyError, TypeError) as error:
             if self.path.exists() and not (self.path.is_dir() and not any(self.path.iterdir())):
                 raise HandoutError(
-                    f"{self.path} exists, and `course release` did not make it, so nothing was written. "
-                    "Give a new or an empty folder."
+                    f"Nothing was written, because {self.path} exists and `course release` did not "
+                    "create it. Give a new or an empty folder."
                 ) from error
             return []
 
@@ -92,10 +92,10 @@ class ReleaseFolder:
         if lost:
             more = f" and {len(lost) - SHOWN} more" if len(lost) > SHOWN else ""
             raise HandoutError(
-                f"Nothing was written, because files in {self.path} were changed by hand and not committed: "
-                f"{', '.join(lost[:SHOWN])}{more}. The release would overwrite them. Discard the changes "
-                f"(`git -C {self.path} checkout HEAD -- .`) or keep them in a commit (`git -C {self.path} "
-                "commit -a`), and type the command again."
+                f"Nothing was written, because files in {self.path} were changed by hand and not "
+                f"committed: {', '.join(lost[:SHOWN])}{more}. The release would overwrite these "
+                f"changes. Discard the changes (`git -C {self.path} checkout HEAD -- .`) or keep "
+                f"them in a commit (`git -C {self.path} commit -a`), and type the command again."
             )
 
     def _would_change(self, name: str, files: Mapping[str, File]) -> bool:
@@ -150,6 +150,4 @@ def refuse_inside(path: Path, checkout: Path) -> None:
     Otherwise, the next release would contain this release.
     """
     if path.resolve().is_relative_to(checkout.resolve()):
-        raise HandoutError(
-            f"{path} is inside of the course's own folder. Give a folder outside of {checkout}."
-        )
+        raise HandoutError(f"{path} is inside the course's own folder. Give a folder outside {checkout}.")

@@ -24,8 +24,8 @@ def zip_path(folder: Path) -> Path:
     path = folder.with_name(f"{folder.name}.zip")
     if path.exists() and not _is_ours(path):
         raise HandoutError(
-            f"{path} exists, and `course release` did not make it, so nothing was written. Move it, or give "
-            "another folder."
+            f"Nothing was written, because {path} exists and `course release` did not create it. "
+            "Move this file, or give another folder."
         )
     return path
 

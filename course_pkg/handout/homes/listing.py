@@ -41,7 +41,8 @@ def homes_in(folder: Path, students: list[str] | None = None) -> list[Home]:
         names = sorted(item.name for item in os.scandir(folder) if item.is_dir(follow_symlinks=False))
     except OSError as error:
         raise HandoutError(
-            f"{folder} cannot be listed ({error.strerror}). Give the folder of the home folders with --homes."
+            f"{folder} cannot be listed ({error.strerror}). With --homes, give the folder that "
+            "contains the home folders."
         ) from error
     found = (
         _home(folder / name, name) for name in names if not name.startswith(".") and name != "lost+found"
@@ -73,7 +74,7 @@ def read_students(path: Path) -> list[str]:
     for number, name in _names(path, text):
         if "/" in name or name.startswith((".", "-")) or not name.isprintable():
             raise HandoutError(
-                f"{path.name}, line {number}: this is not the name of a user. Correct the line."
+                f"{path.name}, line {number}: this is not the name of a user. Correct this line."
             )
         found.append(name)
     if not found:
@@ -93,8 +94,8 @@ def _names(path: Path, text: str) -> Iterator[tuple[int, str]]:
     head = [name.strip().lower() for name in rows[0]]
     if COLUMN not in head:
         raise HandoutError(
-            f"{path.name}, line 1: no column is named {COLUMN}. Name the column with the names that students "
-            "use to log in."
+            f"{path.name}, line 1: there is no column {COLUMN}. Give this name to the column with "
+            "the students' user names."
         )
     place = head.index(COLUMN)
     for number, row in enumerate(rows[1:], 2):

@@ -73,6 +73,7 @@ class TimesTable:
         except (OSError, ValueError, csv.Error):
             pass  # A row with another format gets the error message below.
         raise HandoutError(
-            f"{folder} exists, and `course collect` did not make it (it has no {TIMES} with the columns "
-            f"{', '.join(COLUMNS)}), so nothing was collected. Give a new or an empty folder."
+            f"Nothing was collected, because {folder} exists and `course collect` did not create "
+            f"it: the folder has no {TIMES} with the columns {', '.join(COLUMNS)}. Give a new or an "
+            "empty folder."
         )

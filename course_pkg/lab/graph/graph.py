@@ -40,8 +40,10 @@ class Graph:
     tells, after wait_for_master(), whether programs in a private network can connect to other computers.
     """
 
-    def __init__(self, connection: socket.socket, holder: subprocess.Popen[bytes] | None = None) -> None:
-        self._connection, self._holder = connection, holder
+    def __init__(
+        self, connection: socket.socket, path: Path, holder: subprocess.Popen[bytes] | None = None
+    ) -> None:
+        self._connection, self._path, self._holder = connection, path, holder
         connection.settimeout(ANSWER)
         greeting, self.files, _, _ = socket.recv_fds(connection, 1 << 16, 2)
         if not greeting:
@@ -77,6 +79,8 @@ class Graph:
             self._holder.wait()
         elif self._holder:
             self._holder.returncode = 0  # It continues for other commands, so this process does not wait.
+        if not received.endswith(LAST) and (left := _connected(self._path)):
+            left.close()  # Other commands use the graph. If the holder was killed, its socket is now removed.
         for file in self.files:
             os.close(file)
         self.files = []
@@ -123,15 +127,24 @@ def _running(folder: Path) -> Graph | None:
     """
     sockets = sorted(folder.glob(f"{platform.node()}.*"), key=lambda path: path.stat().st_mtime, reverse=True)
     for path in sockets:
-        connection = socket.socket(socket.AF_UNIX)
-        try:
-            with _short(path) as name:
-                connection.connect(name)
-            return Graph(connection)
-        except OSError:
+        if connection := _connected(path):
+            with suppress(OSError):  # the holder may have ended since
+                return Graph(connection, path)
             connection.close()
-            path.unlink(missing_ok=True)
     return None
+
+
+def _connected(path: Path) -> socket.socket | None:
+    """Return a connection to the holder at `path`; if it has ended, remove its socket and return None."""
+    connection = socket.socket(socket.AF_UNIX)
+    try:
+        with _short(path) as name:
+            connection.connect(name)
+    except OSError:
+        connection.close()
+        path.unlink(missing_ok=True)
+        return None
+    return connection
 
 
 def _start(which: Which, folder: Path) -> Graph:
@@ -153,7 +166,7 @@ def _start(which: Which, folder: Path) -> Graph:
         connection.connect(name)
     if which is Which.ALONE:
         path.unlink()
-    return Graph(connection, holder)
+    return Graph(connection, path, holder)
 
 
 @contextmanager

@@ -37,7 +37,7 @@ class Holder:
     """Owns the network and the master of one graph."""
 
     def __init__(self, listener: socket.socket, path: str, *, private: bool) -> None:
-        from course_pkg.ros.process.master import free_port
+        from course_pkg.ports import free_port
         from course_pkg.ros.process.roscore import Roscore
 
         self._listener, self._path = listener, path

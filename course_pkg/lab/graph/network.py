@@ -14,7 +14,7 @@ import socket
 from collections.abc import Sequence
 from typing import NoReturn
 
-from course_pkg.sandbox import namespaces
+from course_pkg.sandbox.linux import namespaces
 
 ENTER = "nsenter"  # a program of util-linux
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}  # by the number of files

@@ -9,78 +9,18 @@ import threading
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
-from typing import Generic, Literal, Protocol, TypedDict, TypeVar
+from typing import Generic, Literal, Protocol, TypeVar
 
 from course_pkg.faults.fault import Fault
 from course_pkg.faults.probes import TOOLS
 from course_pkg.faults.program import Program, Seen
 from course_pkg.panels.breakit.cases import Case, CaseRecord, CaseStore, fault_with
+from course_pkg.panels.breakit.state import CaseState, Listed, Overview, Score, ToolUse, Verdict
 from course_pkg.panels.breakit.worker import Worker
 from course_pkg.ros.explain.explanation import taught
 
 STEP = 30.0  # In a recording of a case, each step has this timeout in s.
 LOG = 8  # The panel stores the symptom and at most this many outputs of tools.
-
-
-class ToolUse(TypedDict):
-    """One use of a tool: the command, its output, and whether the command is still waiting for a response."""
-
-    number: int
-    tool: str
-    shown: str
-    said: str
-    verdict: str
-    waiting: bool
-
-
-class Verdict(TypedDict, total=False):
-    """The result of an answer, or the solution.
-
-    `server` is the program of the server, if the case has a server.
-    """
-
-    state: Literal["right", "half", "wrong", "shown"]
-    words: str
-    reason: str
-    diagnosis: str
-    remedy: str
-    taught: str
-    server: str
-
-
-class CaseState(TypedDict, total=False):
-    """The open case: its description, the outputs of the tools, the options, and the result of the answer."""
-
-    number: int
-    story: str
-    phase: Literal["causing", "ready", "looking", "over"]
-    looks: list[ToolUse]
-    tools: list[dict[str, str]]
-    diagnoses: list[str]
-    remedies: list[str]
-    verdict: Verdict
-
-
-class Listed(TypedDict):
-    """A case in the list."""
-
-    number: int
-    state: str
-
-
-class Score(TypedDict):
-    """The number of all cases (`of`), of solved cases, and of cases with a right first answer."""
-
-    solved: int
-    first: int
-    of: int
-
-
-class Overview(TypedDict):
-    """All cases, and the score."""
-
-    cases: list[Listed]
-    score: Score
 
 
 class Scene(Protocol):

@@ -9,8 +9,8 @@ import json
 import re
 import shlex
 import threading
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable
+from dataclasses import asdict, replace
 from typing import TypedDict
 
 from course_pkg.errors import CourseError, FieldError, NotATopic
@@ -23,6 +23,7 @@ from course_pkg.panels.topic.reports import (
     mismatches,
     published,
 )
+from course_pkg.panels.topic.settings import RATE, Settings
 from course_pkg.ros.topic.connections import ANY
 from course_pkg.ros.topic.field_paths import measurement, numbers
 from course_pkg.ros.topic.reports import Connections, Report
@@ -31,48 +32,6 @@ from course_pkg.types import MessageSchema, MessageType, message_type, publisher
 BURST = 1000  # A burst contains this many messages.
 NAME = r"(/[A-Za-z]\w*)+"  # http://wiki.ros.org/Names
 ACTIONS = ("publish", "burst", "repeat")
-RATE, QUEUE = "@rate", "@queue"  # A field's name cannot contain "@".
-SLOWEST, FASTEST = 0.1, 100.0  # 1/s
-LONGEST = 10_000  # A publisher's queue has at most this many messages.
-
-
-@dataclass(frozen=True)
-class Settings:
-    """The publisher's settings as texts: the rate, the queue size, and whether the topic is latched.
-
-    `path` is the field that the panel plots, or "" for none.
-    """
-
-    rate: str = "10"
-    queue: str = "10"
-    latch: bool = False
-    path: str = ""
-
-    @classmethod
-    def of_page(cls, given: Mapping[str, str | bool]) -> Settings:
-        """Return the settings from a message of the page."""
-        rate, queue, path = (str(given.get(name, "")) for name in ("rate", "queue", "path"))
-        return cls(rate, queue, bool(given.get("latch")), path)
-
-    @property
-    def hertz(self) -> float:
-        """The rate in messages per second.
-
-        Raises FieldError if the rate is not a number or is out of range.
-        """
-        return _number(RATE, self.rate, SLOWEST, FASTEST, f"a rate from {SLOWEST:g} to {FASTEST:g} Hz")
-
-    @property
-    def size(self) -> int:
-        """The queue size in messages; 0 means that the queue has no limit.
-
-        Raises FieldError if the queue size is not valid.
-        """
-        allowed = f"a whole number from 0 (no limit) to {LONGEST}"
-        size = _number(QUEUE, self.queue, 0, LONGEST, allowed)
-        if size != int(size):
-            raise _wrong(QUEUE, self.queue, allowed)
-        return int(size)
 
 
 class About(TypedDict, total=False):
@@ -294,17 +253,3 @@ class TopicModel:
             )
             return {**about, "problem": self._problem or unknown}
         return {**about, "message": schema(self.kind), "numbers": numbers(self.kind)}
-
-
-def _number(field: str, text: str, low: float, high: float, allowed: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = low - 1
-    if not low <= value <= high:
-        raise _wrong(field, text, allowed)
-    return value
-
-
-def _wrong(field: str, text: str, allowed: str) -> FieldError:
-    return FieldError(field, text, allowed, f"{text!r} is not valid here")

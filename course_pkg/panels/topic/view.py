@@ -10,7 +10,8 @@ from traitlets.utils.bunch import Bunch
 
 from course_pkg.errors import GraphError
 from course_pkg.panels.panel import PageMessage, Panel
-from course_pkg.panels.topic.model import Settings, TopicModel
+from course_pkg.panels.topic.model import TopicModel
+from course_pkg.panels.topic.settings import Settings
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.topic.connections import find_connections
 from course_pkg.ros.topic.topic_process import TopicProcess

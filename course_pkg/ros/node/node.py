@@ -11,10 +11,7 @@ from functools import partial
 import rospy
 
 from course_pkg.errors import NotJoined
-from course_pkg.ros.node.handler_output import HandlerOutput
 from course_pkg.ros.node.proxy import BoundedProxy
-from course_pkg.ros.node.publisher import Publisher
-from course_pkg.ros.node.service import Handler, Service
 from course_pkg.ros.node.subscription import Callback, Subscription
 from course_pkg.ros.node.type_lookup import Message, MessageKind, ServiceKind, message_class, service_class
 from course_pkg.ros.node.watchdog import Watchdog
@@ -31,12 +28,9 @@ class Node:
     def __init__(self, leave: Callable[[Node], None], cells: Cells) -> None:
         self._leave = leave
         self._cells = cells
-        self._output = HandlerOutput()
         self._watchdog = Watchdog()
         self._master = MasterClient(master_uri())
-        self._services: dict[str, Service] = {}
         self._subscriptions: dict[str, Subscription] = {}
-        self._publishers: dict[str, Publisher] = {}
         self._processes: dict[str, NodeProcess] = {}
         self._proxies: dict[tuple[str, int], BoundedProxy] = {}
         self._uri = rospy.get_node_uri()
@@ -57,19 +51,6 @@ class Node:
         """The master's address."""
         return master_uri()
 
-    def serve(self, name: str, kind: ServiceKind, handler: Handler) -> Service:
-        """Serve `name` with `handler`; an earlier service of this kernel with the same name is replaced.
-
-        Raises UnknownType or NotAServiceType if `kind` is wrong, and NotJoined after leave(). Raises
-        MasterUnreachable or MasterSilent when the master does not answer.
-        """
-        self._require()
-        service = Service(name, service_class(kind), handler, self._output)
-        self._output.install()
-        service.start(self._client())
-        self._services[service.name] = service
-        return service
-
     def call(
         self, name: str, kind: ServiceKind, /, *args: object, timeout: float = 5.0, **fields: object
     ) -> Message:
@@ -80,13 +61,6 @@ class Node:
         Raises CallTimeout after `timeout` s, and the same errors as rospy.ServiceProxy.
         """
         return self._proxy(name, kind).call(*args, timeout=timeout, **fields)
-
-    def caller(
-        self, name: str, kind: ServiceKind, *, persistent: bool = False, timeout: float = 5.0
-    ) -> BoundedProxy:
-        """Return a new proxy for a service; another thread can cancel the calls of this proxy."""
-        self._require()
-        return BoundedProxy(name, kind, persistent=persistent, timeout=timeout, watchdog=self._watchdog)
 
     def subscribe(self, topic: str, kind: MessageKind, callback: Callback | None = None) -> Subscription:
         """Subscribe to a topic, and end this kernel's earlier subscription to the same topic.
@@ -104,23 +78,6 @@ class Node:
             self._subscriptions[full] = Subscription(full, message_class(kind), callback)
         return self._subscriptions[full]
 
-    def advertise(
-        self, topic: str, kind: MessageKind, *, queue_size: int = 10, latch: bool = False
-    ) -> Publisher:
-        """Return a new publisher of a topic, and stop this kernel's earlier publisher of the same topic.
-
-        If `latch` is true, each subscriber that connects later receives the last message. Raises
-        MasterUnreachable or MasterSilent when the master does not answer.
-        """
-        self._require()
-        self._client().pid()
-        full = rospy.resolve_name(topic)
-        if full in self._publishers:
-            self._publishers.pop(full).stop()
-        with self._cells.paused():
-            self._publishers[full] = Publisher(full, message_class(kind), queue_size=queue_size, latch=latch)
-        return self._publishers[full]
-
     def run(self, package: str, executable: str, *args: str, name: str | None = None) -> NodeProcess:
         """Run a program of a package as a process, and stop this node's earlier process with the same name.
 
@@ -130,13 +87,6 @@ class Node:
         start = partial(NodeProcess.rosrun, package, executable, *args, name=name)
         renamed = [arg for arg in map(str, args) if arg.startswith(("__name:=", "__ns:="))]
         return self._started(" ".join([name or f"{package}/{executable}", *renamed]), start)
-
-    def launch(self, package: str, file: str, *args: str) -> NodeProcess:
-        """Run a launch file with arguments such as "client:=true".
-
-        An earlier run of the same file is stopped.
-        """
-        return self._started(f"{package}/{file}", partial(NodeProcess.roslaunch, package, file, *args))
 
     def keep(self, process: NodeProcess) -> None:
         """End `process` when this node ends."""
@@ -156,19 +106,15 @@ class Node:
         self._leave(self)
 
     def renew(self) -> None:
-        """Create the services, subscriptions and publishers again after a restart of rospy.
+        """Create the subscriptions again after a restart of rospy.
 
         Objects that a cell created directly with rospy are not created again.
         """
         if self._uri == rospy.get_node_uri():
             return
         self._uri = rospy.get_node_uri()
-        for service in self._services.values():
-            service.renew(self._client())
         for subscription in self._subscriptions.values():
             subscription.renew()
-        for publisher in self._publishers.values():
-            publisher.renew()
 
     def close(self, *, with_master: bool = True) -> None:
         """End everything that this node has started; if `with_master` is true, unregister it."""
@@ -182,11 +128,6 @@ class Node:
             self._proxies.popitem()[1].close()
         while self._subscriptions:
             self._subscriptions.popitem()[1].stop(unregister=with_master)
-        while self._publishers:
-            self._publishers.popitem()[1].stop(unregister=with_master)
-        while self._services:
-            self._services.popitem()[1].stop(unregister=with_master)
-        self._output.remove()
 
     def __repr__(self) -> str:
         return f"<node {self.name}>"
@@ -209,7 +150,8 @@ class Node:
         # The stored proxy refers to the class, so the class exists, and no other class can have its id.
         key = (str(rospy.resolve_name(name)), id(cls))
         if key not in self._proxies:
-            self._proxies[key] = self.caller(name, cls)
+            self._require()
+            self._proxies[key] = BoundedProxy(name, cls, watchdog=self._watchdog)
         return self._proxies[key]
 
     def _require(self) -> None:

@@ -29,9 +29,10 @@ from rospy.impl.masterslave import ROSHandler
 from rospy.impl.registration import get_service_manager
 
 from course_pkg.ros.protocol.rospy_registrations import registration_manager
+from course_pkg.ros.trace.call_counter import CallerCount
 from course_pkg.ros.trace.handover import hand_over_at_exit
 from course_pkg.ros.trace.hooks import Hook, Method
-from course_pkg.ros.trace.recorder import CallerCount, recorder
+from course_pkg.ros.trace.recorder import recorder
 from course_pkg.ros.trace.recording import GET_RECORD
 from course_pkg.ros.trace.service_hooks import hook_services
 from course_pkg.ros.trace.topic_hooks import hook_topics

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import threading
-from types import TracebackType
 from typing import TYPE_CHECKING
 
 import rospy
 
-from course_pkg.errors import PublisherStopped, TooFewSubscribers
+from course_pkg.errors import PublisherStopped
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.ros.trace.deliveries import Deliveries, Delivery
-from course_pkg.waiting import wait_until
 
 if TYPE_CHECKING:
     from course_pkg.types import MessageClass
@@ -32,11 +30,11 @@ class Publisher:
         self.latch = latch
         self.published = 0
         self.unheard = 0
-        self._cls = cls
         self._lock = threading.Lock()
-        self._publisher: rospy.Publisher | None = None
-        self._deliveries: list[Deliveries] = []
-        self._advertise()
+        self._publisher: rospy.Publisher | None = rospy.Publisher(
+            self.name, cls, queue_size=queue_size, latch=latch
+        )
+        self._deliveries = Deliveries(self._publisher)
 
     def publish(self, *args: object, **fields: object) -> None:
         """Publish a message; pass one message object, or its fields by position or by name.
@@ -46,7 +44,7 @@ class Publisher:
         with self._lock:
             if self._publisher is None:
                 raise PublisherStopped(f"{self.name}: this publisher was stopped. Advertise the topic again.")
-            self._deliveries[-1].update()
+            self._deliveries.update()
             alone = not self._publisher.get_num_connections()
             self._publisher.publish(*args, **fields)
             self.published += 1
@@ -60,31 +58,19 @@ class Publisher:
     @property
     def deliveries(self) -> tuple[Delivery, ...]:
         """The numbers of sent, waiting and dropped messages, for each connected subscriber."""
-        return self._deliveries[-1].current()
+        return self._deliveries.current()
 
     @property
     def sent(self) -> int:
         """The number of sent messages; a message that was sent to two subscribers counts twice."""
-        return sum(each.sent for each in self._deliveries)
+        return self._deliveries.sent
 
     @property
     def dropped(self) -> int:
         """The number of messages that were dropped from full queues, summed over all subscribers."""
-        return sum(each.dropped for each in self._deliveries)
+        return self._deliveries.dropped
 
-    def wait(self, count: int = 1, timeout: float = 5.0) -> None:
-        """Return as soon as `count` subscribers are connected.
-
-        Raises TooFewSubscribers when fewer subscribers are connected after `timeout` s.
-        """
-        if not wait_until(lambda: len(self.deliveries) >= count, timeout, 0.005):
-            raise TooFewSubscribers(
-                f"{self.name}: {len(self.deliveries)} of {count} subscribers connected within "
-                f"{timeout:g} s. Check the subscribers and their type ({self.type}) with "
-                f"`rostopic info {self.name}`."
-            )
-
-    def stop(self, *, unregister: bool = True) -> None:
+    def stop(self) -> None:
         """Stop publishing and unregister the topic; the counts do not change.
 
         A second call has no effect. Raises MasterUnreachable or MasterSilent when the master does not answer.
@@ -92,26 +78,9 @@ class Publisher:
         """
         with self._lock:
             publisher, self._publisher = self._publisher, None
-        if publisher is not None and unregister:
+        if publisher is not None:
             MasterClient(master_uri()).pid()
             publisher.unregister()
 
-    def renew(self) -> None:
-        """Advertise the topic again after a restart of rospy, unless this publisher was stopped."""
-        if self._publisher is not None:
-            self._advertise()
-
-    def __enter__(self) -> Publisher:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.stop()
-
     def __repr__(self) -> str:
         return f"<{self.name} of type {self.type}, {'published' if self._publisher else 'stopped'}>"
-
-    def _advertise(self) -> None:
-        self._publisher = rospy.Publisher(self.name, self._cls, queue_size=self.queue_size, latch=self.latch)
-        self._deliveries.append(Deliveries(self._publisher))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import socket
 import tempfile
 import time
 from collections.abc import Callable
@@ -13,6 +12,7 @@ from pathlib import Path
 from types import TracebackType
 
 from course_pkg.errors import GraphError, MasterSilent, MasterUnreachable, PortBusy, SetupError
+from course_pkg.ports import free_port
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.waiting import at_this_load, wait_until
@@ -71,7 +71,7 @@ class PrivateMaster:
         ports.
         """
         for _ in range(1 if self._port_wanted else ATTEMPTS):
-            self.port = free_port(self._port_wanted)
+            self.port = _port(self._port_wanted)
             if self._try():
                 return self
         if self._port_wanted:
@@ -145,15 +145,12 @@ def _pid(client: MasterClient) -> int:
     return 0
 
 
-def free_port(asked: int | None = None) -> int:
+def _port(asked: int | None) -> int:
     """Return `asked`, or any free port of 127.0.0.1; raises PortBusy if `asked` is in use."""
-    with socket.socket() as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            probe.bind(("127.0.0.1", asked or 0))
-        except OSError as error:
-            raise _busy(asked) from error
-        return int(probe.getsockname()[1])
+    try:
+        return free_port(candidates=[asked or 0])
+    except OSError as error:
+        raise _busy(asked) from error
 
 
 def _busy(port: int | None) -> PortBusy:

@@ -14,10 +14,10 @@ import threading
 import time
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import count
 
+from course_pkg.ros.trace.call_counter import CallCounter
 from course_pkg.ros.trace.recording import (
     ERROR,
     LOOKUP,
@@ -33,8 +33,6 @@ from course_pkg.ros.trace.recording import (
 SIZE = 20_000  # The recorder stores at most this many spans, about 6 MB.
 HANDED_OVER = 50  # The recorder stores at most this many records of nodes that have ended.
 LONGEST = 300  # A longer error message is shortened to this number of characters.
-# A service has at most this many stored callers. Each run of a command-line tool is a caller with a new name.
-CALLERS = 100
 
 EXCHANGED = (REQUEST, WAIT, RESPONSE)  # These phases of a call use the connection.
 
@@ -42,8 +40,6 @@ EXCHANGED = (REQUEST, WAIT, RESPONSE)  # These phases of a call use the connecti
 Connection = tuple[Sequence[str | int], int]
 # (the connection, the number of the message on this connection, the name of the other node)
 Transfer = tuple[Connection, int, str]
-# (caller, number of calls, time of the latest call in s since the epoch, number of running calls)
-CallerCount = tuple[str, int, float, int]
 
 
 class Span:
@@ -168,54 +164,6 @@ class _Current(threading.local):
     """The call that a thread is making, or None."""
 
     call: CallSpan | None = None
-
-
-@dataclass
-class _Count:
-    calls: int = 0
-    last: float = 0.0
-    running: int = 0
-
-
-class CallCounter:
-    """Counts the requests of each service by caller; several threads may share the counter."""
-
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
-        self._services: dict[str, dict[str, _Count]] = {}
-
-    def begin(self, service: str, caller: str) -> None:
-        """Count a request that has reached its handler."""
-        with self._lock:
-            callers = self._services.setdefault(service, {})
-            counted = callers.pop(caller, None) or _Count()
-            counted.calls += 1
-            counted.last = time.time()
-            counted.running += 1
-            callers[caller] = counted  # The dict is sorted, with the latest caller at the end.
-            if len(callers) > CALLERS:
-                self._forget_one(callers)
-
-    def end(self, service: str, caller: str) -> None:
-        """Record that the handler of a request has ended."""
-        with self._lock:
-            counted = self._services.get(service, {}).get(caller)
-            if counted is not None:
-                counted.running -= 1
-
-    def callers(self, service: str) -> list[CallerCount]:
-        """Return the callers of a service, the latest first."""
-        with self._lock:
-            callers = self._services.get(service, {})
-            return [(name, each.calls, each.last, each.running) for name, each in reversed(callers.items())]
-
-    def _forget_one(self, callers: dict[str, _Count]) -> None:
-        """Delete the caller with the oldest call.
-
-        A waiting caller is deleted only if all callers are waiting.
-        """
-        idle = (name for name, each in callers.items() if not each.running)
-        callers.pop(next(idle, next(iter(callers))))
 
 
 class Recorder:

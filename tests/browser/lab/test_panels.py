@@ -17,7 +17,7 @@ node = join("graph_test")
 chatter = rospy.Publisher("/chatter", String, queue_size=1)
 heard = node.subscribe("/chatter", String)
 """
-SERVE = 'served = node.serve("/getGeometry", geometry, lambda request: (request.length, 0))'
+SERVE = 'served = rospy.Service("/getGeometry", geometry, lambda request: (request.length, 0))'
 PREDICT = """
 p = predict("05.reply_none", "What does the client see when the handler returns None?",
             ["an empty reply", "an error", "it waits for ever"])
@@ -44,8 +44,8 @@ float64[36] covariance
 ---
 string seen
 """)
-node.serve("/kinds", kinds, lambda r: f"{r.mode} {r.big} {r.flag} {r.label} {r.stamp.nsecs} {r.wait.secs} "
-           f"{r.spot.y} {r.gains[2]} {list(r.ids)} {[p.x for p in r.path]} {r.covariance[35]}")
+rospy.Service("/kinds", kinds.cls, lambda r: f"{r.mode} {r.big} {r.flag} {r.label} {r.stamp.nsecs} "
+           f"{r.wait.secs} {r.spot.y} {r.gains[2]} {list(r.ids)} {[p.x for p in r.path]} {r.covariance[35]}")
 '''
 CHOICES = """
 import matplotlib.pyplot as plt
@@ -153,7 +153,14 @@ def test_the_dark_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
 def test_the_light_theme_can_be_read(lab: Lab, lab_page: Page) -> None:
     """In the light theme, each text of each panel has a contrast of at least 4.5 : 1."""
     with running_notebook(
-        lab_page, lab, "light", GRAPH, SERVE, "GraphPanel()", 'ServicePanel("/getGeometry")', "served.stop()"
+        lab_page,
+        lab,
+        "light",
+        GRAPH,
+        SERVE,
+        "GraphPanel()",
+        'ServicePanel("/getGeometry")',
+        "served.shutdown()",
     ):
         form = panel(lab_page)
         form.get_by_role("button", name="Call").click()

@@ -14,6 +14,7 @@ from tests.lab.commands import lab as running_course_lab
 
 SERVER = """
 import threading
+import rospy
 from course_pkg import ServicePanel, join
 from course_pkg.srv import geometry
 
@@ -26,7 +27,7 @@ def measure(request):
     area = request.length * request.width
     return round(area, 2), round(area * request.height, 2)
 
-served = node.serve("/getGeometry", geometry, measure)
+served = rospy.Service("/getGeometry", geometry, measure)
 """
 SHOW = 'form = ServicePanel("/getGeometry")\nform'
 
@@ -169,8 +170,8 @@ def test_the_picker_follows_the_graph(own_form: Locator, lab_page: Page) -> None
     """The list of services shows new services, and marks services that no longer exist."""
     form = own_form
     fill(form, length="7")
-    hello = 'from std_srvs.srv import Trigger\nnode.serve("/hello", Trigger, lambda _: (True, "hi"))'
-    run_cell(lab_page, f"{hello}\nserved.stop()")
+    hello = 'from std_srvs.srv import Trigger\nrospy.Service("/hello", Trigger, lambda _: (True, "hi"))'
+    run_cell(lab_page, f"{hello}\nserved.shutdown()")
     expect(form.get_by_text("No service with this name is on the graph now.")).to_be_visible()
     expect(form.get_by_label("length")).to_have_value("7")
     picture(form, "service-panel-gone")

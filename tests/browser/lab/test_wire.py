@@ -84,7 +84,7 @@ def test_the_whole_exchange_is_a_table(page: Page, tmp_path: Path) -> None:
 def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
     """If a call is refused, the view shows the error message or the server's header."""
     wire = show(page, tmp_path, WireView("/getGeometry", **{**SIDES, "length": -1.0}))
-    expect(wire.get_by_text("The call failed")).to_be_visible()
+    expect(wire.get_by_text(re.compile("The call failed"))).to_be_visible()
     wire.get_by_role("button", name=re.compile("Error$")).click()
     expect(pieces(wire, "ok")).to_contain_text("it failed")
     expect(pieces(wire, "error")).to_contain_text("length is -1")

@@ -78,7 +78,7 @@ def test_an_extension_ends_at_the_same_time_of_day() -> None:
     ("given", "grace", "said"),
     [
         (["2026-11-01T23:59"], 0, r"no time zone.*--time-zone Europe/Berlin"),
-        (["tomorrow"], 0, r"is not a time: write 2026-11-01T23:59\+01:00"),
+        (["tomorrow"], 0, r"is not a time. Write 2026-11-01T23:59\+01:00"),
         (["xx=" + DUE], 0, "is not a time"),
         ([DUE, DUE], 0, "two deadlines"),
         ([DUE], -1, "--grace-minutes -1"),
@@ -125,8 +125,8 @@ def test_the_note_says_when() -> None:
     late, early = lateness.applied([_submission("s01"), _submission("s02")])
     assert late.late == pytest.approx(1.0)
     assert late.notes == (
-        "Handed in at 2026-11-03 23:59 +01:00; the deadline was 2026-11-02 23:59 +01:00, with an extension "
-        "of 1 day.",
+        "This chapter was handed in at 2026-11-03 23:59 +01:00. The deadline was 2026-11-02 23:59 +01:00, "
+        "with an extension of 1 day.",
     )
     assert (early.late, early.notes) == (0.0, ())
 
@@ -157,7 +157,7 @@ def test_the_last_attempt_by_time(tmp_path: Path) -> None:
     (chosen,) = attempts_to_grade([given], "last", lambda each: times[each.origin])
     assert chosen.origin == f"s01/a/{FILE}"
     assert chosen.notes == (
-        f"Handed in 2 times: {chosen.origin} was handed in last and was graded. "
+        f"This chapter was handed in 2 times: {chosen.origin} was handed in last and was graded. "
         f"These do not count: s01/b/{FILE}.",
     )
     assert attempts_to_grade([given], "last", lambda _: None) == [given]
@@ -176,6 +176,7 @@ def test_the_best_attempt_counts_after_lateness(tmp_path: Path) -> None:
     (best,) = best_attempts([full, last])
     assert best.origin == names[2]
     assert best.notes[-1] == (
-        f"Handed in 2 times: {names[2]} has the most points and counts. These do not count: {names[0]}."
+        f"This chapter was handed in 2 times: {names[2]} has the most points and counts. These do not "
+        f"count: {names[0]}."
     )
     assert best_attempts([grade]) == [grade]

@@ -166,7 +166,7 @@ def test_the_words_of_a_flag() -> None:
     )
     assert first["s01"][0].words == "The answers are identical."
     second = flags_of(["copies"], submission("s01", {"05.4": SWITCH}), submission("s02", {"05.4": DISGUISED}))
-    assert second["s02"][0].words.startswith("The answers are the same; only names")
+    assert second["s02"][0].words.startswith("The answers differ only in names")
     assert second["s02"][0].evidence in DISGUISED
     assert second["s02"][0].line > 0
 

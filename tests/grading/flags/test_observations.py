@@ -25,7 +25,7 @@ geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
 
 LINES = [
     ("import inspect", "internals"),
-    ("import course_pkg.checking.runner", "internals"),
+    ("import course_pkg.checking.processes.runner", "internals"),
     ("from course_pkg import grading", "internals"),
     ("from course_pkg.checking import parts as p", "internals"),
     ("import sys; frame = sys._getframe(1)", "internals"),
@@ -34,7 +34,7 @@ LINES = [
     ("import os; print(os.environ)", "internals"),
     ("found = handle.__globals__", "internals"),
     ("found = getattr(rospy.spin, '__code__')", "internals"),
-    ("runner = __import__('course_pkg.checking.runner')", "internals"),
+    ("runner = __import__('course_pkg.checking.processes.runner')", "internals"),
     ("get_ipython().events.register('pre_run_cell', print)", "internals"),
     ("eval('1')", "internals"),
     ("rospy.Service = print", "patches"),

@@ -93,7 +93,9 @@ def test_the_option() -> None:
     assert wanted_kinds(()) == kind_names() == ["copies", "files", "internals", "patches", "solution"]
     assert wanted_kinds(("files", "copies")) == ["copies", "files"]
     assert wanted_kinds(("none",)) == []
-    with pytest.raises(GradingError, match=r"--flags does not know colour\. Give some of copies,files,"):
+    with pytest.raises(
+        GradingError, match=r"--flags does not know colour\. Use one or more of these values: copies,files,"
+    ):
         wanted_kinds(("colour",))
 
 

@@ -22,4 +22,4 @@ def test_the_solution_with_other_names() -> None:
     """A long answer of the solution gets a flag even if the names were changed."""
     changed = solutions("05")["05.5"].replace("moves", "number").replace("changed", "different")
     (flag,) = flags_of(["solution"], submission("s01", {"05.5": changed}))["s01"]
-    assert flag.words.startswith("The answer is the same as the course's solution; only names")
+    assert flag.words.startswith("The answer differs from the course's solution only in names")

@@ -73,7 +73,7 @@ def test_the_reports_of_another_run(tmp_path: Path, capsys: pytest.CaptureFixtur
     reports = dict.fromkeys(("old/.grading/secret", "old/class.html", "old/grades.csv"), b"x")
     source = _with_folders(tmp_path, {f"s01/{FILE}": NOTEBOOK, **reports})
     assert list(_found(source, tmp_path / "new")) == ["s01"]
-    assert capsys.readouterr().err.endswith("there: old\n")
+    assert capsys.readouterr().err.endswith("an earlier run: old\n")
     assert list(_found(source, source / "old")) == ["s01"]
     assert not capsys.readouterr().err
 

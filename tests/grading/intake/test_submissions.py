@@ -172,8 +172,10 @@ def test_a_notebook_of_the_first_edition(tmp_path: Path, chapter: RenumberedChap
     assert [each.chapter for each in found] == [chapter.now] * 5
     for each, path in zip(found, files, strict=True):
         assert each.content == b""
-        assert each.problem.startswith(f"{Path(path).name} was not graded: it belongs to the first edition")
-        assert f"It is chapter {chapter.now} now." in each.problem
+        assert each.problem.startswith(
+            f"{Path(path).name} was not graded: this notebook belongs to the first edition"
+        )
+        assert f"and it is chapter {chapter.now} now." in each.problem
         assert f"{chapter.now}_{chapter.name[3:]}.ipynb" in each.problem
 
 
@@ -198,7 +200,7 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
     """The error message names the exercises that have moved to another chapter."""
     chapter = next(each for each in RENUMBERED if each.number == "10")
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(_of_first_edition(chapter))}))
-    assert "It is chapter 12 now. Exercise 10.1 is now exercise 10.4 of chapter 10" in found.problem
+    assert "and it is chapter 12 now. Exercise 10.1 is now exercise 10.4 in chapter 10" in found.problem
 
 
 @pytest.mark.parametrize("chapter", RENUMBERED, ids=[each.name for each in RENUMBERED])
@@ -255,7 +257,7 @@ BAD = {
     "not JSON": (b"{", "not JSON"),
     "not UTF-8": (b'{"cells": ["\xff"]}', "not JSON"),
     "a number of many digits": (b'{"cells": ' + b"9" * 10_000 + b"}", "not JSON"),
-    "a list": (b"[]", "it is JSON, but has no cells"),
+    "a list": (b"[]", "is JSON, but it has no cells"),
     "no cells": (b'{"nbformat": 4}', "no cells"),
     "cells that are none": (b'{"cells": {"a": 1}}', "no cells"),
     "nested": (DEEP, "not JSON"),
@@ -290,7 +292,7 @@ def test_what_is_no_notebook(tmp_path: Path, content: bytes, words: str) -> None
         ("s01/mine.ipynb", "give the file a name such as"),
         ("s01/notes.pdf", "neither a notebook"),
         ("s01/all.zip", "archive inside"),
-        (FIVE, "its student is unknown"),
+        (FIVE, "the student is unknown"),
     ],
 )
 def test_files_without_a_chapter_or_student(tmp_path: Path, name: str, words: str) -> None:

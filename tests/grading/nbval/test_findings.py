@@ -28,15 +28,15 @@ START = "\x1b[91mNotebook cell execution failed\x1b[0m\n\x1b[94mCell 3: "
         ),
         (
             f"{START}Cell outputs differ\n mismatch 'text/html'\n<p>cut",
-            "The output of the cell differs from the output with the right answers.",
+            "The output of the cell is different from the output with the right answers.",
         ),
         (
             f"{START}Cell outputs differ\n\nMissing output fields from running code: {{'text/plain'}}",
-            "The cell showed no output, or less output than it shows with the right answers.",
+            "With the right answers, this cell shows more output.",
         ),
         (
             "pytest plugin exception: Kernel dead on test start",
-            "The cell was not run, because an earlier cell had ended the kernel.",
+            "The cell was not run, because the kernel had ended in an earlier cell.",
         ),
         ("pytest plugin exception: b'<IDS|MSG>' is not in list", OTHER),
     ],

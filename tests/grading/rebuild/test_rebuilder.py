@@ -188,7 +188,7 @@ def test_last_of_several_answers_is_used() -> None:
     """The last of several answers is used, and the answer gets a note."""
     made = _rebuilt(_student(lambda cells: _copied(cells, D, OTHER), d=ANSWER))
     assert made.answers["05.1"] == OTHER
-    assert made.notes == ("05.1: 2 cells answer this exercise; the last one was used.",)
+    assert made.notes == ("05.1: 2 cells answer this exercise. Only the last of these cells was used.",)
 
 
 def test_identical_copy_leads_to_no_note() -> None:
@@ -204,7 +204,7 @@ def test_a_helper_split_off_belongs_to_the_answer() -> None:
     helper = "def helper(x):\n    return x + x"
     made = _rebuilt(_student(lambda cells: _own(cells, D, "print('try')", helper, "double(3)"), d=answer))
     assert made.answers["05.1"] == f"{answer}\nprint('try')\n{helper}"
-    assert "split into 3 cells" in made.notes[0]
+    assert "The answer was in 3 cells" in made.notes[0]
 
 
 def test_a_file_that_was_split() -> None:
@@ -236,7 +236,7 @@ def test_a_helper_elsewhere_is_named(shift: int) -> None:
     )
     assert made.answers["05.1"] == answer
     assert "helper" in made.notes[0]
-    assert "has to contain" in made.notes[0]
+    assert "all the code of the answer" in made.notes[0]
 
 
 def test_an_import_in_a_given_cell_is_named() -> None:
@@ -295,7 +295,7 @@ def test_tags_and_metadata_of_the_student_stay_out() -> None:
 
     made = _rebuilt(_student(change, d=ANSWER))
     assert made.notes == (
-        "05.1: The tag nbval-skip, raises-exception on the exercise's cell has no effect on the grade.",
+        "05.1: The tag nbval-skip, raises-exception on the exercise's cell does not change the grade.",
     )
 
 

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import replace
 from pathlib import Path
-
-from tornado.httpserver import HTTPServer
-from tornado.ioloop import IOLoop
-from tornado.netutil import bind_sockets
 
 from course_pkg.checking.report import Verdict
 from course_pkg.grading.grade import Flag, Grade
@@ -19,6 +14,7 @@ from course_pkg.grading.review.items import Wanted
 from course_pkg.grading.review.server import application
 from course_pkg.grading.review.session import Session
 from tests.grading.grades import NASTY, nasty, report
+from tests.web_pages.servers import served
 
 TOKEN = "secret"  # noqa: S105 -- only this test's server knows it
 RIGHT = 'mistakes = {"A": "polls too rarely"}\n'
@@ -51,25 +47,5 @@ def write_class(out: Path, grades: list[Grade] | None = None) -> Path:
 def serving(out: Path, wanted: Wanted | None = None) -> Iterator[str]:
     """Run the review server for a folder in a thread, and yield the server's address without the token."""
     session = Session(out, read_grades(out), wanted or Wanted())
-    (listening,) = bind_sockets(0, "127.0.0.1")
-    port = listening.getsockname()[1]
-    ready, loops = threading.Event(), list[IOLoop]()
-
-    def serve() -> None:
-        loop = IOLoop(make_current=True)
-        server = HTTPServer(application(session, TOKEN, lambda: port))
-        server.add_socket(listening)
-        loops.append(loop)
-        loop.add_callback(ready.set)
-        loop.start()
-        server.stop()
-        loop.close(all_fds=True)
-
-    thread = threading.Thread(target=serve)
-    thread.start()
-    assert ready.wait(10)
-    try:
-        yield f"http://127.0.0.1:{port}"
-    finally:
-        loops[0].add_callback(loops[0].stop)
-        thread.join(10)
+    with served(lambda port: nullcontext(application(session, TOKEN, lambda: port))) as url:
+        yield url

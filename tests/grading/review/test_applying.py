@@ -66,7 +66,7 @@ def test_a_changed_answer_is_reported() -> None:
     assert "changed" not in " ".join(about_reviews(reviewed([same], _overrides(row))))
     (changed,) = reviewed([other], _overrides(row))
     assert changed.reports[0].points == 2
-    assert "has changed since it was reviewed: s01 05.1." in about_reviews([changed])[1]
+    assert "has changed since its review: s01 05.1." in about_reviews([changed])[1]
     assert needs_look(changed)
 
 

@@ -7,14 +7,13 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Literal
 
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from course_pkg.grading.review.items import Wanted
 from course_pkg.grading.review.overrides import FILE
-from tests.browser.pages import picture
+from tests.browser.pages import Colours, page_at, picture
 from tests.grading.review.classes import TOKEN, serving, write_class
 from tests.site.test_pages import AXE, violations
 from tests.support import eventually
@@ -22,18 +21,12 @@ from tests.support import eventually
 
 @contextmanager
 def opened(
-    browser: Browser, url: str, width: int = 1280, colours: Literal["light", "dark"] = "light"
+    browser: Browser, url: str, width: int = 1280, colours: Colours = "light"
 ) -> Iterator[tuple[Page, list[str]]]:
-    """Open the page, and yield the page, the console messages and the script errors."""
-    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=colours)
-    page, words = context.new_page(), list[str]()
-    page.on("console", lambda message: words.append(message.text))
-    page.on("pageerror", lambda error: words.append(str(error)))
-    page.on("dialog", lambda dialog: words.append(dialog.message))
-    page.goto(f"{url}/?token={TOKEN}")
-    expect(page.locator("body[data-shown='0']")).to_be_visible()
-    yield page, words
-    context.close()
+    """Open the page with its token, and wait until it shows its data."""
+    with page_at(browser, f"{url}/?token={TOKEN}", width, colours) as (page, words):
+        expect(page.locator("body[data-shown='0']")).to_be_visible()
+        yield page, words
 
 
 def _rows(out: Path) -> dict[tuple[str, str], tuple[str, str]]:
@@ -127,9 +120,7 @@ def test_a_spreadsheet_saves_while_the_page_is_open(browser: Browser, tmp_path: 
 
 
 @pytest.mark.parametrize("colours", ["light", "dark"])
-def test_the_page_is_accessible_and_fits(
-    browser: Browser, tmp_path: Path, colours: Literal["light", "dark"]
-) -> None:
+def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colours: Colours) -> None:
     """axe-core finds no problem, no script in a student's text runs, and the page fits into the window."""
     out = write_class(tmp_path)
     with serving(out) as url:

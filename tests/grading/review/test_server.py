@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import signal
 import socket
 import subprocess
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +14,7 @@ import pytest
 from course_pkg.grading.review.overrides import read_overrides
 from course_pkg.setup import Places
 from tests.grading.review.classes import TOKEN, serving, write_class
+from tests.web_pages.servers import ask
 
 COURSE = Places.of().checkout / "course"
 FOREIGN: list[dict[str, str]] = [
@@ -28,17 +26,6 @@ FOREIGN: list[dict[str, str]] = [
 ]
 
 
-def _ask(url: str, headers: dict[str, str], data: object = None) -> tuple[int, dict[str, str]]:
-    body = None if data is None else json.dumps(data).encode()
-    request = urllib.request.Request(url, body, headers)  # noqa: S310 -- our own server
-    try:
-        with urllib.request.urlopen(request, timeout=10) as answer:  # noqa: S310
-            return answer.status, dict(answer.headers)
-    except urllib.error.HTTPError as error:
-        with error:
-            return error.code, dict(error.headers)
-
-
 def test_foreign_requests_are_refused(tmp_path: Path) -> None:
     """The server refuses a request without the token, or with a wrong host or origin."""
     out = write_class(tmp_path)
@@ -46,18 +33,18 @@ def test_foreign_requests_are_refused(tmp_path: Path) -> None:
     with serving(out) as url:
         for headers in FOREIGN:
             for path in ("/", "/page.js", "/page.css", "/items", "/items/0", "/rows", "/nothing"):
-                assert _ask(url + path, headers)[0] == 403, (path, headers)
+                assert ask(url + path, **headers)[0] == 403, (path, headers)
             for path in ("/save", "/undo"):
-                assert _ask(url + path, headers, change)[0] == 403, (path, headers)
+                assert ask(url + path, change, **headers)[0] == 403, (path, headers)
         assert not (out / "overrides.csv").exists()
         own = {"Authorization": f"token {TOKEN}", "Origin": url}
         for path, status in {"/": 200, "/items/99": 404, "/nothing": 404, "/items/x": 404}.items():
-            status_seen, headers = _ask(url + path, own)
+            status_seen, _, headers = ask(url + path, **own)
             assert status_seen == status
             assert headers["Content-Security-Policy"].startswith("default-src 'none'; script-src 'self';")
         for wrong in ({}, [], {**change, "number": 99}, {**change, "points": 1}, {**change, "number": -1}):
-            assert _ask(f"{url}/save", own, wrong)[0] == 400
-        assert _ask(f"{url}/save", own, change)[0] == 200
+            assert ask(f"{url}/save", wrong, **own)[0] == 400
+        assert ask(f"{url}/save", change, **own)[0] == 200
 
 
 @contextmanager
@@ -86,15 +73,15 @@ def test_the_command(tmp_path: Path) -> None:
     out = write_class(tmp_path / "grades")
     with _review(out, "--part", "5.1") as (process, url, token):
         own = {"Authorization": f"token {token}"}
-        assert _ask(f"{url}/save", own, {"number": 1, "points": "1", "comment": "kept"})[0] == 200
-        assert "Another `course review` uses" in _refused(out)
+        assert ask(f"{url}/save", {"number": 1, "points": "1", "comment": "kept"}, **own)[0] == 200
+        assert "Another `course review` command uses" in _refused(out)
         process.kill()
     assert [(row.points, row.comment) for row in read_overrides(out).rows.values()] == [(1, "kept")]
     with _review(out) as (process, _url, _token):
         process.send_signal(signal.SIGINT)
         ended, said = process.communicate(timeout=30)
     assert process.returncode == 0, said
-    assert "The review has ended; all saved points are in" in ended.splitlines()[-1]
+    assert "The review has ended. All saved points are in" in ended.splitlines()[-1]
     assert said == ""
 
 

@@ -53,7 +53,7 @@ def test_two_students_with_one_name() -> None:
     """If a name fits two rows, the student is reported as unclear."""
     found = _matched({"Ann Lee": ["Ann Lee/05.ipynb"]})
     assert "Ann Lee" not in found.people
-    assert found.unclear == {"Ann Lee": "it fits several rows of the roster (lines 4 and 5)"}
+    assert found.unclear == {"Ann Lee": "the student fits several rows of the roster (lines 4 and 5)"}
     assert found.missing == (JANE, MAX)
 
 
@@ -87,8 +87,8 @@ def test_two_folders_of_one_student() -> None:
     """If two folders fit the same row, both folders are reported as unclear."""
     found = _matched({"jdoe": ["jdoe/05.ipynb"], "Jane Doe": ["Jane Doe/05.ipynb"]})
     assert found.unclear == {
-        "jdoe": "it fits the same row of the roster (line 2) as Jane Doe",
-        "Jane Doe": "it fits the same row of the roster (line 2) as jdoe",
+        "jdoe": "the student fits the same row of the roster (line 2) as Jane Doe",
+        "Jane Doe": "the student fits the same row of the roster (line 2) as jdoe",
     }
     assert JANE not in found.missing
 
@@ -105,8 +105,9 @@ def test_the_summary() -> None:
     assert list(_matched(origins).summary()) == [
         "Roster: 2 of 4 students handed in their work.",
         "1 is not on the roster: s99.",
-        "It is unclear which student Ann Lee is: it fits several rows of the roster (lines 4 and 5).",
-        "canvas.csv and moodle.csv have no row for such a student. Correct the list, or the name of the "
+        "The student Ann Lee cannot be identified: the student fits several rows of the roster (lines 4 "
+        "and 5).",
+        "canvas.csv and moodle.csv have no row for this student. Correct the list, or the name of the "
         "folder, and type the same command again.",
     ]
     many = tuple(Person(f"N{number}", line=number) for number in range(2, 32))

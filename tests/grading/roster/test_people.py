@@ -68,9 +68,9 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("", "line 1: the first line has to name the columns"),
-        ("secret,17\n", "line 1: the first line has to name the columns"),
-        ("section\nsecret\n", "one of the first four is enough"),
+        ("", "line 1: the first line has to contain the names of the columns"),
+        ("secret,17\n", "line 1: the first line has to contain the names of the columns"),
+        ("section\nsecret\n", "At least one of the first four is necessary"),
         ("name,id\n", "contains no student"),
         ("name,id,sid\nsecret,1,2\n", "line 1: columns 2 and 3 both contain the id"),
         ("name,id\nsecret,1\nother,1\n", "lines 2 and 3 have the same id"),
@@ -78,9 +78,9 @@ def test_an_export_of_canvas_is_a_roster(tmp_path: Path) -> None:
         ("username\nsecret\nother\nsecret\n", "lines 2 and 4 have the same username"),
         ("name,section\n,secret\n", "line 2: the student has no name, id, email or username"),
         ("name,id\nsecret,1,2\n", "line 2: there are 3 cells, but only 2 columns"),
-        ('name,id\n"secret,1\n', "cannot be read.*Save it as CSV in UTF-8"),
+        ('name,id\n"secret,1\n', "cannot be read.*Save the file as CSV in UTF-8"),
         (b"name\n\xff\n", "cannot be read.*UTF-8"),
-        (b"PK\x03\x04secret", "spreadsheet and not a CSV file. Save it as CSV"),
+        (b"PK\x03\x04secret", "spreadsheet and not a CSV file. Save the file as CSV"),
         ("x" * 1_000_001, "too large for a roster"),
     ],
 )

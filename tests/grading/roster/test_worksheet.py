@@ -85,7 +85,7 @@ def test_the_participants(
         ("name,points\nsecret,1\n", "does not contain Identifier and Grade"),
         ("Identifier,secret\nParticipant 1,\n", "does not contain Grade"),
         (SCALE, "graded with a scale.*Grade type to Point"),
-        (ENGLISH.replace("100.00", "0.00", 1), "line 2: no points can be given.*Grade type to Point"),
+        (ENGLISH.replace("100.00", "0.00", 1), "line 2: Moodle gives no points.*Grade type to Point"),
         (ENGLISH.replace("100.00", "secret", 1), "line 2: the maximum grade is not a number"),
         (ENGLISH.replace("Participant 103", "secret"), "line 5: the identifier does not end in a number"),
         (ENGLISH.replace("Participant 103", "Participant 101"), "lines 2 and 5 have the same identifier"),

@@ -16,9 +16,9 @@ CHAPTERS = ["05", "06"]
 @pytest.mark.parametrize(
     ("files", "said"),
     [
-        ({}, "nothing that can be used"),
-        ({"README.md": b"x"}, "nothing that can be used"),
-        ({"private/private_05.py": b"x"}, "contains private, which would not be used"),
+        ({}, "contains no file that can be used"),
+        ({"README.md": b"x"}, "contains no file that can be used"),
+        ({"private/private_05.py": b"x"}, "contains private, which cannot be used"),
         ({"private_05.py": b"x", "private_5.py": b"x"}, "contains private_5.py, which"),
         ({"Private_05.py": b"x"}, "contains Private_05.py, which"),
         ({"private_05.py.txt": b"x"}, "contains private_05.py.txt, which"),

@@ -61,7 +61,7 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
     last = _grade(tmp_path, *due)
     assert last.returncode == NEED_A_LOOK, last.stderr
     assert f"s01, chapter 00: {before['s01']} before, {float(before['s01']) / 2:g} now" in last.stdout
-    assert "nothing was handed in for these results of an earlier run: s03 (chapter 00)" in last.stdout
+    assert "nothing was handed in this time: s03 (chapter 00)" in last.stdout
     assert _points(tmp_path)["s03"] == before["s03"]
     assert "s03" not in (tmp_path / "grades" / "moodle.csv").read_text()
 

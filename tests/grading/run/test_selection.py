@@ -55,7 +55,9 @@ def test_a_student_without_the_number_of_the_platform() -> None:
     assert _chosen(selection(["a two"], (), ())) == [("A Two_19", "")]
 
 
-@pytest.mark.parametrize(("name", "said"), [("A One", "fits 2 students"), ("s99", "of no student")])
+@pytest.mark.parametrize(
+    ("name", "said"), [("A One", "fits 2 students"), ("s99", "is not the name of a student")]
+)
 def test_a_name_that_does_not_fit_one_student(name: str, said: str) -> None:
     """The error message contains the file with the list of names, but no other student's name."""
     with pytest.raises(GradingError, match=rf"--student {name} .*{said}.*grades\.csv") as caught:

@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import json
 import os
 import signal
-import tempfile
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from jupyter_client.blocking import BlockingKernelClient
 
-from course_pkg.setup.network import network_problem
-from tests.lab.commands import ROOT, alive, all_gone, below, having, lab, listening, own_namespace, running
+from tests.lab.commands import alive, all_gone, below, having, listening, own_namespace, running
+from tests.lab.graph.messages import Messages
 from tests.lab.test_jupyterlab import Service
 from tests.lab.test_run import course_run, names
 from tests.support import eventually
@@ -22,54 +18,6 @@ KERNEL = b"ipykernel_launcher"
 HOLDER = b"graph/holder.py\0"
 WHERE = "import os; print(os.environ['ROS_MASTER_URI'], os.readlink('/proc/self/ns/net'), os.getpid())"
 SLEEP = "import time; print('begun', flush=True); time.sleep(1000)"
-
-
-class Messages:
-    """A client that sends cells to the kernel of a server, through the kernel's sockets."""
-
-    def __init__(self, service: Service) -> None:
-        [server] = having(b"-m\0course_pkg.lab\0", below(service.process))[1:]
-        self._folder = Path(variable(server, "JUPYTER_RUNTIME_DIR"))
-
-    def run(self, code: str, until: str) -> str:
-        """Run a cell, and return what it prints up to a message of the type `until`, or its error's name."""
-        [file] = eventually(lambda: list(self._folder.glob("kernel-*.json")))
-        client = BlockingKernelClient(connection_file=str(file))
-        client.load_connection_file()
-        client.start_channels()
-        try:
-            client.wait_for_ready(timeout=30)
-            client.execute(code)
-            printed = ""
-            while True:
-                message = client.get_iopub_msg(timeout=30)
-                content = message["content"]
-                printed += content.get("text", "") + content.get("ename", "")
-                if message["msg_type"] == until and content.get("execution_state", "idle") == "idle":
-                    return printed
-        finally:
-            client.stop_channels()
-
-
-def variable(pid: int, name: str) -> str:
-    """Return an environment variable of a process."""
-    words = Path(f"/proc/{pid}/environ").read_bytes().decode().split("\0")
-    return dict(word.split("=", 1) for word in words if "=" in word)[name]
-
-
-@pytest.fixture
-def served() -> Iterator[Service]:
-    """Start `course lab` with an empty notebook, or skip the test if there are no private networks."""
-    problem, _ = network_problem()
-    if problem:
-        pytest.skip(problem)
-    with tempfile.NamedTemporaryFile("w", suffix=".ipynb", dir=ROOT / "tests" / "lab") as file:
-        file.write(json.dumps({"cells": [], "metadata": {}, "nbformat": 4, "nbformat_minor": 5}))
-        file.flush()
-        with lab(file.name) as (process, address):
-            service = Service(process, address)
-            eventually(service.kernels)
-            yield service
 
 
 def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:

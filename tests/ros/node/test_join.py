@@ -105,7 +105,9 @@ def test_two_kernels_with_one_name(kernel: Kernel) -> None:
 def test_name_of_a_killed_kernel_is_free(master: PrivateMaster) -> None:
     """After SIGKILL of a kernel, a new kernel can use the same name."""
     former = Kernel()
-    former.run(JOIN + "\nfrom std_srvs.srv import Empty; node.serve('/former', Empty, print)")
+    former.run(
+        JOIN + "\nfrom std_srvs.srv import Empty; import rospy; rospy.Service('/former', Empty, print)"
+    )
     former.kill()
     former.exit()
     with Kernel() as kernel:
@@ -156,7 +158,6 @@ def test_private_master_killed() -> None:
             import rospy
             from std_msgs.msg import UInt32
             from std_srvs.srv import Trigger
-            node.serve("/served", Trigger, lambda request: (True, "here"))
             raw = rospy.Service("/raw", Trigger, lambda request: (True, "raw"))
             publisher = rospy.Publisher("/numbers", UInt32, queue_size=1, latch=True)
             publisher.publish(7)
@@ -165,15 +166,11 @@ def test_private_master_killed() -> None:
             result = node.master
         """)
         os.kill(MasterClient(uri).pid(), signal.SIGKILL)
-        reply = kernel.ask("node.call('/served', Trigger)")
+        reply = kernel.ask("node.call('/raw', Trigger)")
         assert (reply.error, reply.words) == ("ServiceException", "unable to contact master")
-        assert kernel.ask("node.serve('/more', Trigger, print)").error == "MasterUnreachable"
         assert kernel.ask("node.subscribe('/more', UInt32)").error == "MasterUnreachable"
         kernel.run("node = join('student')")
-        assert kernel.run("result = [node.call(name, Trigger).message for name in ('/served', '/raw')]") == [
-            "here",
-            "raw",
-        ]
+        assert kernel.run("result = node.call('/raw', Trigger).message") == "raw"
         seen = look(uri)
         assert [topic.name for topic in seen.topics if topic.subscribers] == ["/numbers", "/rosout"]
         published = [topic.name for topic in seen.topics if topic.publishers]
@@ -192,7 +189,8 @@ def test_shared_master_restarted() -> None:
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
-            "from std_srvs.srv import Trigger; node.serve('/served', Trigger, lambda request: (True, 'here'))"
+            "import rospy; from std_srvs.srv import Trigger\n"
+            "rospy.Service('/served', Trigger, lambda request: (True, 'here'))"
         )
         master.stop()
         assert kernel.ask("join('student')").error == "MasterUnreachable"
@@ -206,12 +204,13 @@ def test_moving_to_another_master() -> None:
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(JOIN)
         kernel.run(
-            "from std_srvs.srv import Trigger; node.serve('/served', Trigger, lambda request: (True, 'here'))"
+            "import rospy; from std_srvs.srv import Trigger\n"
+            "rospy.Service('/served', Trigger, lambda request: (True, 'here'))"
         )
         master.stop()
         kernel.run("import os; del os.environ['ROS_MASTER_URI']; join('student')")
         assert kernel.run("result = node.master") != master.uri
-        kernel.run("import rospy; raw = rospy.Service('/raw', Trigger, lambda request: (True, 'raw'))")
+        kernel.run("raw = rospy.Service('/raw', Trigger, lambda request: (True, 'raw'))")
         assert kernel.run("result = [node.call(name, Trigger).message for name in ('/served', '/raw')]") == [
             "here",
             "raw",
@@ -220,13 +219,13 @@ def test_moving_to_another_master() -> None:
 
 def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
     """While the master is stopped, requests time out. After SIGCONT, requests work again."""
-    kernel.run(JOIN + "; from std_srvs.srv import Trigger; from std_msgs.msg import UInt32")
+    kernel.run(JOIN + "; from std_msgs.msg import UInt32")
     with stopped(master.pid):
-        for cell in ("join('student')", "node.serve('/x', Trigger, print)", "node.subscribe('/x', UInt32)"):
+        for cell in ("join('student')", "node.subscribe('/x', UInt32)"):
             reply = kernel.ask(cell)
             assert reply.error == "MasterSilent", (cell, reply)
             assert reply.took < 4
-    kernel.run("node.serve('/x', Trigger, print)")
+    kernel.run("node.subscribe('/x', UInt32)")
 
 
 def test_exit_while_the_master_is_stopped() -> None:
@@ -235,10 +234,11 @@ def test_exit_while_the_master_is_stopped() -> None:
         kernel = Kernel({"ROS_MASTER_URI": own.uri})
         kernel.run(JOIN)
         kernel.run("""
+            import rospy
             from std_msgs.msg import UInt32
             from std_srvs.srv import Trigger
             heard = node.subscribe("/numbers", UInt32)
-            served = [node.serve(f"/served_{number}", Trigger, print) for number in range(5)]
+            served = [rospy.Service(f"/served_{number}", Trigger, print) for number in range(5)]
             processes = [node.run("course_pkg", "pulse", name=f"pulse_{number}") for number in range(3)]
             processes[-1].wait_for_service("/pulse_2/get_loggers")
         """)
@@ -251,9 +251,10 @@ def test_leaving_and_coming_back(kernel: Kernel, master: PrivateMaster) -> None:
     kernel.run(
         JOIN
         + """
+import rospy
 from std_srvs.srv import Trigger
 from std_msgs.msg import UInt32
-node.serve("/mine", Trigger, lambda request: (True, "here"))
+rospy.Service("/mine", Trigger, lambda request: (True, "here"))
 node.subscribe("/numbers", UInt32)
 server = node.run("course_pkg", "server")
 server.wait_for_service("/getGeometry")
@@ -262,8 +263,8 @@ result = server.running
 """
     )
     assert MasterClient(master.uri).system_state().nodes == ()
-    kernel.run("node = join('student'); node.serve('/mine', Trigger, lambda request: (True, 'again'))")
-    assert kernel.run("result = node.call('/mine', Trigger).message") == "again"
+    kernel.run("node = join('student'); rospy.Service('/more', Trigger, lambda request: (True, 'again'))")
+    assert kernel.run("result = node.call('/more', Trigger).message") == "again"
 
 
 def test_leaving_is_prompt(kernel: Kernel) -> None:
@@ -329,18 +330,16 @@ def test_node_that_was_shut_down_starts_again(kernel: Kernel, master: PrivateMas
 import rospy
 from std_msgs.msg import UInt32
 from std_srvs.srv import Trigger
-served = node.serve("/served", Trigger, lambda request: (True, "here"))
 heard = node.subscribe("/numbers", UInt32)
 """
     )
     kernel.run(how)
     assert kernel.run("result = rospy.is_shutdown()") is True
-    for cell in ("node.serve('/x', Trigger, print)", "node.run('course_pkg', 'server')"):
+    for cell in ("node.subscribe('/x', UInt32)", "node.run('course_pkg', 'server')"):
         reply = kernel.ask(cell)
         assert reply.error == "NotJoined"
         assert "Run the set-up cell" in reply.words
     assert kernel.run("result = join('student') is node, rospy.is_shutdown()") == [True, False]
-    assert kernel.run("result = node.call('/served', Trigger).message, len(served.calls)") == ["here", 1]
     kernel.run("""
         publisher = rospy.Publisher("/numbers", UInt32, queue_size=1, latch=True)
         publisher.publish(7)
@@ -358,9 +357,10 @@ def test_forked_child_is_not_the_node(kernel: Kernel) -> None:
         JOIN
         + """
 import os
+import rospy
 from course_pkg.errors import NotJoined
 from std_srvs.srv import Trigger
-node.serve("/served", Trigger, lambda request: (True, "here"))
+rospy.Service("/served", Trigger, lambda request: (True, "here"))
 child = os.fork()
 if child == 0:
     try:

@@ -53,7 +53,7 @@ def raw() -> Iterator[NodeProcess]:
 @pytest.fixture
 def joined(kernel: Kernel) -> Kernel:
     """Return a kernel that runs a node."""
-    kernel.run("from course_pkg.ros import join; node = join('caller')")
+    kernel.run("from course_pkg.ros import BoundedProxy, join; node = join('caller')")
     return kernel
 
 
@@ -160,7 +160,7 @@ def test_cancel_from_another_thread(joined: Kernel, raw: NodeProcess) -> None:
     reply = joined.ask("""
         import threading
         from std_srvs.srv import Trigger
-        proxy = node.caller("/raw/sleeps", Trigger, timeout=20)
+        proxy = BoundedProxy("/raw/sleeps", Trigger, timeout=20)
         threading.Timer(0.3, proxy.cancel).start()
         proxy()
     """)
@@ -181,7 +181,9 @@ def test_interrupt_of_a_call(joined: Kernel, raw: NodeProcess) -> None:
 
 def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
     """A persistent proxy connects to the new server after its server was replaced."""
-    joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
+    joined.run(
+        "from std_srvs.srv import Trigger; proxy = BoundedProxy('/raw/well', Trigger, persistent=True)"
+    )
     for _ in range(2):
         with NodeProcess([sys.executable, "-c", RAW_SERVER]) as process:
             process.wait_for_service("/raw/well")
@@ -190,7 +192,9 @@ def test_persistent_proxy_survives_its_server(joined: Kernel) -> None:
 
 def test_persistent_call_times_out_and_recovers(joined: Kernel, raw: NodeProcess) -> None:
     """After a timeout, a persistent proxy uses a new connection."""
-    joined.run("from std_srvs.srv import Trigger; proxy = node.caller('/raw/well', Trigger, persistent=True)")
+    joined.run(
+        "from std_srvs.srv import Trigger; proxy = BoundedProxy('/raw/well', Trigger, persistent=True)"
+    )
     joined.run("proxy()")
     with stopped(raw.pid):
         reply = joined.ask("proxy.call(timeout=0.5)")

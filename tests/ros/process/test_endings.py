@@ -21,10 +21,11 @@ from tests.kernel import Kernel
 from tests.support import eventually, process_state, stopped
 
 EVERYTHING = """
-from course_pkg.ros import join
+from course_pkg.ros import NodeProcess, join
 node = join("owner")
 server = node.run("course_pkg", "server", "getGeometry:=other", name="other")
-launched = node.launch("course_pkg", "geometry.launch")
+launched = NodeProcess.roslaunch("course_pkg", "geometry.launch")
+node.keep(launched)
 launched.wait_for_service("/getGeometry")
 server.wait_for_service("/other")
 result = node.master

@@ -23,7 +23,7 @@ pytestmark = pytest.mark.usefixtures("master")
     [
         ("no_such_package", "server", "no package 'no_such_package'"),
         ("course_pkg", "sever", "Did you mean 'server'?"),
-        ("course_pkg", "zzz", "It has: "),
+        ("course_pkg", "zzz", "The package has: "),
     ],
 )
 def test_missing_program(package: str, program: str, message: str) -> None:
@@ -84,10 +84,11 @@ def test_waiting_for_output() -> None:
 def test_waiting_checks_the_process(kernel: Kernel) -> None:
     """wait_for_service() does not return while another node offers the service."""
     kernel.run("""
+        import rospy
         from course_pkg.srv import geometry
         from course_pkg.ros import join
         node = join("first")
-        node.serve("/contested", geometry, lambda request: (-1, -1))
+        rospy.Service("/contested", geometry, lambda request: (-1, -1))
         other = node.run("course_pkg", "server", "getGeometry:=/contested")
         other.wait_for_service("/contested")
         assert node.call("/contested", geometry, 1, 2, 3).area == 2

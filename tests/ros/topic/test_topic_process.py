@@ -228,9 +228,11 @@ def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
     """The result contains the type of each node of the topic."""
     with Kernel() as one, Kernel() as other:
         one.run("""
+            import rospy
+            from std_msgs.msg import String
             from course_pkg.ros import join
             node = join("talker")
-            publisher = node.advertise("/mixed", "std_msgs/String")
+            publisher = rospy.Publisher("/mixed", String, queue_size=10)
         """)
         other.run("""
             from course_pkg.ros import join
@@ -314,9 +316,11 @@ def test_messages_of_another_type_are_reported_without_values(reports: Reports, 
     """A message of another type is reported without values."""
     reports.process.tell("type", **NUMBER)
     kernel.run("""
+        import rospy
+        from std_msgs.msg import String
         from course_pkg.ros import join
         node = join("talker")
-        publisher = node.advertise("/speed", "std_msgs/String", latch=True)
+        publisher = rospy.Publisher("/speed", String, queue_size=10, latch=True)
         publisher.publish("fast")
     """)
     messages = eventually(lambda: reports.messages)
@@ -367,9 +371,11 @@ def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) ->
 def test_messages_are_read_before_a_type_is_set(reports: Reports, kernel: Kernel) -> None:
     """Before the command `type`, the process uses the type of the publisher."""
     kernel.run("""
+        import rospy
+        from std_msgs.msg import String
         from course_pkg.ros import join
         node = join("talker")
-        publisher = node.advertise("/speed", "std_msgs/String", latch=True)
+        publisher = rospy.Publisher("/speed", String, queue_size=10, latch=True)
         publisher.publish("fast")
     """)
     assert eventually(lambda: reports.messages)[0]["texts"] == {"data": "fast"}

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import threading
 
+from course_pkg.ros.trace.call_counter import CALLERS, CallCounter
 from course_pkg.ros.trace.hooks import Hook
-from course_pkg.ros.trace.recorder import CALLERS, LONGEST, CallCounter, Recorder
+from course_pkg.ros.trace.recorder import LONGEST, Recorder
 
 
 def test_the_number_of_stored_spans_is_bounded() -> None:

@@ -110,7 +110,7 @@ def test_a_persistent_connection_is_looked_up_once(asker: Kernel) -> None:
         asker,
         """
         seen = []
-        node.serve("/flip", SetBool, lambda request: (seen.append(request.data), (not request.data, ""))[1])
+        rospy.Service("/flip", SetBool, lambda request: (seen.append(1), (not request.data, ""))[1])
         with node.record() as recording:
             proxy = rospy.ServiceProxy("/flip", SetBool, persistent=True)
             for data in (True, False, True):
@@ -131,7 +131,7 @@ def test_a_refusal_is_recorded_at_both_ends(asker: Kernel) -> None:
         """
         def refuse(request):
             raise rospy.ServiceException("not today")
-        node.serve("/no", Trigger, refuse)
+        rospy.Service("/no", Trigger, refuse)
         with node.record() as recording:
             called("/no", Trigger)
     """,
@@ -155,7 +155,7 @@ def test_a_caller_that_gave_up(asker: Kernel) -> None:
         asker,
         """
         done = threading.Event()
-        node.serve("/slow", Trigger, lambda request: (done.wait(20), (True, ""))[1])
+        rospy.Service("/slow", Trigger, lambda request: (done.wait(20), (True, ""))[1])
         with node.record() as recording:
             called("/slow", Trigger, timeout=0.2)
         done.set()
@@ -175,7 +175,7 @@ def test_unfinished_events_are_open(asker: Kernel) -> None:
         asker,
         """
         begun, done = threading.Event(), threading.Event()
-        node.serve("/slow", Trigger, lambda request: (begun.set(), done.wait(20), (True, ""))[-1])
+        rospy.Service("/slow", Trigger, lambda request: (begun.set(), done.wait(20), (True, ""))[-1])
         caller = threading.Thread(target=called, args=("/slow", Trigger), kwargs={"timeout": 30})
         caller.start()
         begun.wait(10)
@@ -220,7 +220,7 @@ def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
     with Kernel() as other:
         other.run("from std_srvs.srv import Trigger; from course_pkg.ros import join; node = join('other')")
         asker.run("""
-            node.serve("/x", Trigger, lambda request: (True, ""))
+            rospy.Service("/x", Trigger, lambda request: (True, ""))
             block = node.record()
             recording = block.__enter__()
         """)
@@ -362,7 +362,8 @@ def test_a_call_from_a_callback(asker: Kernel) -> None:
     recording = recorded(
         asker,
         """
-        served = node.serve("/x", Trigger, lambda request: (True, ""))
+        calls = []
+        rospy.Service("/x", Trigger, lambda request: (calls.append(request), (True, ""))[1])
         heard = node.subscribe("/go", UInt32, lambda message: called("/x", Trigger))
         publisher = rospy.Publisher("/go", UInt32, queue_size=5)
         while not publisher.get_num_connections():
@@ -370,7 +371,7 @@ def test_a_call_from_a_callback(asker: Kernel) -> None:
         with node.record() as recording:
             publisher.publish(1)
             publisher.publish(2)
-            while len(served.calls) < 2:  # at the second call, the first callback has ended
+            while len(calls) < 2:  # at the second call, the first callback has ended
                 time.sleep(0.01)
     """,
     )
@@ -386,7 +387,7 @@ def test_without_a_master() -> None:
     with PrivateMaster() as master, Kernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run(START)
         kernel.run("""
-            node.serve("/x", Trigger, lambda request: (True, ""))
+            rospy.Service("/x", Trigger, lambda request: (True, ""))
             proxy = rospy.ServiceProxy("/x", Trigger, persistent=True)
             proxy()
         """)
@@ -415,10 +416,11 @@ def test_a_rospy_with_other_methods(kernel: Kernel) -> None:
         def _handle_request(self, transport, request, novelty=None):
             return bare(self, transport, request)
         ServiceImpl._handle_request = _handle_request
+        import rospy
         from std_srvs.srv import Trigger
         from course_pkg.ros import join
         node = join("other")
-        node.serve("/x", Trigger, lambda request: (True, "here"))
+        rospy.Service("/x", Trigger, lambda request: (True, "here"))
         with node.record() as recording:
             answer = node.call("/x", Trigger).message
         untouched = ServiceImpl._handle_request is _handle_request

@@ -3,8 +3,9 @@
 from math import prod
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
-from course_pkg.checking.assertions import Hints
+from course_pkg.checking.assertions import Hints, same
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.checking.peers.publisher import Publisher
 from course_pkg.checking.plain_values import of_kind
 from course_pkg.ros.protocol.json_channel import Json
 
@@ -20,6 +21,7 @@ NODE, SERVICE, TYPE = (
     "Find the name of the service.",
     "Find the type of the service.",
 )
+TOO_LONG = "The pause is too long. Pause for `pause` seconds, and receive only one number after the pause."
 RECEIVED = "Return two numbers from the topic: one number before the pause, and one number after the pause."
 MISSED = "Return how many numbers were published between the two received numbers."
 
@@ -154,6 +156,7 @@ def ask_a_question(context: CheckContext) -> None:
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)
+        sides = {"length": length, "width": width, "height": height}
         area, volume = (
             whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
         )  # These numbers are exact as a float32.
@@ -178,23 +181,10 @@ def ask_a_question(context: CheckContext) -> None:
         )
         context.expect(
             "the sides are sent in the order length, width, height",
-            expected={"length": length, "width": width, "height": height},
+            expected=sides,
             actual=server.requests[0],
             near=1e-4,
-            hints=[
-                (
-                    lambda actual: 0.0 in actual.values(),
-                    (
-                        "The request contains 0 for one side, because a field without a value is "
-                        "0. Set all three sides."
-                    ),
-                ),
-                (
-                    ANYTHING,
-                    "The order of the sides in the request is wrong. Compare this order with "
-                    "the output of `rossrv show course_pkg/geometry`.",
-                ),
-            ],
+            hints=_other_sides(sides),
         )
         context.expect(
             "the volume of the response is returned",
@@ -203,6 +193,25 @@ def ask_a_question(context: CheckContext) -> None:
             near=1e-6,
             hints=_no_volume(area, volume, (length, width, height)),
         )
+
+
+def _other_sides(sides: dict[str, float]) -> Hints:
+    """Return hints for a request that does not contain the `sides` with which the function was called."""
+    return [
+        (
+            lambda actual: 0.0 in actual.values(),
+            "The request contains 0 for one side, because a field without a value is 0. Set all three sides.",
+        ),
+        (
+            lambda actual: not same([*sorted(sides.values())], sorted(actual.values()), near=1e-4),
+            "The request contains other numbers than the arguments. Send the arguments unchanged.",
+        ),
+        (
+            ANYTHING,
+            "The order of the sides in the request is wrong. Compare this order with "
+            "the output of `rossrv show course_pkg/geometry`.",
+        ),
+    ]
 
 
 def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
@@ -255,13 +264,14 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
 )
 def count_what_was_missed(context: CheckContext) -> None:
     """Run the function twice with different pauses; each time, a new topic publishes consecutive numbers."""
-    for _ in range(2):
+    # The second pause is longer than the 2 s of the chapter, so that a fixed pause fails.
+    for shortest in (0.25, 2.2):
         topic = f"/{context.random.word()}"
         first = context.random.integer(1000, 9000)
         numbers = [{"data": first + step} for step in range(1000)]
         publisher = context.publish(topic, "std_msgs/UInt32", numbers, every=0.03)
-        pause = context.random.number(0.25, 0.4)
-        done = context.run("count_missed", topic, pause, within=4.0, hints=NOT_RECEIVED)
+        pause = context.random.number(shortest, shortest + 0.15)
+        done = context.run("count_missed", topic, pause, within=4.0 + pause, hints=_no_numbers(publisher))
         before, after, missed = _three_numbers(context, done.returned())
         sent = publisher.sent
         context.require(
@@ -286,7 +296,7 @@ def count_what_was_missed(context: CheckContext) -> None:
             if before > after
             else (
                 "The time between the two numbers is too short. After the first number, pause "
-                "with `time.sleep`."
+                "for `pause` seconds with `time.sleep`."
             ),
         )
         if 0 not in publisher.subscribers[before - first : after - first]:
@@ -327,6 +337,14 @@ def count_what_was_missed(context: CheckContext) -> None:
                 ],
             )
     context.fulfilled(RECEIVED)
+
+
+def _no_numbers(publisher: Publisher) -> Hints:
+    """Return hints for a function that does not return."""
+    return [
+        (lambda actual: "TimesUp" in actual and any(publisher.subscribers), TOO_LONG),
+        *NOT_RECEIVED,
+    ]
 
 
 def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int]:

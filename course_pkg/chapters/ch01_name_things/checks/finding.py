@@ -3,6 +3,7 @@
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.waiting import at_this_load
 
 NUMBER = "std_msgs/UInt32"
 LOOKS_LIKE_IT = (
@@ -183,12 +184,15 @@ def who_really_publishes(context: CheckContext) -> None:
     """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
-    living, dead = names[:3], names[3:5]
+    # A dead node is between the running ones in each order, so a loop must not end at a dead node.
+    living, dead = context.random.shuffled(sorted(names[:5])[::2]), sorted(names[:5])[1::2]
     for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]]):
         context.fake_node(name, topic, NUMBER, alive=number % 2 == 0, reused=number == 3)
     context.fake_node(names[5], other, NUMBER)
     context.fake_node(names[6], grave, NUMBER, alive=False)
     context.fake_node(names[7], f"{topic}_2", NUMBER)
+    context.subscribe(topic, NUMBER)
+    subscribers = {name for each in context.look().topics if each.name == topic for name in each.subscribers}
     context.expect(
         "the running publishers of a topic, sorted",
         expected=sorted(living),
@@ -219,6 +223,10 @@ def who_really_publishes(context: CheckContext) -> None:
                     "Your list contains a node that publishes on a different topic. Compare the "
                     "whole name of the topic."
                 ),
+            ),
+            (
+                lambda actual: set(actual) & subscribers,
+                "One of these nodes only subscribes to the topic. Use the list of publishers.",
             ),
             (
                 [],
@@ -257,7 +265,7 @@ def _living(context: CheckContext, topic: str) -> object:
     return context.run(
         "living_publishers",
         topic,
-        within=8.0,  # A node without a response is pinged three times, which takes 6 s.
+        within=at_this_load(8.0),  # A node without a response is pinged three times, which takes 6 s.
         hints=[
             (
                 matches("TimesUp"),

@@ -229,7 +229,7 @@ def a_notice(context: CheckContext) -> None:
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
     earlier, first, third = context.random.numbers(3, 1.0, 90.0)
-    second = first + 0.0625  # A very small difference also counts as a change.
+    second = first + 2**-20  # A very small difference also counts as a change.
     for name in (zero, topic, twin):
         context.run("create", Its("Notice"), name, worded="Notice(topic)").returned()
     took = [_set(context, *each) for each in ((zero, 0.0), (topic, earlier), (topic, first), (twin, first))]

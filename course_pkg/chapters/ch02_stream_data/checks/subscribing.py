@@ -179,25 +179,30 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 
 
 def _stances(context: CheckContext, count: int) -> list[Fields]:
+    """Return `count` messages. The last ones have fewer joints, so a mirror must not keep earlier numbers."""
     names = [context.random.word() for _ in range(4)]
+    counts = [4 if number < count / 2 else 3 for number in range(count)]
     return [
         {
             "header": {
                 "stamp": {"secs": 1000 + number, "nsecs": context.random.integer(1, 999_999_999)},
                 "frame_id": context.random.word(),
             },
-            "name": names,
-            "position": _of_both_signs(context),
-            "velocity": _of_both_signs(context),
+            "name": names[:joints],
+            "position": _of_both_signs(context, joints),
+            "velocity": _of_both_signs(context, joints),
         }
-        for number in range(count)
+        for number, joints in enumerate(counts)
     ]
 
 
-def _of_both_signs(context: CheckContext) -> list[float]:
-    """Return positive and negative random numbers; each wrong sign then changes the result."""
+def _of_both_signs(context: CheckContext, count: int) -> list[float]:
+    """Return `count` random numbers, two of them positive and the others negative.
+
+    Each wrong sign then changes the result.
+    """
     return context.random.shuffled(
-        [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(2, -3.0, -0.1)]
+        [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(count - 2, -3.0, -0.1)]
     )
 
 

@@ -75,16 +75,16 @@ def watch_a_stream(context: CheckContext) -> None:
         context.run("end")
 
 
-def _speaks(context: CheckContext, topic: str) -> Publisher:
+def _speaks(context: CheckContext, topic: str, number: int = 7) -> Publisher:
     """Publish ten messages per second on the topic that the student's watch observes."""
-    publisher = context.publish(topic, "std_msgs/UInt32", [{"data": 7}], every=0.1)
+    publisher = context.publish(topic, "std_msgs/UInt32", [{"data": number}], every=0.1)
     publisher.listened(hints="In `__init__`, create a rospy.Subscriber of type UInt32 for the topic.")
     return publisher
 
 
 def _runs(context: CheckContext, topic: str) -> None:
     """Publish for some time, and stop, but stay registered as a publisher."""
-    publisher = _speaks(context, topic)
+    publisher = _speaks(context, topic, number=0)
     time.sleep(0.5)
     assertion = 'while messages arrive, the state is "running"'
     _says(context, topic, assertion, "running", _WHILE, times=context.random.integer(5, 9), pause=0.06)
@@ -198,6 +198,11 @@ _APART: Hints = [
     ),
 ]
 _WHILE: Hints = [
+    (
+        "waiting",
+        "Messages with the number 0 have arrived. Store the time at which a message arrives, and do not use "
+        "its number.",
+    ),
     (
         "ended",
         (

@@ -221,7 +221,12 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
 
 SWITCHES: Hints = [
     (
-        matches("already registered|NoneType|shutdown"),
+        matches("already registered"),
+        "The program created /move_arm, although it already served /move_arm. Compare `data` with the "
+        "current state, and store each new rospy.Service object for the next shutdown().",
+    ),
+    (
+        matches("NoneType|shutdown"),
         "A second call of /maintenance with the same value failed. First compare `data` with "
         "the current state.",
     ),

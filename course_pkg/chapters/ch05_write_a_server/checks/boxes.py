@@ -49,15 +49,19 @@ def area_and_volume(context: CheckContext) -> None:
                 expected=width * length * height,
                 actual=response.volume,
                 near=1e-3,
-                hints=[
-                    (0.0, "The volume is 0, because a field without a value is 0. Set the field `volume`."),
-                    (
-                        width * length + height,
-                        "Your volume is area + height. Multiply by the height; do not add the height.",
-                    ),
-                    (ANYTHING, "The volume is wrong. Multiply all three sides: width, length and height."),
-                ],
+                hints=_about_volume(width * length, height),
             )
+
+
+def _about_volume(area: float, height: float) -> Hints:
+    return [
+        (0.0, "The volume is 0, because a field without a value is 0. Set the field `volume`."),
+        (area + height, "Your volume is area + height. Multiply by the height; do not add the height."),
+        (area * height * 1e6, "Your volume is in cubic centimetres. Do not convert the metres."),
+        (round(area * height), "Your volume is rounded. Return all digits of the volume."),
+        (int(area * height), "Your volume is rounded. Return all digits of the volume."),
+        (ANYTHING, "The volume is wrong. Multiply all three sides: width, length and height."),
+    ]
 
 
 def _about_area(width: float, length: float, height: float) -> Hints:
@@ -73,6 +77,7 @@ def _about_area(width: float, length: float, height: float) -> Hints:
             "The field `area` contains the volume. In the response, the area comes first, and "
             "then the volume.",
         ),
+        (width * length * 1e4, "This area is in square centimetres. Use the sides in metres, as they are."),
         (
             lambda actual: abs(actual - width * length) <= 1,
             "The area is rounded. Return the area without rounding.",

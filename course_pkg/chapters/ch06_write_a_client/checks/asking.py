@@ -93,6 +93,16 @@ def the_geometry_client(context: CheckContext) -> None:
                     ),
                 ],
             )
+        context.run("measure", name, length, width, height).returned()
+        context.expect(
+            "it is called once",
+            expected=1,
+            actual=len(server.requests) - 1,
+            hints=(
+                "For the same sides, measure() returned an earlier response. Call the service in each "
+                "call of measure()."
+            ),
+        )
     context.fulfilled(CALLED)
 
 

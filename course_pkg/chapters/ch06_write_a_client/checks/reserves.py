@@ -9,6 +9,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
+# A right function may wait 1 s for each of the two services; LONGEST is the maximum delay in s.
+LONGEST = 1.75
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (
     "If a service does not exist or refuses the request, call the next service, and return the "
@@ -135,12 +137,14 @@ def ask_the_next_one(context: CheckContext) -> None:
             )
         ],
     )
+    took = frozen.took
+    if took - working.took >= LONGEST:  # A busy machine makes only some of the calls slow.
+        took = min(took, _first_of(context, names, "frozen", "second").took)
     context.require(
         "a frozen service delays the result by about one second",
-        # A right function may wait 1 s for each of the two services.
-        holds=frozen.took - working.took < 1.75,
+        holds=took - working.took < LONGEST,
         expected="at most 1 s for the frozen service",
-        actual=f"a result after {frozen.took:.1f} s",
+        actual=f"a result after {took:.1f} s",
         hints="The function waits too long for one service. Wait at most one second for each service.",
     )
     context.expect(

@@ -32,6 +32,10 @@ ERRORS = [
         "Your function sent the return value of fill_message_args, which is None. Send the "
         "request that was filled.",
     ),
+    (
+        matches("No field name"),
+        "This service had another type before. Get the class of its type in each call, and don't store it.",
+    ),
     (matches("KeyError: 0"), "The second argument of fill_message_args has to be a list. Write [fields]."),
     (
         matches("md5sums do not match"),
@@ -59,11 +63,14 @@ CALLED = "Call services of three types, and return the fields of the response."
     goals={CALLED: 2, "Raise an error for an unknown field. Return the whole response.": 1},
 )
 def call_of_any_type(context: CheckContext) -> None:
-    """Serve three types with random names; then pass a field that does not exist in the type."""
+    """Serve three types with random names; then change the type of a name, and pass an unknown field."""
     for example in example_calls(context):
         _calls(context, example)
     context.fulfilled(CALLED)
     name = f"/{context.random.word()}"
+    former = context.serve(name, "std_srvs/Trigger", lambda _: {"success": True})
+    context.run("call_any", name, {}, hints=ERRORS).returned()
+    former.leave()
     server = context.serve(name, "std_srvs/SetBool", lambda _: {"success": True})
     wrong = context.run("call_any", name, {"dat": True})
     context.require(

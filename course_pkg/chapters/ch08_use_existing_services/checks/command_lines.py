@@ -28,6 +28,9 @@ REPLACED = (
     "bash has replaced $HOME with a path. Use shlex.quote, because bash replaces nothing inside its quotes."
 )
 NO_YAML = "YAML cannot read a dict from the fields in your line. Use json.dumps, and then shlex.quote."
+CALLED_BEFORE = (
+    "Your function called the service. Return the line as a string, because the check runs the line."
+)
 TWICE = "The line calls the service more than once. Write only one call."
 COMPLAINTS = [
     (
@@ -74,10 +77,7 @@ NO_LINE: Hints = [
         (lambda actual: isinstance(actual, list)),
         "Your function returned a list of words. Return one string with spaces between the words.",
     ),
-    (
-        matches("object|success"),
-        "Your function called the service. Return the line as a string, because the check runs the line.",
-    ),
+    (matches("object|success"), CALLED_BEFORE),
     (ANYTHING, "The command is missing in your line. Write `rosservice call` at the beginning."),
 ]
 
@@ -98,6 +98,13 @@ def line_for_a_terminal(context: CheckContext) -> None:
         name = f"/{context.random.word()}"
         server = context.serve(name, example.kind, lambda _, answer=example.answer: answer)
         line = context.run("call_line", name, example.fields).returned()
+        if server.requests:
+            context.fail(
+                "it returns a string with rosservice call in it",
+                expected="no call before the check runs the line",
+                actual=f"{len(server.requests)} call(s)",
+                hint=CALLED_BEFORE,
+            )
         context.require(
             "it returns a string with rosservice call in it",
             holds=isinstance(line, str) and "rosservice call" in line,

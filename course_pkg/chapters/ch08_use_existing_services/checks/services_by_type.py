@@ -22,6 +22,10 @@ GONE = (
     "The search ended at a service whose server has ended. Catch the exception inside the "
     "loop, and continue the loop."
 )
+ENDED = (
+    "The list contains a service that has ended since the last call of your function. Get the types of all "
+    "services in each call."
+)
 LATE = "Your function did not find a new service. Get the list of services in each call of the function."
 ERRORS = [
     (matches("ROSServiceIOException"), DEAD),
@@ -51,7 +55,8 @@ def find_by_type(context: CheckContext) -> None:
     short = kind.partition("/")[2]
     word = context.random.word()
     mine = {f"/{word}/one", f"/{word}/{context.random.word()}"}
-    servers = [context.serve(name, kind, lambda _: {}) for name in sorted(mine)]
+    first = sorted(mine)
+    servers = [context.serve(name, kind, lambda _: {}) for name in first]
     misnamed = f"/{word}/{short}"  # The last part of the name is the name of another type.
     context.serve(misnamed, other, lambda _: {})
     for decoy in (f"{word}_pkg/{short}", f"{kind}Stamped"):
@@ -76,6 +81,10 @@ def find_by_type(context: CheckContext) -> None:
         context.serve(name, kind, lambda _: {})
         mine.add(name)
         _finds(context, kind, hint, mine)
+    ended = first[0]
+    servers[0].leave()
+    mine.discard(ended)
+    _finds(context, kind, SOME, mine, ended)
     _finds(context, other, SOME, {misnamed})
     context.expect(
         "an empty list for a type that no node serves",
@@ -88,10 +97,10 @@ def find_by_type(context: CheckContext) -> None:
     )
 
 
-def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str]) -> None:
+def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], ended: str = "") -> None:
     """Assert that the function returns all services of type `kind`; `mine` contains the check's services.
 
-    `incomplete` is the hint if a service is missing.
+    `incomplete` is the hint if a service is missing; the service `ended` was there before.
     """
     names = context.run("services_of", kind, hints=ERRORS).returned()
     _is_a_list_of_names(context, names)
@@ -105,7 +114,7 @@ def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str]) ->
         holds=not extra,
         expected=f"a list without {', '.join(extra)}",
         actual=names,
-        hints=_why_wrong({types.get(name) for name in extra}, kind),
+        hints=ENDED if extra == [ended] else _why_wrong({types.get(name) for name in extra}, kind),
     )
     context.require(
         "every service of the type is found",

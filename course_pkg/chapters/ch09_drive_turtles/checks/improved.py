@@ -21,11 +21,11 @@ SERVICES = ("toggle_forward", "change_rate", "change_speed", "start_stop")
 RATE = 20.0  # The check sets this rate in messages per second, which makes the check faster.
 STANDING = (0.0, 0.0)
 ANY_SPEED = (
-    "The node refused a speed that is allowed. Accept every finite number; a negative speed means backwards."
+    "The node refused an allowed speed. Accept every finite number: a negative speed moves the "
+    "turtle backwards."
 )
 NO_REFUSAL = (
-    "The node refused a call that changes nothing. Return success=True, and a "
-    'message with the word "already".'
+    'The node refused a call that changes nothing. Return success=True and a message with the word "already".'
 )
 SETS_RATE = "/change_rate sets the rate"
 SPEED_SO_FAR = "the response of /change_speed contains the speed before the call"
@@ -62,19 +62,29 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
             [
                 (
                     STANDING,
-                    "The turtle does not move before the first call. It has to move from the beginning.",
+                    (
+                        "The turtle does not move before the first call. Publish velocities from the "
+                        "beginning."
+                    ),
                 ),
                 (
                     ANYTHING,
-                    "Before the first call, the turtle has to move straight ahead at 1.0 m/s. Check the "
-                    "first values of your variables.",
+                    (
+                        "Before the first call, the turtle has to move straight ahead at 1.0 m/s. Check "
+                        "the initial values of your variables."
+                    ),
                 ),
             ],
         )
         change_rate = world.service("change_rate", CHANGE_RATE)
         change_rate(rate=RATE)
         stream.has_rate(
-            RATE, SETS_RATE, "Copy the code of /change_rate from your program pubvel_toggle_plus."
+            RATE,
+            SETS_RATE,
+            (
+                "The node does not publish at the rate that /change_rate has set. Copy the code of "
+                "/change_rate from your program pubvel_toggle_plus."
+            ),
         )
         for impossible in (0.0, float("nan")):
             refuses(context, change_rate, SETS_RATE, rate=impossible)
@@ -105,18 +115,32 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
             [
                 (
                     STRAIGHT,
-                    "The turtle still moves at 1.0 m/s. In the loop, use the variable that the handler "
-                    "changes.",
+                    (
+                        "After the call, the turtle still moves at 1.0 m/s. In the loop, use the "
+                        "variable that the handler changes."
+                    ),
                 ),
                 (
                     (abs(wanted), 0.0),
-                    "A negative speed moves the turtle backwards. Publish the number with its sign.",
+                    (
+                        "With a negative speed, the turtle has to move backwards. Publish the speed "
+                        "with its minus sign."
+                    ),
                 ),
                 (
                     (float(int(wanted)), 0.0),
-                    "The part after the decimal point is lost. Use a float, or a double in C++.",
+                    (
+                        "The digits after the decimal point are lost. Store the speed as a float in "
+                        "Python, or as a double in C++."
+                    ),
                 ),
-                (ANYTHING, "Publish the number that /change_speed has set. Every finite number is allowed."),
+                (
+                    ANYTHING,
+                    (
+                        "The turtle does not move at the speed that /change_speed has set. Publish this "
+                        "speed without a change."
+                    ),
+                ),
             ],
         )
     toggles_the_stream(toggle, stream, straight=(first, 0.0))
@@ -134,8 +158,20 @@ def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float
         actual=change(speed=wanted).before,
         near=1e-6,
         hints=[
-            (wanted, "This is the new speed. Store the old speed in another variable before you change it."),
-            (ANYTHING, "The field `before` has to contain the speed that the last accepted call set."),
+            (
+                wanted,
+                (
+                    "The field `before` contains the new speed. Save the old speed in a second variable "
+                    "before you set the new speed."
+                ),
+            ),
+            (
+                ANYTHING,
+                (
+                    "The field `before` is wrong. Set it to the old speed, which the last accepted call has "
+                    "set."
+                ),
+            ),
         ],
     )
 
@@ -157,7 +193,17 @@ def _starts_and_stops(
         stream.becomes(
             STANDING,
             "data=False stops the turtle: the program publishes velocities of 0",
-            "The turtle still moves. After a call with data=False, publish messages whose fields are all 0.",
+            (
+                "The turtle still moves after a call with data=False. After such a call, publish "
+                "messages in which all fields are 0."
+            ),
+        )
+        for _ in range(2):
+            toggle()
+        stream.becomes(
+            STANDING,
+            "data=False stops the turtle: the program publishes velocities of 0",
+            "A call of /toggle_forward started the turtle again. In its handler, change only the direction.",
         )
         _says(context, switch, moving=False, already=True)
         speed = context.random.number(2.0, 9.0)
@@ -169,13 +215,18 @@ def _starts_and_stops(
             [
                 (
                     (before, 0.0),
-                    "A call of /change_speed came while the turtle was stopped. After data=True, the turtle "
-                    "has to move with this new speed.",
+                    (
+                        "The client called /change_speed while the turtle was stopped. After data=True, "
+                        "the turtle has to move at this new speed."
+                    ),
                 ),
                 (
                     ANYTHING,
-                    "After data=True, the turtle has to move in its old direction and at the last "
-                    "speed. Do not change the direction or the speed when you stop the turtle.",
+                    (
+                        "After data=True, the turtle has to move in the same direction and at the "
+                        "same speed as before. When you stop the turtle, do not change the "
+                        "variables for direction and speed."
+                    ),
                 ),
             ],
         )
@@ -190,7 +241,10 @@ def _says(context: CheckContext, switch: Service, *, moving: bool, already: bool
         "success is True, even if nothing had to be changed",
         expected=True,
         actual=response.success,
-        hints="Set success to True: after the call, the turtle does what the client wants.",
+        hints=(
+            "The field `success` is False. Set it to True in every response, even if the call changes "
+            "nothing."
+        ),
     )
     context.require(
         'the message contains the word "already" only if nothing had to be changed',
@@ -198,7 +252,7 @@ def _says(context: CheckContext, switch: Service, *, moving: bool, already: bool
         expected='a message with the word "already"' if already else 'a message without the word "already"',
         actual=response.message,
         hints=[
-            ("", "The message is empty. Write a text that describes what the handler has done."),
+            ("", "The message is empty. Return a text that describes what the handler has done."),
             (
                 matches("already"),
                 'This call changed the state, so the message must not contain "already". Compare `data` '
@@ -206,8 +260,10 @@ def _says(context: CheckContext, switch: Service, *, moving: bool, already: bool
             ),
             (
                 ANYTHING,
-                'This call changed nothing. Compare `data` with the state, and write "already" '
-                "into the message if they are equal.",
+                (
+                    'This call changed nothing, so the message has to contain "already". Test whether '
+                    "`data` is equal to the current state."
+                ),
             ),
         ],
     )

@@ -59,7 +59,7 @@ START = f"""%%writefile {FILE.path}
     "09.6",
     points=2,
     goal=(
-        "Repair exercise3.launch, so that it always starts the simulator and the driver, but starts "
+        "Repair exercise3.launch: start the simulator and the driver always, but start "
         "spawn_turtle_plus only with addturtle:=true."
     ),
     needs=[f"file:{FILE.path}"],
@@ -108,7 +108,7 @@ _UNREADABLE: Hints = [
     ),
     (
         matches("requires the 'addturtle'"),
-        'The argument has no default value. Add default="false" to the tag <arg>.',
+        'The argument addturtle has no default value. Add default="false" to its <arg> tag.',
     ),
     (
         matches("not a 'bool' type"),
@@ -116,7 +116,10 @@ _UNREADABLE: Hints = [
     ),
     (
         ANYTHING,
-        "The message above comes from roslaunch --nodes. It contains the line or the tag of the error.",
+        (
+            "roslaunch cannot read the file. The message above names the line or the tag with the "
+            "error: correct this place."
+        ),
     ),
 ]
 
@@ -127,7 +130,7 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
         holds=nodes >= ALWAYS,
         expected=", ".join(sorted(ALWAYS)),
         actual=", ".join(sorted(nodes)),
-        hints='A node is missing or has another name. Check the attribute "name" of each <node> tag.',
+        hints='A node is missing or has a wrong name. Check the attribute "name" of each <node> tag.',
     )
     context.require(
         "spawn_turtle_plus is started only if addturtle is true",
@@ -142,12 +145,17 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
             ),
             (
                 (lambda _: not argument),
-                "Without an argument, the node must not start: set the default of addturtle to false.",
+                (
+                    "spawn_turtle_plus must not start without an argument. Set the default value of "
+                    "addturtle to false."
+                ),
             ),
             (
                 ANYTHING,
-                "The node is also started with addturtle:=false. Add a condition to its <node> "
-                'tag, with the attribute "if".',
+                (
+                    "spawn_turtle_plus also starts with addturtle:=false. Add a condition to its <node> "
+                    'tag: use the attribute "if".'
+                ),
             ),
         ],
     )
@@ -172,8 +180,8 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
         expected=f"three programs, two of them in {file.package}",
         actual=telling_line(missing[0] if missing else done.out),
         hints=(
-            'Write the two words that follow `rosrun` in a terminal into the attributes "pkg" and '
-            '"type": the package and the file name of the program.'
+            'roslaunch does not find a program. In the <node> tag, set "pkg" to the package and '
+            '"type" to the file name of the program.'
         ),
     )
 
@@ -190,8 +198,8 @@ def _runs(context: CheckContext, copy: BuiltPackage, file: LaunchFile) -> None:
         expected="two turtles, each with a driver",
         actual=telling_line(printed),
         hints=(
-            "The three programs start, but they use different names for the topics and services. Remove "
-            'the attributes "ns" and "args" and each <remap> tag.'
+            "The three programs start, but they use different names for the same topics or "
+            'services. Remove the attributes "ns" and "args" and all <remap> tags.'
         ),
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from course_pkg.chapters.ch09_drive_turtles.checks.toggle import toggles_the_stream
+from course_pkg.chapters.ch09_drive_turtles.checks.toggle import ONE_CALL, TURNING, toggles_the_stream
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram, script
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
 from course_pkg.chapters.ch09_drive_turtles.checks.velocities import Stream
@@ -15,7 +15,8 @@ KIND = "course_pkg/ChangeRate"
 AT_FIRST = 2.0  # The first rate is in messages per second.
 # The check sets this rate (messages per second) at the end, because the next message then comes after 1000 s.
 TINY = 0.001
-ALLOWED = "The node refused a rate that is allowed. Accept every number above 0 and up to 100, such as 2.5."
+TURNS_BACK = "A call of /change_rate also changed the direction. In its handler, change only the rate."
+ALLOWED = "The node refused an allowed rate. Accept every number above 0 and up to 100, such as 2.5."
 REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
 
 START = f"""%%writefile {PROGRAM.path}
@@ -64,8 +65,8 @@ RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
     "09.3",
     points=3,
     goal=(
-        "Repair pubvel_toggle_plus.py, so that /change_rate changes the rate, returns the old rate, and "
-        "refuses impossible rates."
+        "Repair pubvel_toggle_plus.py: /change_rate has to change the rate, return the old rate, "
+        "and refuse impossible rates."
     ),
     needs=[f"file:{PROGRAM.path}"],
     deadline=60.0,
@@ -86,16 +87,20 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
         change = world.service("change_rate", KIND, REFUSALS)
         rate = sets_rates(context, change, stream)
         context.fulfilled(CHANGED)
-        toggles_the_stream(world.service("toggle_forward", "std_srvs/Empty"), stream)
+        toggle = world.service("toggle_forward", "std_srvs/Empty")
+        toggles_the_stream(toggle, stream)
+        toggle()
         context.expect(
             "the response contains the rate before the call",
             expected=rate,
             actual=change(rate=rate).before,
             near=1e-6,
             hints=(
-                "A call of /toggle_forward also changed the rate. In its handler, change only the direction."
+                "A call of /toggle_forward also changed the rate. In the handler of "
+                "/toggle_forward, change only the direction."
             ),
         )
+        stream.becomes(TURNING, ONE_CALL, TURNS_BACK)
         stream.moves_turtle()
         change(rate=TINY)
 
@@ -116,8 +121,10 @@ def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
             stream.has_rate(
                 wanted,
                 "the program publishes at the rate that /change_rate sets",
-                "You cannot change the rate of a Rate object. After a call of /change_rate, create a "
-                "new Rate object.",
+                (
+                    "A Rate object cannot change its rate. After a call of /change_rate, create a new "
+                    "Rate object."
+                ),
             )
     for impossible in (0.0, -slow, 100.5, float("nan")):
         refuses(context, change, "impossible rates are refused", rate=impossible)
@@ -127,8 +134,8 @@ def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
         actual=change(rate=fast).before,
         near=1e-6,
         hints=(
-            "The handler stored the rate before it refused the call. Check the rate first, and store "
-            "only a rate that is allowed."
+            "The handler stored the rate before it refused the call. Check the rate first, and "
+            "store only an allowed rate."
         ),
     )
     return fast
@@ -143,14 +150,25 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
         hints=[
             (
                 float(int(before)),
-                "The part after the decimal point is lost. A rate can be 2.5: use a float, or a "
-                "double in C++.",
+                (
+                    "The digits after the decimal point are lost. Store the rate as a float in Python, "
+                    "or as a double in C++."
+                ),
             ),
-            (wanted, "This is the new rate. Store the old rate in another variable before you change it."),
-            (0.0, "The field `before` has its default value, 0.0. Set it to the old rate."),
+            (
+                wanted,
+                (
+                    "The field `before` contains the new rate. Save the old rate in a second variable "
+                    "before you set the new rate."
+                ),
+            ),
+            (0.0, "The field `before` has its default value, 0.0. Set this field to the old rate."),
             (
                 ANYTHING,
-                "The field `before` has to contain messages per second, not the pause between two messages.",
+                (
+                    "The field `before` has a wrong value. Set this field to the old rate in messages "
+                    "per second, not to the pause between two messages."
+                ),
             ),
         ],
     )
@@ -163,11 +181,11 @@ def refuses(context: CheckContext, service: Service, assertion: str, **fields: f
     """
     (number,) = fields.values()
     why = (
-        "each comparison with nan is false, so your test does not find nan"
+        "every comparison with nan is False, so test for nan separately"
         if number != number
-        else "this value is not allowed"
+        else "compare the number with the limits in the exercise"
     )
-    hint = f"The node accepted {number:g}. Compare the number with the limits: {why}."
+    hint = f"The node accepted {number:g}, but this value is not allowed: {why}."
     error = service.refused(assertion, saying="", hints=hint, **fields)
     context.require(
         assertion,

@@ -23,7 +23,7 @@ PROGRAM = script("spawn_turtle")
 SPAWN = "turtlesim/Spawn"
 TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
 LIMIT = 5.0  # LIMIT is the time in s for which the student's program waits for a service.
-NO_WAIT = "Without a wait, the call fails immediately: wait for the service first, for at most 5 s."
+NO_WAIT = "The call fails if the service has not started yet. First wait for the service, for at most 5 s."
 NO_WAIT_ENDS = 1.0  # A program without a wait has ended after this time in s.
 WITHOUT_A_WAIT = 0.5  # A program that does not wait ends within this time in s.
 LATE = 2.5  # LATE is the additional time in s that the program may need to start and to end.
@@ -127,11 +127,17 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
             ),
             (
                 (lambda actual: actual["name"] != "MyTurtle"),
-                "Compare the name with MyTurtle, letter by letter.",
+                (
+                    "The name of the turtle is wrong. Compare the name in your request with MyTurtle, "
+                    "letter by letter."
+                ),
             ),
             (
                 ANYTHING,
-                "Compare your numbers with the order of the fields in `rossrv show turtlesim/Spawn`.",
+                (
+                    "The numbers in the request are wrong. Compare the order of your numbers with the "
+                    "fields in `rossrv show turtlesim/Spawn`."
+                ),
             ),
         ],
     )
@@ -140,17 +146,23 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
         holds=given in done.out + done.err,
         expected=f"spawned {given}",
         actual=outcome(done),
-        hints="The simulator chooses the name: print the field `name` of the response.",
+        hints=(
+            "The program printed a wrong name. The simulator chooses the name, so print the field "
+            "`name` of the response."
+        ),
     )
     context.require(
         "after the call, the program ends with the exit status 0",
         holds=done.status == 0,
         expected="exit status 0",
         actual=outcome(done),
-        hints="The program has nothing to do after the call. Remove rospy.spin(), so that it ends."
+        hints=(
+            "The program does not end after the call. Remove rospy.spin(), because the program has "
+            "nothing more to do."
+        )
         if done.status is None
         else (
-            "The turtle was spawned, so the exit status has to be 0. Use another status only after a failure."
+            "The turtle was spawned, so the exit status has to be 0. Use exit status 1 only after a failure."
         ),
     )
 
@@ -158,11 +170,11 @@ def _prints_the_name(context: CheckContext, world: World) -> None:
 def _why_no_call(done: Finished) -> str:
     if done.status is None:
         return (
-            "The program waits, but sends no request. Compare the name of the service for which you wait "
-            "with /spawn."
+            "The program waits, but sends no request. Check the name of the service for which the "
+            "program waits."
         )
     if done.status == 0:
-        return "The program ended without a request: call the service after the wait."
+        return "The program ended without a request to /spawn. Call the service after the wait."
     return why_it_ended(done)
 
 
@@ -178,7 +190,9 @@ def _waits_for_the_service(context: CheckContext, done: Finished) -> None:
 
 def _spawns_in_the_simulator(context: CheckContext, world: World) -> None:
     if not world.appears("spawn"):
-        raise CheckError("The simulator did not start: the machine is busy. Run this cell again.")
+        raise CheckError(
+            "The simulator did not start in time, because the machine is busy. Run this cell again."
+        )
     with world.run() as running:
         world.ends(running, STARTING)
     poses = context.subscribe(world.name("MyTurtle/pose"), "turtlesim/Pose").wait(1, 10.0)
@@ -201,28 +215,31 @@ def _is_refused(context: CheckContext, world: World) -> None:
         expected="one request",
         actual=f"{len(server.requests)} requests",
         hints=(
-            "The program repeated a call that was refused. Call /spawn once, and end the program after a "
-            "failure."
+            "The server refused the call, and the program called the service again. Call /spawn "
+            "only once, and end the program after a failure."
         ),
     )
     _fails_with_one(
         context,
         done,
         REFUSED,
-        "The server refused the call. Catch this error as well, print it, and end with the exit status 1.",
+        (
+            "The server refused the call, and the program did not catch this error. Catch the error, "
+            "print a message, and end with exit status 1."
+        ),
     )
 
 
 def _gives_up(context: CheckContext, world: World, running: Running, began: float) -> None:
     looked = time.monotonic()
-    done = world.ends(running, max(began + LIMIT + LATE - looked, 0.1))
+    done = world.ends(running, max(began + LIMIT + at_this_load(LATE) - looked, 0.1))
     took = time.monotonic() - began
     context.require(
         GIVES_UP,
         holds=done.status is not None,
         expected="an end after 5 s",
         actual="a program that still waits after 7 s",
-        hints="The program waits too long or without a limit: set the timeout of the wait to 5 s.",
+        hints="The program waits too long, or without a limit. Set the timeout of the wait to 5 s.",
     )
     context.require(
         GIVES_UP,
@@ -231,13 +248,16 @@ def _gives_up(context: CheckContext, world: World, running: Running, began: floa
         actual=f"an end after {took:.0f} s",
         hints=NO_WAIT
         if took < NO_WAIT_ENDS
-        else "The program gave up too early. Set the timeout to 5 s; in roscpp, write ros::Duration(5).",
+        else (
+            "The program stopped waiting too early. Set the timeout of the wait to 5 s (in roscpp: "
+            "ros::Duration(5))."
+        ),
     )
     _fails_with_one(
         context,
         done,
         GIVES_UP,
-        "The service did not start in time: print a message, and end with the exit status 1.",
+        ("The service did not start in time. In this case, print a message and end with exit status 1."),
     )
 
 

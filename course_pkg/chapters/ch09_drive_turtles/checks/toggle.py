@@ -15,8 +15,14 @@ STRAIGHT, TURNING = (1.0, 0.0), (0.0, 1.0)  # The speed is in m/s, and the angul
 ONE_CALL = "after a call, the turtle turns at 1.0 rad/s"
 NEXT_CALL = "after the next call, the turtle goes straight ahead again"
 AT_FIRST: Hints = [
-    (TURNING, "Before the first call, the turtle has to go straight ahead: begin with `forward = True`."),
-    (ANYTHING, "To drive straight ahead, set linear.x = 1.0. Leave the other fields at 0."),
+    (TURNING, "Before the first call, the turtle has to go straight ahead. Begin with `forward = True`."),
+    (
+        ANYTHING,
+        (
+            "The turtle does not move at 1.0 m/s. To drive straight ahead, set linear.x = 1.0 and leave the "
+            "other fields at 0."
+        ),
+    ),
 ]
 TOGGLED: Hints = [
     (
@@ -26,21 +32,27 @@ TOGGLED: Hints = [
     ),
     (
         (1.0, 1.0),
-        "The turtle turns, but it also still moves ahead. Create a new message in each round of the "
-        "loop, or set both linear.x and angular.z.",
+        (
+            "The turtle turns, but it also moves ahead. Create a new message in each round of the loop, "
+            "or set both linear.x and angular.z each time."
+        ),
     ),
-    (ANYTHING, "While the turtle turns, linear.x has to be 0.0, and angular.z has to be 1.0."),
+    (ANYTHING, "The velocity is wrong while the turtle turns. Set linear.x to 0.0 and angular.z to 1.0."),
 ]
 BACK: Hints = [
     (
         TURNING,
-        "The second call changed nothing. Each call has to change the variable from True to False, or "
-        "from False to True.",
+        (
+            "The second call changed nothing. In each call, change the variable from True to False, or "
+            "from False to True."
+        ),
     ),
     (
         ANYTHING,
-        "After the second call, the velocity has to be the same as at the beginning: set both linear.x "
-        "and angular.z.",
+        (
+            "After the second call, the turtle has to go straight ahead again. Set both linear.x and "
+            "angular.z."
+        ),
     ),
 ]
 
@@ -90,12 +102,15 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
         toggle = world.service("toggle_forward", "std_srvs/Empty")
         toggles_the_stream(toggle, stream, context.random.integer(1, 2))
         _counts_each_call(toggle, stream)
+        stream.only(STRAIGHT, TURNING)
         context.fulfilled(TOGGLED_BY_CALL)
         stream.has_rate(
             RATE,
             "the program publishes twice per second",
-            "rospy.Rate(2) and ros::Rate(2) mean 2 Hz, which is two messages per second. Call sleep() "
-            "of this object once after each message.",
+            (
+                "The program does not publish twice per second. Create rospy.Rate(2) (in C++: "
+                "ros::Rate(2)), and call its method sleep() once after each message."
+            ),
         )
         stream.moves_turtle()
 

@@ -147,12 +147,12 @@ def why_it_ended(done: Finished) -> str:
         return f"{fault.problem} {fault.remedy}"
     if "rror" in done.out + done.err:
         return (
-            "Read the last line of the output above: it contains the error. The lines "
-            "before it show the place of the error."
+            "The program stopped with an error. The last line of the output above describes the "
+            "error, and the lines before it show its place in your code."
         )
     return (
-        "The program reached its last line and ended. Publish in a loop that runs until the node is shut "
-        "down."
+        "The program reached its last line and ended. Publish in a loop that runs until the node is "
+        "shut down."
     )
 
 
@@ -162,7 +162,10 @@ def _listed(names: tuple[str, ...] | list[str]) -> str:
 
 def _why_not(missing: list[str], others: list[str]) -> str:
     if others:
-        return f"The node offers {_listed(others)}. Compare each name with the exercise, letter by letter."
+        return (
+            f"The node offers {_listed(others)}. Compare each of these names with the names in the "
+            "exercise, letter by letter."
+        )
     return (
         f"The node runs, but it does not offer {_listed(missing)}. Create the service before the loop begins."
     )

@@ -20,8 +20,8 @@ KEEP_COMING = "the program publishes velocities all the time"
 SILENCE = 4.0
 FLYING = 0.05  # Within this time in s after a response, a message from before the call may still arrive.
 SILENT = (
-    "No velocity arrived for 4 s. Publish a message in each round of the loop, even if the velocity is "
-    "0, and do not add other pauses to the loop."
+    "No velocity arrived for 4 s. In each round of the loop, publish a message, even if the "
+    "velocity is 0. Do not add other pauses to the loop."
 )
 NEAR = 0.25  # A measured rate may differ by this fraction, because the machine may be busy.
 
@@ -80,7 +80,18 @@ class Stream:
             assertion,
             expected=[0.0] * 4,
             actual=_other_fields(arrival),
-            hints="Set only linear.x and angular.z. All other fields have to be 0.",
+            hints="A field of the velocity is not 0, but it has to be 0. Set only linear.x and angular.z.",
+        )
+
+    def only(self, *wanted: tuple[float, float]) -> None:
+        """Assert that each message so far contains one of these velocities (m/s, rad/s)."""
+        others = [each for each in map(velocity, self._subscription.arrivals) if each not in wanted]
+        self._context.require(
+            KEEP_COMING,
+            holds=not others,
+            expected=f"only the velocities {' and '.join(map(str, wanted))}",
+            actual=others[0] if others else "no other velocity",
+            hints="A message contained another velocity. Publish in the loop, and not in the handler.",
         )
 
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:

@@ -30,6 +30,9 @@ class CheckedBasket:
             rospy.Service(take, Trigger, self.basket.handle_take),
         ]
 
+    def open_another(self, kind, limit, put):
+        self.services.append(rospy.Service(put, Trigger, kind(limit).handle_put))
+
     def wake(self):
         '''Wake the waiting threads although nothing has changed.'''
         for value in vars(self.basket).values():
@@ -47,24 +50,28 @@ checked_basket = CheckedBasket()
 """
 )
 FOREVER = (
-    "The handler of /take waits longer than the limit. Pass the remaining time to `wait` or `wait_for`: "
-    "the time limit starts at the beginning of the call."
+    "The handler of /take waits longer than the limit. The time limit starts at the beginning of "
+    "the call, so pass only the remaining time to `wait` or `wait_for`."
 )
 HELD = (
-    "A call of /put got no response while a call of /take was waiting. Use the method `wait` or "
-    "`wait_for` of the condition, which releases the lock while the thread waits."
+    "/put did not respond while a call of /take was waiting. Use the method `wait` or `wait_for` of "
+    "the condition, which releases the lock while the thread waits."
 )
 NOT_WOKEN = (
-    "An item came, but the waiting call did not return. Call notify_all() or "
-    "notify() in handle_put, after the change."
+    "An item came, but the waiting call did not return. In handle_put, call notify_all() or "
+    "notify() after you have changed the number of items."
 )
 TOO_MANY = (
-    "More items were taken than were put in. A thread that wakes up must check again whether an item is "
-    "there: use a `while` loop, or use `wait_for`."
+    "The handler of /take returned an item although the basket was empty. After a thread has woken "
+    "up, check again whether an item is there: use a `while` loop or `wait_for`."
 )
 TOO_EARLY = (
-    "The handler of /take returned before its time limit was over. If a thread wakes up although no item "
-    "is there, wait again for the remaining time."
+    "The handler of /take returned before its time limit was over. If a thread wakes up and no item "
+    "is there, let the thread wait again for the remaining time."
+)
+SHARED = (
+    "Two baskets share their items, so the second basket was not empty at first. Create the items in "
+    "__init__ and store them in self, not in the class."
 )
 ERRORS = [
     (
@@ -74,12 +81,15 @@ ERRORS = [
     ),
     (
         matches("field message must be"),
-        "The field `message` has to be a string. Convert a number with str(...).",
+        "The field `message` has to be a string. Convert the number with str(...).",
     ),
-    (matches("returned None"), "A handler ended without a return line. Return a response in every case."),
+    (
+        matches("returned None"),
+        "A handler can end without a `return` line. Return a response in every case.",
+    ),
     (
         matches("cannot process request"),
-        'An empty basket is not an error: return success=False and the message "empty".',
+        'An empty basket is not an error. Return success=False and the message "empty".',
     ),
 ]
 
@@ -88,8 +98,8 @@ ERRORS = [
     "10.3",
     points=3,
     goal=(
-        "Write a basket with /put and /take: a call of /take waits for an item, but not "
-        "longer than the limit."
+        "Write a basket with /put and /take. A call of /take waits for an item, but not longer than "
+        "the limit."
     ),
     needs=["Basket"],
     deadline=45.0,
@@ -99,7 +109,7 @@ def wait_for_another_call(context: CheckContext) -> None:
 
     After that, use many clients.
     """
-    names = [f"/{context.random.word()}" for _ in range(2)]
+    *names, another = [f"/{context.random.word()}" for _ in range(3)]
     context.prepare(KERNEL_CODE)
     opened = context.run("checked_basket.open", Its("Basket"), LIMIT, *names, worded=f"Basket({LIMIT:g})")
     context.require("a Basket can be created from a limit", holds=not opened.error, actual=opened.error)
@@ -109,6 +119,7 @@ def wait_for_another_call(context: CheckContext) -> None:
     )
     try:
         _puts_and_takes(context, put, take)
+        _shares_nothing(context, another, put, take)
         _waits_for_an_item(context, put, take)
         _shares_the_items(context, put, take)
     finally:
@@ -125,6 +136,19 @@ def _puts_and_takes(context: CheckContext, put: Service, take: Service) -> None:
         _answer(context, "/take subtracts one from the number of items", response, True, str(number))
 
 
+def _shares_nothing(context: CheckContext, another: str, put: Service, take: Service) -> None:
+    """Put an item into the first basket, and then an item into a new basket; the new basket has one item."""
+    put()
+    worded = f"Basket({LIMIT:g})"
+    opened = context.run("checked_basket.open_another", Its("Basket"), LIMIT, another, worded=worded)
+    context.require("a Basket can be created from a limit", holds=not opened.error, actual=opened.error)
+    response = context.service(another, TRIGGER, hints=ERRORS)()
+    context.expect(
+        "/put adds one to the number of items", expected="1", actual=response.message, hints=SHARED
+    )
+    take()
+
+
 def _answer(context: CheckContext, assertion: str, response: Message, success: bool, message: str) -> None:
     context.expect(
         assertion,
@@ -133,15 +157,21 @@ def _answer(context: CheckContext, assertion: str, response: Message, success: b
         hints=[
             (
                 lambda actual: actual[0] is not success and actual[1] == message,
-                f"The message is right, but success must be {success} here.",
+                (
+                    "The message is right, but the field `success` is wrong. In this case, "
+                    f"`success` must be {success}."
+                ),
             ),
             (
                 lambda actual: actual[1] != "empty" and message == "empty",
-                'No item came, so return success=False with the message "empty".',
+                ('No item came, but the response is wrong. Return success=False and the message "empty".'),
             ),
             (
                 ANYTHING,
-                "The message has to be the number of items in the basket after the call, as a string.",
+                (
+                    "The message is wrong. Return the number of items in the basket after the call, as "
+                    "a string."
+                ),
             ),
         ],
     )
@@ -154,8 +184,8 @@ def _at_once(context: CheckContext, assertion: str, took: float) -> None:
         expected="an immediate response",
         actual=f"a response after {took:.1f} s",
         hints=(
-            "An item was in the basket before the call. First check whether the basket is empty, and "
-            "wait only in this case."
+            "An item was in the basket before the call, but the handler waited. Wait only if the "
+            "basket is empty."
         ),
     )
 

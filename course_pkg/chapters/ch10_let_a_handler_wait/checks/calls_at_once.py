@@ -53,8 +53,8 @@ proxy_watch = ProxyWatch()
 """
 )
 SHARED = (
-    "Two threads call the same persistent proxy, so they use one connection at the same time. Create a proxy "
-    "in each thread, or share one without persistent=True."
+    "Two threads call the same persistent proxy, so both threads use one connection at the same "
+    "time. Create a proxy in each thread, or share a proxy without persistent=True."
 )
 
 
@@ -111,20 +111,26 @@ class Gate:
 NOT_TOGETHER: Hints = [
     (
         1,
-        "The second call began after the first call had returned. Start all threads before you call "
-        "join(), and write the `target` of each thread without parentheses.",
+        (
+            "The second call began after the first call had returned. Start all threads before you call "
+            "join(), and write target=function, not target=function()."
+        ),
     ),
     (
         ANYTHING,
-        "Some calls began only after other calls had returned. Start all threads before you call join() "
-        "of the first thread.",
+        (
+            "Some calls began only after other calls had returned. Start all threads before the first "
+            "call of join()."
+        ),
     ),
 ]
 ERRORS = [
     (
         matches("TimesUp"),
-        "All calls have returned, but your function has not returned. Start each thread, and then call "
-        "join() of each thread once.",
+        (
+            "All calls have returned, but your function has not returned. Start each thread once, and "
+            "then call join() once for each thread."
+        ),
     ),
     (
         matches("cannot join thread before"),
@@ -141,12 +147,15 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Respond only after all clients have called; use two different numbers of clients."""
+    """Respond only after all clients have called; use two different numbers of clients.
+
+    The calls of the first round are longer, so that a join() with a short limit ends before a call.
+    """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
     try:
         counts = [context.random.integer(3, 4), context.random.integer(24, 36)]
-        late = max([_round(context, count) for count in counts])
+        late = max([_round(context, count, hold) for count, hold in zip(counts, (LONGER, 0.0), strict=True)])
         if late > PROMPT:
             _round(context, counts[0], late + LONGER)
     finally:
@@ -161,7 +170,8 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
     name = f"/{context.random.word()}"
     proxies = Proxies()
     context.place("checked_proxies", proxies)
-    words = [context.random.word(8) for _ in range(count)]
+    word, *words = (context.random.word(8) for _ in range(count - 1))
+    words += [word, word]  # Two responses contain the same message.
     gate = Gate(count, words, hold)
     server = context.serve(name, TRIGGER, gate)
     result = context.run("call_at_once", name, count, within=LIMIT + hold, hints=ERRORS)
@@ -184,11 +194,16 @@ def _called(context: CheckContext, count: int, gate: Gate) -> None:
         hints=[
             (
                 0,
-                "The service was not called. Call the service whose name is in `name`; for a target "
-                "with one argument, `args` has to be a tuple such as (name,).",
+                (
+                    "The service was not called. Call the service whose name is in `name`, and check "
+                    "that `args` of each thread is a tuple such as (name,)."
+                ),
             ),
-            (lambda actual: actual < count, "There were too few calls. Start one thread for each call."),
-            (ANYTHING, "There were too many calls. Make exactly one call in each thread."),
+            (
+                lambda actual: actual < count,
+                "The service was called too few times. Start one thread for each call.",
+            ),
+            (ANYTHING, "The service was called too many times. Make exactly one call in each thread."),
         ],
     )
     context.expect(
@@ -221,17 +236,34 @@ def _returned(context: CheckContext, words: list[str], found: Json) -> None:
         hints=[
             (None, NO_RETURN),
             (
+                lambda actual: isinstance(actual, list) and sorted(map(str, actual)) == sorted(set(words)),
+                "Two clients got the same message, but it is only once in the result. Append each message "
+                "to a list, because a set and the keys of a dict contain each text only once.",
+            ),
+            (
                 lambda actual: isinstance(actual, list) and len(actual) < len(words),
                 "Not all messages are in the list. Join every thread before you return the list.",
             ),
             (
                 lambda actual: isinstance(actual[0], dict),
-                "These are whole responses. Put the field `message` of each response into the list.",
+                (
+                    "The list contains whole responses. Put only the field `message` of each response "
+                    "into the list."
+                ),
             ),
             (
                 lambda actual: all(item is None for item in actual),
-                "The list contains None: append the field `message` of the response that the proxy returned.",
+                (
+                    "The list contains None. Append the field `message` of the response that the proxy "
+                    "returned."
+                ),
             ),
-            (ANYTHING, "Return a list that contains the message of each response once."),
+            (
+                ANYTHING,
+                (
+                    "The list does not contain the right messages. Return a list with the message of each "
+                    "response once."
+                ),
+            ),
         ],
     )

@@ -26,39 +26,36 @@ LOOKS = 3000  # A loop without a pause makes many more calls of watch.next() in 
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"
 AT_ONCE = (
-    "A customer was there before the call. Check first, and wait only if no "
-    "customer is there: wait_for does both."
+    "A customer was there before the call, but the handler waited. Check first, and wait only if no "
+    "customer is there: `wait_for` does both."
 )
 BUSY = (
-    "Your loop has no pause, so it calls watch.next() thousands of times per "
-    "second. Use watch.changed.wait_for(...): the thread then sleeps until another "
-    "thread notifies it."
+    "Your loop has no pause, so it calls watch.next() thousands of times per second. Use "
+    "watch.changed.wait_for(...), because this method sleeps until another thread sends a "
+    "notification."
 )
 CHANGED = (
-    "The handler returned before the time was over, but a customer came later. A "
-    "change can also mean that a customer has left: wait again until the right "
-    "customer is there, or use wait_for."
+    "The handler returned before the time was over. A change can also mean that a customer has "
+    "left: check again after each change, or use `wait_for`."
 )
 FOREVER = (
-    "The handler waits longer than request.patience. Use this time, in seconds, as the timeout of the wait."
+    "The handler waits longer than request.patience seconds. Use request.patience as the timeout of the wait."
 )
 RESTARTED = (
-    "When the customers changed, the time limit started again from the beginning. Calculate the end of "
-    "the wait only once, or use `wait_for`, which does this for you."
+    "The time limit started again from the beginning when the customers changed. Calculate the end "
+    "of the wait only once, or use `wait_for`."
 )
 LEFT = (
-    "The handler called watch.next() a second time without the lock, when the customer had already left. "
-    "Use the result of the first call, or make the second call inside `with watch.changed:`."
+    "The handler called watch.next() twice, but the customer left before the second call. Use the "
+    "result of the first call, or make both calls inside one `with watch.changed:` block."
 )
 RARELY = (
-    "The handler calls watch.next() only a few times per second, so it notices a "
-    "customer late. Wait with watch.changed.wait_for(...), which checks again as "
-    "soon as another thread notifies it."
+    "The handler calls watch.next() only a few times per second, so it notices a customer late. "
+    "Wait with watch.changed.wait_for(...), which checks again after each notification."
 )
 HELD = (
-    "A customer came, but the handler did not notice it, because it holds the lock "
-    "of `changed` while it sleeps. Use changed.wait_for(...), which releases the "
-    "lock while it waits."
+    "The handler did not notice a new customer, because it holds the lock of `changed` while it "
+    "sleeps. Use changed.wait_for(...), which releases the lock during the wait."
 )
 TOO_EARLY = (
     "The handler returned too early. If no customer is there, wait until request.patience seconds are over."
@@ -70,7 +67,7 @@ ERRORS = [
     ),
     (
         matches("returned None"),
-        "The handler ended without a return line. Also return a response if no customer came.",
+        "The handler can end without a `return` line. Return a response even if no customer came.",
     ),
     (
         matches("'NoneType' object has no attribute"),
@@ -79,13 +76,18 @@ ERRORS = [
     ),
     (
         matches("not callable"),
-        "The argument of wait_for has to be a function, not a value, because wait_for "
-        "calls it after each change. Write a lambda, for example.",
+        (
+            "The argument of `wait_for` has to be a function, because `wait_for` calls this function "
+            "after each change. Write a lambda, for example."
+        ),
     ),
     (matches("TimesUp"), FOREVER),
     (
         matches("cannot process request"),
-        "If no customer came, do not raise an error. Return a normal response with detected=False.",
+        (
+            "The handler raised an error although it is normal that no customer comes. Return a "
+            "response with detected=False."
+        ),
     ),
 ]
 FOUND = "Respond as soon as a customer is there, and after request.patience at the latest."
@@ -179,12 +181,14 @@ def _no(context: CheckContext, response: Message) -> None:
         hints=[
             (
                 lambda actual: actual[:2] == [False, 0],
-                "No customer came, so the field `arrived` has to be the time 0, which is rospy.Time().",
+                (
+                    "The field `arrived` is wrong. If no customer came, set this field to the time 0, "
+                    "which is rospy.Time()."
+                ),
             ),
             (
                 ANYTHING,
-                "No customer is there, so the field `detected` has to be False, and the field `number` "
-                "has to be 0.",
+                ("No customer is there. Set the field `detected` to False and the field `number` to 0."),
             ),
         ],
     )
@@ -203,15 +207,18 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         holds=again.detected,
         expected="detected with patience 0",
         actual="not detected",
-        hints="If request.patience is 0, do not wait, but still call watch.next() once.",
+        hints=(
+            "The handler did not find a customer who was already there. If request.patience is 0, do "
+            "not wait, but still call watch.next() once."
+        ),
     )
     context.expect(
         SINCE_WHEN,
         expected=response.arrived.to_sec(),
         actual=again.arrived.to_sec(),
         hints=(
-            "Two calls for the same customer got different times. Return the time at which "
-            "the customer was first seen, customer.arrived."
+            "Two calls for the same customer returned different times. Return customer.arrived, the "
+            "time at which the customer was first seen."
         ),
     )
     shop.later(LATER / 2)  # The known customer leaves; this change must not end the wait.
@@ -223,8 +230,8 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         expected=f"a customer above {known}",
         actual=known,
         hints=(
-            "The client already knows this customer: the number is not higher than "
-            "request.after. Pass request.after to watch.next."
+            "The handler returned a customer who is already known to the client. Pass request.after "
+            "to watch.next(), which then returns only higher numbers."
         ),
     )
     _found(context, detect, response, coming)
@@ -248,7 +255,7 @@ def _found(context: CheckContext, detect: Service, response: Message, number: in
         hints=[
             (
                 lambda actual: actual["number"] > 0,
-                "The number is right, but detected is False. Set detected to True.",
+                "The number is right, but `detected` is False. Set `detected` to True.",
             ),
             ((lambda _: context.read("shop.watch.left")), LEFT),
             (ANYTHING, HELD if detect.took > PATIENCE - 0.5 else CHANGED),
@@ -260,7 +267,7 @@ def _found(context: CheckContext, detect: Service, response: Message, number: in
         actual=response.number,
         hints=[
             (0, "The field `number` has its default value, 0. Set it to customer.number."),
-            (ANYTHING, "This is not the number of the customer. Set the field `number` to customer.number."),
+            (ANYTHING, "The response contains a wrong number. Set the field `number` to customer.number."),
         ],
     )
     context.require(
@@ -268,7 +275,7 @@ def _found(context: CheckContext, detect: Service, response: Message, number: in
         holds=abs(response.arrived.to_sec() - time.time()) < 30.0,
         expected="the time at which the customer was first seen",
         actual=f"{response.arrived.to_sec():.1f} s",
-        hints="The time is missing. Set the field `arrived` to customer.arrived.",
+        hints="The response does not contain the time. Set the field `arrived` to customer.arrived.",
     )
 
 
@@ -276,6 +283,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
     coming = context.random.integer(1000, 9000)
     shop.there()
     shop.await_sight(0)
+    _no(context, detect(after=0, patience=0.0))  # The customers of the earlier calls have left.
     shop.later(LATER, coming)
     shop.later(CHANGE, coming - 1, coming)
     patience = LATER + SLACK + 1.0
@@ -288,7 +296,10 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
         expected=[coming] * 3,
         actual=[reply.response.number for reply in replies],
     )
-    hint = "One client had to wait for another client. Do not hold a second lock while you wait."
+    hint = (
+        "One client had to wait for another client. While the handler waits, do not hold any lock "
+        "except the lock of the condition."
+    )
     _at_once(
         context, "several clients wait at the same time", max(reply.took for reply in replies), LATER, hint
     )

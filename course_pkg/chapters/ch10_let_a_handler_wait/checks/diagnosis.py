@@ -16,33 +16,35 @@ RIGHT = {
 }
 DECISIVE = {
     "A": (
-        "Follow the calls from thread to thread: the last thread waits for a lock that the first thread "
-        "holds."
+        "There is a circle of waiting threads: the last thread waits for a lock that the first "
+        "thread holds. Follow the calls from thread to thread."
     ),
     "B": "Each of the two threads holds the lock of one shelf and waits for the lock of the other shelf.",
-    "C": "The clients have ended, but the number of waiting threads grows.",
+    "C": "The clients have ended, but the number of waiting threads still grows.",
     "D": "No thread waits, and no call fails. Only the numbers are wrong.",
     "E": "The item came after two seconds, but the handler returned only when its time limit was over.",
-    "F": "Only one item came, but several threads woke up and took an item.",
+    "F": "Only one item came, but several threads woke up, and each of them took an item.",
 }
 ENTRIES = {
     "lock across a call": (
-        "If a thread holds a lock across a call, threads wait in two services, and one of these services "
+        'With the cause "lock across a call", threads wait in two services. One of these services '
         "calls the other."
     ),
-    "lock order": "A wrong lock order needs two threads and two locks.",
-    "no limit": "A wait without a limit never ends, even when the client has ended.",
-    "race": "A race changes data while no thread waits.",
-    "no notify": "If notify is missing, a thread waits longer than necessary.",
-    "no loop": "Without a loop, a thread that wakes up continues even if no item is there.",
+    "lock order": 'The cause "lock order" needs two threads and two locks.',
+    "no limit": 'The cause "no limit" means that a wait never ends, even after the client has ended.',
+    "race": "In a race, no thread waits, but the data is wrong.",
+    "no notify": 'The cause "no notify" means that a thread sleeps although an item is there.',
+    "no loop": (
+        'The cause "no loop" means that a thread continues after it has woken up, even if no item is there.'
+    ),
 }
 CASES = Cases(
     RIGHT,
     DECISIVE,
     ENTRIES,
-    missing="A case is missing. Give a cause for each letter from A to F.",
-    keys="The keys are the letters A to F, as strings with capital letters.",
-    spelling="Copy the names from the list of causes, letter by letter.",
+    missing="The answer for a case is missing. Give a cause for each letter from A to F.",
+    keys="The keys of the dict are wrong. Use the letters A to F, as strings with capital letters.",
+    spelling="A cause has a wrong name. Copy the names from the list of causes, letter by letter.",
 )
 
 

@@ -27,25 +27,25 @@ MEETING = 2.0  # A call to the till waits at most this many s for another call.
 ABSENT = 4.0  # Without a till, a sale may take this many s on a busy machine.
 CALL_BACK = 2.0  # After this many s, the till continues without a response from the shop.
 LOCKED = (
-    "The till called /left while it was charging, but got no response, because your handler holds the "
-    "lock that /left needs. Release the lock before you call the till."
+    "Your handler holds the lock while it calls the till, so /left gets no response. Release the "
+    "lock before you call the till."
 )
 SERIAL = (
-    "The till never had two calls at the same time, so your handler holds a lock during the call. Release "
-    "the lock before you call the till."
+    "The till never had two calls at the same time, because your handler holds a lock during the "
+    "call. Release the lock before you call the till."
 )
 STUCK = (
-    "A client waits forever, because a lock was acquired but not released. Use `with`, which releases "
-    "the lock in every case."
+    "A client waits forever, because a lock was not released. Use `with`, which releases the lock "
+    "in every case."
 )
 ERRORS = [*SHELF_ERRORS, (matches("TimesUp"), STUCK)]
 TORN = (
-    "Two threads changed the shelf at the same time, so one change was lost. Hold one lock while you "
-    "read, decide and write, and hold the same lock while you put a thing back."
+    "Two threads changed the shelf at the same time, so one change was lost. Hold the same lock "
+    "while you sell a thing and while you put a thing back."
 )
 SOLD_OUT = (
-    '"Sold out" is a normal response of /buy, not an error. Return success=False, and do not raise an '
-    "exception."
+    '"Sold out" is a normal response of /buy, not an error. Return success=False instead of '
+    "raising an exception."
 )
 NOT_CAUGHT = (
     "The call of the till failed, and the exception ended your handler. Catch "
@@ -54,7 +54,7 @@ NOT_CAUGHT = (
 
 NO_TILL = (
     "The till has no server, but the handler waits for this service without a limit. Call the till "
-    "without a wait: the call raises rospy.ServiceException immediately."
+    "immediately: without a server, the call raises rospy.ServiceException."
 )
 
 
@@ -121,8 +121,10 @@ PUT_BACK = "Put the thing back if the till fails."
 @part(
     "10.5",
     points=3,
-    goal="Sell a thing for money: reserve it under the lock, call the till without the lock, and put it back "
-    "if the till fails.",
+    goal=(
+        "Sell a thing for money. Reserve the thing while you hold the lock, and call the till without "
+        "the lock. Put the thing back if the till fails."
+    ),
     needs=["Shop"],
     deadline=60.0,
     goals=[SOLD, PUT_BACK, "Sell to 50 clients at the same time."],
@@ -186,7 +188,8 @@ def _has_no_till(context: CheckContext, cents: int) -> None:
             expected="success=False and a message, because the till does not run",
             actual=response,
             hints=(
-                "The till has no server, so nothing was paid. Return success=False and the text of the error."
+                "The till has no server, so the client did not pay. Return success=False and the "
+                "text of the error."
             ),
         )
         context.expect(
@@ -194,7 +197,7 @@ def _has_no_till(context: CheckContext, cents: int) -> None:
             expected=str(count),
             actual=context.service(left, TRIGGER, hints=ERRORS, timeout=ONE)().message,
             hints=(
-                "The till had no server, so the thing is not sold. Put it back on the shelf "
+                "The till has no server, so the thing is not sold. Put the thing back on the shelf "
                 "while you hold the lock."
             ),
         )
@@ -204,7 +207,10 @@ def _has_no_till(context: CheckContext, cents: int) -> None:
 
 NOT_CHARGED_ONCE: Hints = [
     ([], "The till was not called. Call the service whose name is in self.till."),
-    (ANYTHING, "The till was called with a wrong amount or more than once. Charge self.cents once."),
+    (
+        ANYTHING,
+        ("The till was called with a wrong amount, or more than once. Call the till once, with self.cents."),
+    ),
 ]
 
 
@@ -212,20 +218,21 @@ def _not_reserved(count: int) -> Hints:
     return [
         (
             str(count),
-            "While the till is working, the thing is still on the shelf, so another client "
-            "can buy it. Take it from the shelf first, and put it back if the call of the "
-            "till fails.",
+            (
+                "While the till is working, the thing is still on the shelf, so another client can buy "
+                "it. Take the thing from the shelf before you call the till."
+            ),
         ),
         (
             ANYTHING,
-            "The message of /left has to be only the number of things on the shelf, as a string.",
+            ("The message of /left is wrong. Return only the number of things on the shelf, as a string."),
         ),
     ]
 
 
 NOT_SOLD: Hints = [
-    (matches("False"), "The till has taken the money, but success is False. Set success to True."),
-    (ANYTHING, "The message of /buy has to be the number of the receipt, as a string."),
+    (matches("False"), "The till has taken the money, but `success` is False. Set `success` to True."),
+    (ANYTHING, "The message of /buy is wrong. Return the number of the receipt, as a string."),
 ]
 
 
@@ -242,7 +249,7 @@ def _sells(context: CheckContext, buying: Service, till: Till, cents: int, count
         holds=bool(till.ids[0]),
         expected="a request_id",
         actual="an empty value",
-        hints="The field request_id is empty. Create a new id for each purchase with uuid.uuid4().",
+        hints="The field `request_id` is empty. Create a new id for each purchase with uuid.uuid4().",
     )
     context.require(
         "/left responds while the till is working",
@@ -276,13 +283,13 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
             expected=False,
             actual=response.success,
             hints=(
-                "The till did not take the money, but success is True. Return success=False if the call "
-                "of the till fails."
+                "The till did not take the money, but `success` is True. If the call of the till "
+                "fails, return success=False."
             )
             if asked == 1
             else (
-                "The call of the till failed, and your handler called the till again. Call the till only "
-                "once, because the client decides what to do next."
+                "The call of the till failed, and your handler called the till again. Call the till "
+                "only once: the client decides whether to try again."
             ),
         )
         context.require(
@@ -290,7 +297,10 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
             holds=bool(response.message),
             expected="a message with the reason",
             actual="an empty value",
-            hints="The message is empty. Return the text of the error, str(error), as the message.",
+            hints=(
+                "The message is empty. If the call of the till fails, return the text of the error, "
+                "str(error), as the message."
+            ),
         )
         context.expect(
             "a thing that was not paid for is on the shelf again",
@@ -299,8 +309,10 @@ def _fails_to_sell(context: CheckContext, buying: Service, looking: Service, til
             hints=[
                 (
                     str(count - 1),
-                    "The call of the till failed, but the thing is not on the shelf. Put it back "
-                    "while you hold the lock.",
+                    (
+                        "The call of the till failed, but the thing is not on the shelf. Put the thing "
+                        "back while you hold the lock."
+                    ),
                 ),
             ],
         )
@@ -333,7 +345,7 @@ def _sells_to_fifty(
         expected="as many ids as purchases",
         actual="the same id twice",
         hints=(
-            "Two purchases have the same request_id. Create a new request_id in the handler, for each call."
+            "Two purchases have the same request_id. In the handler, create a new request_id for each call."
         ),
     )
     refusals = [reply.message for reply in replies if not reply.success and reply.message != "sold out"]
@@ -349,8 +361,8 @@ def _sells_to_fifty(
         expected=count - sold,
         actual=shelf.things,
         hints=(
-            "The number on the shelf is different from the number that /left returns. Use the methods "
-            "read() and write(count) of the shelf, and do not replace these methods."
+            "The number on the shelf is different from the number that /left returns. Use the "
+            "methods read() and write(count) of the shelf, and do not replace them."
         ),
     )
 
@@ -370,5 +382,8 @@ def _sells_no_more_than_there_is(
         holds=len(refusals) <= unpaid,
         expected='"sold out" if the shelf is empty',
         actual=max(refusals, key=refusals.count, default=""),
-        hints='If the shelf is empty, return success=False and the message "sold out".',
+        hints=(
+            "The shelf is empty, but the handler did not report this. Return success=False and the "
+            'message "sold out".'
+        ),
     )

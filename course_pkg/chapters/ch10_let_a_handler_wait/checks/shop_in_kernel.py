@@ -15,11 +15,14 @@ ONE = 6.0  # ONE is the time limit in s for a single call.
 SHELF_ERRORS = [
     (
         matches("field message must be"),
-        "The field `message` has to be a string. Convert a number with str(...).",
+        "The field `message` has to be a string. Convert the number with str(...).",
     ),
     (
         matches("Shelf' object has no attribute"),
-        "A shelf has only the methods read() and write(count). Use only these two methods.",
+        (
+            "Your code uses a method that a shelf does not have. Use only the two methods read() and "
+            "write(count)."
+        ),
     ),
 ]
 MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.

@@ -16,38 +16,44 @@ from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.service_calls import Service
 
 STUCK = (
-    "A client waits forever, because no thread releases the lock. Use `with`, which releases the lock in "
-    "every case, and do not acquire the lock twice in the same thread."
+    "A client waits forever, because a thread does not release the lock. Use `with`, and do not "
+    "acquire the lock twice in the same thread."
 )
 ERRORS = [
     *SHELF_ERRORS,
     (matches("TimesUp"), STUCK),
     (
         matches("cannot process request: '?b?'?sold out"),
-        '"Sold out" is a normal response, not an error. Return success=False, and do not raise an exception.',
+        (
+            '"Sold out" is a normal response, not an error. Return success=False instead of raising '
+            "an exception."
+        ),
     ),
     (
         matches("has no attribute 'lock'"),
-        "The attribute self.lock does not exist. Create the lock once in __init__, and store it in self.",
+        (
+            "The attribute self.lock does not exist. Create the lock once in __init__, and store it in "
+            "self.lock."
+        ),
     ),
 ]
 TWICE = (
-    "Two handlers read the same number, so one of the sales was lost. Hold a lock "
-    "while you read, decide and write, and use the same lock in all calls."
+    "Two handlers read the same number, so one sale was lost. In all calls, hold the same lock "
+    "while you read, decide and write."
 )
-EMPTIED = "Sell the things to one client after the other, and then respond with sold out."
+EMPTIED = 'Sell the things to one client after the other, and then respond with "sold out".'
 
 
 @part(
     "10.4",
     points=2,
     goal=(
-        "Sell the things on a shelf to 50 clients at the same time: sell each thing "
-        'only once, and then respond with "sold out".'
+        "Sell the things on a shelf to 50 clients at the same time. Sell each thing only once, and "
+        'then respond with "sold out".'
     ),
     needs=["Stock"],
     deadline=60.0,
-    goals=[EMPTIED, "Sell each thing only once to 50 clients at the same time."],
+    goals=[EMPTIED, "Sell each thing only once, even if 50 clients call at the same time."],
 )
 def safe_with_fifty_clients(context: CheckContext) -> None:
     """Empty a small shelf with single calls; then make fifty simultaneous calls for fewer things."""
@@ -66,6 +72,8 @@ def safe_with_fifty_clients(context: CheckContext) -> None:
     take = _opened(context, name, shelf, MANY)
     try:
         _takes_all(context, take, shelf, count)
+        shelf.things = few
+        _sells_what_comes_later(context, take, few)
     finally:
         context.run("checked_shop.close")
 
@@ -84,6 +92,19 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
     return context.service(name, TRIGGER, hints=ERRORS, timeout=timeout)
 
 
+def _sells_what_comes_later(context: CheckContext, take: Service, things: int) -> None:
+    """Take a thing after the shelf was filled again with `things` things."""
+    context.expect(
+        'the message is the number of things that are left, or "sold out"',
+        expected=str(things - 1),
+        actual=take().message,
+        hints=(
+            "New things were put on the shelf, but the handler did not notice them. In each call, read the "
+            "number from the shelf."
+        ),
+    )
+
+
 def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
     """Take a thing; `left` is the number of things after this call, or None if the shelf was empty."""
     seen = take()
@@ -92,8 +113,14 @@ def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
         expected=left is not None,
         actual=seen.success,
         hints=[
-            (True, "The shelf was empty, but success is True. Check the count before you sell."),
-            (False, "A thing was there, but success has its default value, False. Set success to True."),
+            (
+                True,
+                (
+                    "The shelf was empty, but `success` is True. Check the number of things before "
+                    "you sell a thing."
+                ),
+            ),
+            (False, "A thing was there, but `success` has its default value, False. Set `success` to True."),
         ],
     )
     context.expect(
@@ -101,12 +128,20 @@ def _takes_one(context: CheckContext, take: Service, left: int | None) -> None:
         expected="sold out" if left is None else str(left),
         actual=seen.message,
         hints=[
-            ("", "The message is empty. Set it to the number of things that are left, as a string."),
-            (str((left or 0) + 1), "This is the number before the sale. Return the number after the sale."),
+            (
+                "",
+                ("The message is empty. Set the message to the number of things that are left, as a string."),
+            ),
+            (
+                str((left or 0) + 1),
+                "The message is the number before the sale. Return the number after the sale.",
+            ),
             (
                 ANYTHING,
-                'The message has to be the number of things that are left, such as "7", or the text '
-                '"sold out".',
+                (
+                    'The message is wrong. Return the number of things that are left, such as "7", or '
+                    'the text "sold out".'
+                ),
             ),
         ],
     )
@@ -117,8 +152,10 @@ def _wrong_number_sold(count: int) -> Hints:
         ((lambda actual: actual > count), TWICE),
         (
             (lambda actual: actual < count),
-            "Some things were left, but a client got none of them. If another thread holds the lock, "
-            "wait for the lock.",
+            (
+                "Some things were left, but a client got none of them. If another thread holds the "
+                "lock, let the handler wait for the lock."
+            ),
         ),
     ]
 
@@ -145,7 +182,7 @@ def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count:
         expected=0,
         actual=shelf.things,
         hints=(
-            "The number on the shelf is wrong. Count the things that are left, and write this number to "
-            "the shelf."
+            "The number on the shelf is wrong. After each sale, write the number of things that are "
+            "left to the shelf."
         ),
     )

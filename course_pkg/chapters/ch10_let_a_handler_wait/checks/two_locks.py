@@ -213,36 +213,39 @@ ERRORS = [
     ),
     (
         matches("TimesUp|in vain"),
-        "The function did not return. If you try again in a loop, release the first lock before each new "
-        "try.",
+        (
+            "The function did not return. If you try again in a loop, release the first lock before "
+            "each new try."
+        ),
     ),
     (
         matches("'<' not supported"),
-        "Python cannot compare two shelves. Sort them by their numbers: key=lambda shelf: shelf.number.",
+        (
+            "Python cannot compare two shelves with <. Sort the shelves by their numbers: key=lambda "
+            "shelf: shelf.number."
+        ),
     ),
 ]
 CROSSED = (
-    "One thread held the lock of the first shelf and waited for the lock of the "
-    "second shelf, while another thread did the opposite. Acquire the two locks in "
-    "the same order in every call, for example by the numbers of the shelves."
+    "Two threads acquired the two locks in opposite orders, so each of them waits for the other. "
+    "Acquire the locks in the same order in every call, for example by the shelves' numbers."
 )
 UNLOCKED = (
-    "A count was changed while the function did not hold both locks. Another thread can then read a "
-    "wrong total: hold both locks while you read and write."
+    "The function changed a count while it did not hold both locks, so another thread can read a "
+    "wrong total. Hold both locks while you read and write."
 )
 
 UNLOCKED_READ = (
-    "A count was read before the function held both locks, so another thread can change this count "
-    "before you write. First acquire both locks in the order of the shelves' numbers, and then read the "
-    "counts."
+    "The function read a count before it held both locks, so another thread can change this count. "
+    "First acquire both locks, and then read the counts."
 )
-MOVED = "Move a thing in one thread, but not from an empty shelf."
+MOVED = "Move a thing in one thread, but do not move a thing from an empty shelf."
 
 
 @part(
     "10.6",
     points=2,
-    goal="Move a thing between two shelves under both locks, without a deadlock in either direction.",
+    goal="Move a thing between two shelves while you hold both locks, without a deadlock.",
     needs=["move"],
     deadline=30.0,
     goals=[MOVED, "Move things in both directions at the same time, without a deadlock."],
@@ -293,8 +296,8 @@ def move_without_deadlock(context: CheckContext) -> None:
         expected=THREADS * MOVES,
         actual=pair.results.count(True),
         hints=(
-            "A call returned without a move, although the shelf was not empty. If another "
-            "thread holds a lock, wait for the lock."
+            "A call moved nothing, although the shelf was not empty. If another thread holds a "
+            "lock, wait for the lock."
         ),
     )
     _both_locks(context, pair)
@@ -316,15 +319,20 @@ def _moves_one(
         expected=possible,
         actual=result.returned(),
         hints=[
-            (None, "The function returned None. Return True after a move, and False if the source is empty."),
+            (None, "The function returned None. Return True after a move, or False if the source is empty."),
             (
                 (lambda actual: actual is False and possible),
-                "The source was not empty, but the function returned False. Check the count of "
-                "`source`, even if the lock of `target` is acquired first.",
+                (
+                    "The source was not empty, but the function returned False. Check the count of "
+                    "`source`, not the count of `target`."
+                ),
             ),
             (
                 ANYTHING,
-                "Return True if a thing was moved, and False if the source was empty before the call.",
+                (
+                    "The returned value is wrong. Return True if the function moved a thing, and False "
+                    "if the source was empty."
+                ),
             ),
         ],
     )
@@ -335,13 +343,19 @@ def _moves_one(
         hints=[
             (
                 lambda actual: sum(actual) != sum(counts),
-                "The total changed. Subtract one from the source, and add one to the target.",
+                (
+                    "The total number of things changed. Subtract one from the source, and add one to "
+                    "the target."
+                ),
             ),
             (
                 lambda actual: min(actual) < 0,
-                "The count of an empty shelf became negative. Check the count first.",
+                ("The count of an empty shelf became negative. Check the count before you move a thing."),
             ),
-            (ANYTHING, "The function has to move exactly one thing, from `source` to `target`."),
+            (
+                ANYTHING,
+                "The counts after the call are wrong. Move exactly one thing from `source` to `target`.",
+            ),
         ],
     )
     context.require(
@@ -350,7 +364,7 @@ def _moves_one(
         expected="two free locks",
         actual="a lock that is still held",
         hints=(
-            "A lock is still held after the function has returned. Use `with`, which releases the lock "
+            "The function returned, but a lock is still held. Use `with`, which releases the lock "
             "in every case."
         ),
     )

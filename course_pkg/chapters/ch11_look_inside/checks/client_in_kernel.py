@@ -53,15 +53,21 @@ class Client:
 
     def __init__(self, context: CheckContext, kind: str, name: str) -> None:
         self._context, self._kind = context, kind
+        self.sides: list[float] = []  # The sides of the last box, in m.
+        self._measured = 0
         context.prepare(KERNEL_CODE)
         made = context.run("make_client", Its(kind), name, worded=f"{kind}(service)")
         context.require("a client object can be created", holds=made.returned() is None)
 
     def measure(self, hints: Hints) -> Result:
-        """Measure a random box; a complete response becomes a dict with the volume."""
-        sides = self._context.random.numbers(3, 0.5, 9.0)
+        """Measure a random box, each box twice; a complete response becomes a dict with the volume."""
+        if self._measured % 2 == 0:
+            self.sides = self._context.random.numbers(3, 0.5, 9.0)
+        self._measured += 1
         worded = "measure(length, width, height)"
-        return self._context.run("measured", Its(self._kind), *sides, within=3.0, hints=hints, worded=worded)
+        return self._context.run(
+            "measured", Its(self._kind), *self.sides, within=3.0, hints=hints, worded=worded
+        )
 
 
 class ResettingPort:

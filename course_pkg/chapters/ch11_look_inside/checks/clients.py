@@ -12,38 +12,51 @@ GEOMETRY = "course_pkg/geometry"
 ERRORS = [
     (
         matches("TransportTerminated|TransportInitError|AttributeError"),
-        "A broken connection can raise three kinds of errors, and this error is one of them. Catch all "
-        "three, create a new proxy, and call the service once more.",
+        (
+            "A broken connection can raise three kinds of errors, and your method does not catch this "
+            "kind. Catch all three kinds, create a new proxy, and call the service once more."
+        ),
     ),
     (
         matches("transport error"),
-        "The connection broke, and your method raised the error. Catch the error, create a new proxy "
-        "(the old proxy stays broken), and call the service once more.",
+        (
+            "The connection broke, and your method raised the error. Catch the error, create a new "
+            "proxy, and call the service once more."
+        ),
     ),
 ]
 
 
 AGAIN = (
-    "Your method called the service again and again. Call the service only once more, and raise the "
-    "error of this second call."
+    "Your method called the service again and again. After an error, call the service only once "
+    "more, and raise the error of the second call."
 )
-NOT_MEASURED = "The second call failed, too, so there is no response. Raise the error of the second call."
+WAITED = "Without a server, your method did not return. Call only once more, and do not wait for the service."
+NOT_MEASURED = "The second call also failed, so there is no response. Raise the error of the second call."
 REFUSED = (
-    "The server refused with an error message: raise this error.",
-    "The connection works, but the server refused the call. Call the service again only if the "
-    "connection broke.",
+    "The server refused the call and sent an error message. Raise this error.",
+    (
+        "The server refused the call, but the connection works. Call the service again only if the "
+        "connection broke."
+    ),
 )
 ONE_FOR_ALL = "Use one connection for all calls, even after a refusal."
-STORED = "Look the address up once, and use the stored address for all calls."
+STORED = "Look up the address once, and use the stored address for all calls."
 
 
 @part(
     "11.5",
     points=3,
-    goal="Use one connection for all calls; if it breaks, open a new connection and call once more.",
+    goal=(
+        "Use one connection for all calls. If the connection breaks, open a new connection and call "
+        "the service once more."
+    ),
     needs=["Keeper"],
     deadline=20.0,
-    goals=[ONE_FOR_ALL, "Open a new connection when the old one breaks or the server moves."],
+    goals=[
+        ONE_FOR_ALL,
+        "Open a new connection when the old connection breaks or the server gets a new address.",
+    ],
 )
 def persistent_client(context: CheckContext) -> None:
     """Respond, refuse, close the connection, stop the server, and start the server at another address."""
@@ -54,6 +67,7 @@ def persistent_client(context: CheckContext) -> None:
     client = Client(context, "Keeper", name)
     for volume in volumes[:3]:
         _measures(context, client, "the response is returned", volume)
+    _sends_the_sides(context, client, server, "the response is returned")
     _one_connection(context, server, "the calls share one connection")
     acts.insert(0, Refuse("not this box"))
     _reports_a_refusal(context, client, server, *REFUSED)
@@ -94,7 +108,7 @@ def _measures(context: CheckContext, client: Client, assertion: str, volume: Jso
         actual=client.measure(ERRORS).returned(),
         near=1e-6,
         hints=[
-            (None, "The method returned None: return the response of the proxy."),
+            (None, "The method returned None. Return the response of the proxy."),
             (
                 (lambda actual: not isinstance(actual, dict)),
                 "The method returned only a part of the response. Return the whole response of the proxy.",
@@ -103,11 +117,24 @@ def _measures(context: CheckContext, client: Client, assertion: str, volume: Jso
     )
 
 
+def _sends_the_sides(context: CheckContext, client: Client, server: ScriptedServer, assertion: str) -> None:
+    """Assert that the last request contains the sides that `measure` got."""
+    context.expect(
+        assertion,
+        expected=client.sides,
+        actual=[server.requests[-1][side] for side in ("length", "width", "height")],
+        near=1e-6,
+        hints="The request contains other sides. Pass length, width and height on in this order.",
+    )
+
+
 SEVERAL_CONNECTIONS: Hints = [
     (
         (lambda words: "without" in words),
-        "The connection was not persistent. Create the proxy once, with "
-        "persistent=True, and store it in self.",
+        (
+            "The connection was not persistent. Create the proxy once with persistent=True, and store "
+            "it in self."
+        ),
     ),
     (ANYTHING, "There was more than one connection. Create the proxy only once, and store it in self."),
 ]
@@ -158,7 +185,7 @@ def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer)
             ((lambda _: asked > 2), AGAIN),
             (
                 (lambda _: asked < 2),
-                "Your method did not call the new proxy, or did not store it in self.",
+                "Your method did not call the new proxy, or did not store the new proxy in self.",
             ),
             (ANYTHING, NOT_MEASURED),
         ],
@@ -179,28 +206,35 @@ def _reports_a_missing_server(context: CheckContext, client: Client) -> None:
         holds=not result.error.startswith("TimesUp"),
         expected="an immediate error",
         actual=result.error,
-        hints=AGAIN,
+        hints=WAITED,
     )
 
 
 LOST = [
     (
         matches("unknown service|no provider|Master|unavailable"),
-        "Your method looked up the address again, but the master has no entry now. Use the stored address.",
+        (
+            "Your method looked up the address again, but the master no longer knows the service. "
+            "Use the stored address."
+        ),
     )
 ]
 MOVED = [
     (
         matches("refused|OSError|Connection"),
-        "The server is not at the old address any more. Catch the OSError, look up the address again, "
-        "and call `ask()` once more.",
+        (
+            "No server is at the old address any more. Catch the OSError, look up the address again, "
+            "and call `ask()` once more."
+        ),
     )
 ]
 RESET = [
     (
         matches("ConnectionReset|BrokenPipe|ConnectionError|OSError"),
-        "Another program uses this address now, so `ask()` raised a different kind of OSError. Catch "
-        "every OSError.",
+        (
+            "Another program uses this address now, so `ask()` raised a different kind of OSError. "
+            "Catch every kind of OSError."
+        ),
     )
 ]
 SHARED = (
@@ -208,10 +242,14 @@ SHARED = (
     "the address in self, so that each object has its own address."
 )
 SAID_NO = (
-    "The server refused the call, so the address was right: raise the error. Look up the address again "
-    "only after an OSError.",
-    "Your method called `ask()` twice. Call `ask()` again only after an OSError, which means that no "
-    "server is at the address.",
+    (
+        "The server refused the call, so the address was right. Raise the error, and look up the "
+        "address again only after an OSError."
+    ),
+    (
+        "Your method called `ask()` twice, although a server was at the address. Call `ask()` again "
+        "only after an OSError."
+    ),
 )
 
 
@@ -219,12 +257,12 @@ SAID_NO = (
     "11.6",
     points=2,
     goal=(
-        "Look up the address once and store it; look it up again only if no server is "
-        "at this address any more."
+        "Look up the address once, and store it. Look up the address again only if no server is at "
+        "the stored address any more."
     ),
     needs=["Remembering"],
     deadline=20.0,
-    goals=[STORED, "Look the address up again if no server is there any more."],
+    goals=[STORED, "Look up the address again if no server is at the stored address any more."],
 )
 def client_with_a_known_address(context: CheckContext) -> None:
     """Call, unregister the name, refuse a call, and start the server at another address."""
@@ -235,6 +273,7 @@ def client_with_a_known_address(context: CheckContext) -> None:
     server = context.serve(name, GEOMETRY, lambda _: acts.pop(0) if acts[1:] else acts[0])
     client = Client(context, "Remembering", name)
     _measures_both(context, client, "area and volume are returned", numbers[0], ())
+    _sends_the_sides(context, client, server, "area and volume are returned")
     context.absent(name)
     _measures_both(context, client, "a call with a known address needs no master", numbers[1], LOST)
     _keeps_the_address(context, name, client, numbers[1])
@@ -244,7 +283,7 @@ def client_with_a_known_address(context: CheckContext) -> None:
     moved = context.serve(name, GEOMETRY, lambda _: answers[2])
     _measures_both(context, client, "a server that moved is found again", numbers[2], MOVED)
     context.absent(name)
-    kept = [(ANYTHING, "Store the address of the second lookup, too.")]
+    kept = [(ANYTHING, "Also store the address of the second lookup.")]
     _measures_both(context, client, "the new address is also stored", numbers[2], kept)
     _finds_it_after_a_reset(context, name, client, moved, numbers[0])
 
@@ -269,7 +308,10 @@ def _finds_it_after_a_reset(
         holds=bool(result.error) and not result.error.startswith("TimesUp"),
         expected="an error, because no server is at the new address",
         actual=result.error or "a value",
-        hints=[(matches("^TimesUp"), AGAIN), (ANYTHING, "The second call failed, too: raise its error.")],
+        hints=[
+            (matches("^TimesUp"), AGAIN),
+            (ANYTHING, "The second call also failed. Raise the error of the second call."),
+        ],
     )
 
 
@@ -281,8 +323,8 @@ def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers
     wrong = context.random.numbers(2, 100.0, 900.0)
     other = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), wrong, strict=True)))
     again = (
-        "Your method looked up the address again, although the stored address was "
-        "right. Use the stored address first."
+        "Your method looked up the address again, although the stored address was right. First use "
+        "the stored address."
     )
     assertion = "a call with a known address needs no master"
     _measures_both(context, client, assertion, numbers, (), again)
@@ -298,12 +340,14 @@ def _measures_both(
     assertion: str,
     numbers: list[float],
     hints: Hints,
-    other: str = "These are not the numbers that `ask()` returned. Return both numbers without a change.",
+    other: str = (
+        "Your method did not return the numbers that `ask()` returned. Return both numbers without a change."
+    ),
 ) -> None:
     context.expect(
         assertion,
         expected=numbers,
         actual=client.measure(hints).returned(),
         near=1e-6,
-        hints=[(None, "The method returned None: return the tuple that `ask()` returns."), (ANYTHING, other)],
+        hints=[(None, "The method returned None. Return the tuple that `ask()` returns."), (ANYTHING, other)],
     )

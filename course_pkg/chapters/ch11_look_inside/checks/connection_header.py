@@ -27,44 +27,56 @@ import socket
 
 your_end = socket.socket(socket.AF_UNIX)
 your_end.connect("\\0{name}")
+
+
+def is_open():
+    return your_end.fileno() >= 0
 """
 ERRORS = [
     (
         matches("UnicodeEncodeError"),
-        "ASCII does not contain the letter ü. Use UTF-8, which contains every letter: "
-        "encode() without an argument.",
+        (
+            "ASCII does not contain the letter ü, but UTF-8 does. Call encode() without an argument to "
+            "use UTF-8."
+        ),
     )
 ]
 WITHIN = 3.0  # WITHIN is the time limit in s for one call.
 # Wait this many s before sending the next part to a client that peeks at the bytes without reading them.
 PEEKING = 0.4
+PAUSE = 0.5  # The pieces of one message may be this many s apart.
 CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 
 
 def _wrong_header(orders: list[dict[str, str]]) -> Hints:
     return [
         (None, NO_RETURN),
-        (b"", "A header without fields consists of its length, 0: return these 4 bytes."),
+        (b"", "The header without fields is wrong. Return only its length, which is 0, in 4 bytes."),
         *(wrong for order in orders for wrong in _wrong_headers(order)),
         (
             (lambda actual: isinstance(actual, str)),
-            "This is a str, but a socket needs bytes: use encode().",
+            "The function returned a str, but a socket sends bytes. Convert the str with encode().",
         ),
         (
             ANYTHING,
-            "Compare your bytes with the bytes of step 3. First comes the length of the header, and "
-            "then, for each field, its length and its text name=value.",
+            (
+                "Some bytes are wrong. Return the length of the header, and then, for each field, its "
+                "length and its text name=value."
+            ),
         ),
     ]
 
 
-RECEIVED = "Return exactly `count` bytes, even if they arrive in pieces."
+RECEIVED = "Return exactly `count` bytes, even if the bytes arrive in pieces."
 
 
 @part(
     "11.1",
     points=2,
-    goal="Return a connection header as bytes: its length, then the length and the text of each field.",
+    goal=(
+        "Return a connection header as bytes: the length of the header, and then the length and the "
+        "text of each field."
+    ),
     needs=["pack_header"],
 )
 def packed_header(context: CheckContext) -> None:
@@ -73,7 +85,7 @@ def packed_header(context: CheckContext) -> None:
     context.prepare(TYPE_OF_HEADER)
     for what, fields in (
         ("two fields", {"service": f"/{word()}", "md5sum": word(32)}),
-        ("a letter outside of ASCII", {"callerid": f"/{word(4)}", "robot": f"Jürgen {word(3)}"}),
+        ("a letter outside of ASCII", {"session": "", "robot": f"Jürgen {word(3)}"}),
         ("no field", {}),
     ):
         assertion = f"{what}: the bytes are a header of TCPROS"
@@ -93,7 +105,10 @@ def packed_header(context: CheckContext) -> None:
             holds=kind in ("bytes", "bytearray"),
             expected="bytes",
             actual=kind,
-            hints="The numbers are right, but a socket needs bytes: convert the numbers with bytes(...).",
+            hints=(
+                "The function returned numbers, but a socket sends bytes. Convert the numbers with "
+                "bytes(...)."
+            ),
         )
 
 
@@ -118,34 +133,58 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
     wrong = [
         (
             _packed(fields, order=">I"),
-            "The lengths are big-endian. For little-endian numbers, use struct.pack with '<I'.",
+            "The lengths are big-endian. Use struct.pack with '<I' for little-endian numbers.",
         ),
         (
             _packed(fields, total=None),
-            "The length of the whole header is missing. Put it before the first field, in 4 bytes.",
+            (
+                "The length of the whole header is missing. Write this length in 4 bytes before the "
+                "first field."
+            ),
         ),
         (
             _packed(fields, total=lambda body: len(body) + 4),
-            "The first length is too large by 4. Count only the bytes after this length, without its "
-            "own 4 bytes.",
+            (
+                "The first length is too large by 4. Count only the bytes after the length, and not the "
+                "4 bytes of the length."
+            ),
         ),
         (
             _packed(fields, total=lambda _: len(fields)),
-            "The first number is the number of fields. Write the number of bytes that follow instead.",
+            ("The header begins with the number of its fields. Begin with the number of bytes that follow."),
         ),
         (
             _packed(fields, count=len),
-            "A length is a number of bytes, and ü has two bytes: encode the text before you use len().",
+            (
+                "A length is a number of bytes, and the letter ü has two bytes. Encode the text before "
+                "you call len()."
+            ),
         ),
-        (_packed(fields, joint=": "), "Write only an equals sign between name and value."),
+        (
+            _packed(fields, joint=": "),
+            "The text between name and value is wrong. Write only an equals sign, without spaces.",
+        ),
         (
             _packed(fields, lengths=False),
-            "The length of a field is missing. Put it before each field, in 4 bytes.",
+            ("The length of a field is missing. Write the length of each field in 4 bytes before the field."),
         ),
-        (_packed(fields, order="<H"), "A length needs 4 bytes: use struct.pack with '<I'."),
+        (
+            _packed(fields, order="<H"),
+            (
+                "A length has the wrong number of bytes. Write each length in 4 bytes with struct.pack and "
+                "'<I'."
+            ),
+        ),
+        (
+            _packed({name: value for name, value in fields.items() if value}),
+            "A field with an empty value is missing. Its text is the name and the equals sign.",
+        ),
         (
             _packed(fields, code="latin-1", count=len),
-            "The text is in Latin-1. In UTF-8, ü has two bytes: use encode() without an argument.",
+            (
+                "The text is encoded in Latin-1. Call encode() without an argument to use UTF-8, in "
+                "which ü has two bytes."
+            ),
         ),
     ]
     return [(list(packed), hint) for packed, hint in wrong]
@@ -154,18 +193,24 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
 NOT_RAISED: Hints = [
     (
         matches("^TimesUp"),
-        "After the other end has closed the connection, recv always returns b'': check "
-        "for b'', and raise ConnectionError.",
+        (
+            "The function did not return after the other program had closed the connection. In this "
+            "case, recv() returns b'': check for b'', and raise ConnectionError."
+        ),
     ),
     (
         (lambda actual: isinstance(actual, list)),
-        "The function returned fewer than `count` bytes, and the caller cannot notice "
-        "this: raise ConnectionError.",
+        (
+            "The connection ended early, and the function returned fewer than `count` bytes. Raise "
+            "ConnectionError in this case."
+        ),
     ),
     (
         ANYTHING,
-        "If recv returns b'', the other end has closed the connection: raise "
-        "ConnectionError, and no other error.",
+        (
+            "The function raised an error of the wrong type. If recv() returns b'', the connection has "
+            "ended: raise ConnectionError."
+        ),
     ),
 ]
 
@@ -174,8 +219,8 @@ NOT_RAISED: Hints = [
     "11.2",
     points=2,
     goal=(
-        "Return exactly `count` bytes from a socket, even if they arrive in pieces; "
-        "raise ConnectionError if the connection ends earlier."
+        "Return exactly `count` bytes from a socket, even if the bytes arrive in pieces. Raise "
+        "ConnectionError if the connection ends earlier."
     ),
     needs=["receive"],
     goals={RECEIVED: 3, "Raise ConnectionError if the connection ends earlier.": 1},
@@ -188,7 +233,7 @@ def exact_read(context: CheckContext) -> None:
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
     _receives(context, "bytes that arrive together", [whole], [12])
-    _receives(context, "bytes that arrive in pieces", [whole[:5], whole[5:6], whole[6:]], [12])
+    _receives(context, "bytes that arrive in pieces", [whole[:5], whole[5:6], whole[6:]], [12], PAUSE)
     _receives(context, "exactly `count` bytes, and the rest in the next call", [whole], [4, 8])
     joined = [whole[:5], whole[5:] + following]
     _receives(context, "no bytes of the next message, even if a piece contains some", joined, [12, 12])
@@ -201,12 +246,22 @@ def exact_read(context: CheckContext) -> None:
             "ConnectionError",
             hints=NOT_RAISED,
         )
+        context.require(
+            "if the connection ends before the last byte, a ConnectionError is raised",
+            holds=context.run("is_open", worded="receive()").returned() is True,
+            expected="a socket that is still open",
+            actual="a closed socket",
+            hints=CLOSED,
+        )
 
 
 TAKEN = (
-    "The function read more than `count` bytes from the socket. The later bytes belong to the next message: "
-    "leave them in the socket."
+    "The function read more than `count` bytes from the socket. Leave the later bytes in the "
+    "socket, because they belong to the next message."
 )
+
+
+CLOSED = "The function closed the socket. Leave the socket open, because the caller still uses it."
 
 
 class OtherEnd:
@@ -215,14 +270,14 @@ class OtherEnd:
     The object sends `pieces`, and does not close the connection before the end of the block.
 
     Each piece is sent after the client has read the previous piece. Therefore, a client that reads only once
-    gets only one piece.
+    gets only one piece. There is a pause of `pause` s before each piece.
     """
 
-    def __init__(self, pieces: Sequence[bytes], *, closes: bool = False) -> None:
+    def __init__(self, pieces: Sequence[bytes], *, closes: bool = False, pause: float = 0.0) -> None:
         # The socket is in Linux's abstract namespace. The socket needs no file, and only this network
         # namespace can use the socket.
         self.name = f"course-{secrets.token_hex(8)}"
-        self._pieces, self._closes = pieces, closes
+        self._pieces, self._closes, self._pause = pieces, closes, pause
         self._listener = socket.socket(socket.AF_UNIX)
         self._listener.bind(f"\0{self.name}")
         self._listener.listen(1)
@@ -254,6 +309,7 @@ class OtherEnd:
             with sock:
                 self._sock = sock
                 for piece in self._pieces:
+                    self._over.wait(self._pause)
                     sock.sendall(piece)
                     wait_until(lambda: not _unread(sock), PEEKING, 0.005, self._over)
                 if not self._closes:
@@ -266,9 +322,11 @@ def _unread(sock: socket.socket) -> int:
     return int(count)
 
 
-def _receives(context: CheckContext, what: str, pieces: list[bytes], counts: list[int]) -> None:
+def _receives(
+    context: CheckContext, what: str, pieces: list[bytes], counts: list[int], pause: float = 0.0
+) -> None:
     whole, at, left = b"".join(pieces), 0, True
-    with OtherEnd(pieces) as other:
+    with OtherEnd(pieces, pause=pause) as other:
         context.prepare(YOUR_END.format(name=other.name))
         for count in counts:
             expected = list(whole[at : at + count])
@@ -293,16 +351,18 @@ def _not_received(count: int) -> Hints:
         (None, NO_RETURN),
         (
             (lambda actual: isinstance(actual[0], list)),
-            "This is the list of pieces. Join the pieces into one bytes object.",
+            "The function returned a list of pieces. Join the pieces into one bytes object.",
         ),
         (
             (lambda actual: len(actual) < count),
-            "recv returned only the bytes that had arrived. Call recv until `count` bytes have arrived.",
+            ("The function returned too few bytes. Call recv() again until `count` bytes have arrived."),
         ),
         (
             (lambda actual: len(actual) > count),
-            "The function returned more than `count` bytes, so the next call does not get "
-            "these bytes. Read only the missing bytes.",
+            (
+                "The function returned more than `count` bytes, so these bytes are missing in the next "
+                "call. Read only the missing bytes."
+            ),
         ),
     ]
 
@@ -312,22 +372,29 @@ def _receive_errors(count: int = 1) -> Hints:
     return [
         (
             matches("^TimesUp"),
-            "An earlier call read too many bytes and lost them, and now the function waits for these "
-            "bytes. Pass only the number of missing bytes to recv() (with makefile(), use buffering=0).",
+            (
+                "The function waits for bytes that an earlier call has read and lost. Pass only the "
+                "number of missing bytes to recv() (with makefile(): buffering=0)."
+            ),
         ),
         (
             matches("Bad file descriptor|closed file"),
-            "The function closed the socket. Leave the socket open, because the caller still uses it.",
+            CLOSED,
+        ),
+        (
+            matches("^(TimeoutError|timeout|BlockingIOError)"),
+            "The function gave up while it waited for the next piece. Wait in recv() without a time limit.",
         ),
         (
             matches("^(Connection|BrokenPipe)"),
             (
-                "The connection is still open, and the other bytes follow. Call recv() again after a "
-                "short piece, because only b'' means the end of the connection."
+                "The connection is still open, and more bytes follow. Call recv() again after a "
+                "short piece: only b'' means the end of the connection."
             )
             if count
             else (
-                "The argument `count` was 0, so no bytes are missing: call recv only while bytes are missing."
+                "The argument `count` was 0, but the function waited for bytes. Call recv() only "
+                "while bytes are missing."
             ),
         ),
     ]

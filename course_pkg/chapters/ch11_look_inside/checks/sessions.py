@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import rospy
 
-from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.plain_values import Message, ServiceClass
 from course_pkg.checking.shared.own_program import require_kernel
@@ -13,9 +13,28 @@ from course_pkg.ros.node.proxy import BoundedProxy
 NAME, KIND = "/my_add_up", "course_pkg/AddUp"
 TIMEOUT = 4.0  # TIMEOUT is the time limit in s for a call on a busy machine.
 REFUSED = (
-    'The header had the field "session", but your handler refused the call. Check '
-    "the name of the field in your code."
+    'The header had the field "session", but your handler refused the call. Check the field\'s '
+    "name in your code."
 )
+SHARED = (
+    "A new Sessions object already had a total for this session. Create the dict in __init__ and store it in "
+    "self, so that each object has its own totals."
+)
+ANOTHER = """
+import rospy
+from course_pkg.srv import AddUp
+
+
+class AnotherSessions:
+    def open(self, kind, name):
+        self.service = rospy.Service(name, AddUp, kind().handle)
+
+    def close(self):
+        self.service.shutdown("checked")
+
+
+another_sessions = AnotherSessions()
+"""
 TOTALS = "Keep a separate total for each session."
 
 
@@ -23,7 +42,7 @@ TOTALS = "Keep a separate total for each session."
     "11.4",
     points=3,
     goal=(
-        "Keep a separate total for each session in the connection header; refuse a call without a session."
+        "Keep a separate total for each session in the connection header. Refuse a call without a session."
     ),
     needs=["Sessions"],
     goals={TOTALS: 2, "Refuse a call without a session.": 1},
@@ -37,6 +56,7 @@ def totals_of_sessions(context: CheckContext) -> None:
     turns = [first, second, first, first, second, second, *others, first]
     # The amounts are larger than the number of calls, so a total differs from a number of calls.
     amounts = context.random.integers(len(turns), 20, 900)
+    amounts[3] = -amounts[3]
     totals = dict.fromkeys(turns, 0)
     counts = dict.fromkeys(turns, 0)
     everything = 0
@@ -53,7 +73,7 @@ def totals_of_sessions(context: CheckContext) -> None:
         kind,
         more,
         header,
-        "Another node may continue a session, so do not compare the names of the nodes.",
+        "Another node may continue a session. Do not compare the names of the nodes.",
     )
     context.expect(
         "a session continues from another node",
@@ -62,28 +82,66 @@ def totals_of_sessions(context: CheckContext) -> None:
         hints=[
             (
                 more,
-                "The total started again at 0 for another node. Use only the session, and not "
-                "the name of the client's node.",
+                (
+                    "The total started again at 0 for another node. Use only the session as the key of "
+                    "the total, not the name of the node."
+                ),
             )
         ],
     )
+    _shares_no_total(context, kind, first)
     context.fulfilled(TOTALS)
     _refuses_without_a_session(context, kind)
 
 
+def _shares_no_total(context: CheckContext, kind: ServiceClass, session: str) -> None:
+    """Call a new object of the class in a session that the first object knows."""
+    name, amount = f"/{context.random.word()}", context.random.integer(20, 900)
+    context.prepare(ANOTHER)
+    opened = context.run("another_sessions.open", Its("Sessions"), name, worded="Sessions()")
+    assertion = "the response contains the total of the session"
+    context.require(assertion, holds=not opened.error, actual=opened.error)
+    try:
+        context.expect(
+            assertion,
+            expected=amount,
+            actual=_answer(context, kind, amount, {"session": session}, name=name).total,
+            hints=SHARED,
+        )
+    finally:
+        context.run("another_sessions.close", worded="Sessions()")
+
+
 def _wrong_total(amount: int, calls: int, everything: int) -> Hints:
     return [
-        (amount, "This is only the amount of this call. Store the total of each session in self."),
-        (everything, "This is the total of all sessions. Store one total for each session, in a dict."),
+        (
+            amount,
+            ("The response contains only the amount of this call. Store the total of each session in self."),
+        ),
+        (
+            everything,
+            ("The response contains the total of all sessions. Store one total for each session in a dict."),
+        ),
         (
             0,
-            "The field `total` is 0: add the amount of this call to the total of the "
-            "session, and return the sum in this field.",
+            (
+                "The field `total` is 0. Add the amount of this call to the total of the session, and "
+                "return the sum."
+            ),
         ),
-        (calls, "This is the number of calls. Write the total first: AddUpResponse(total, calls)."),
+        (
+            calls,
+            (
+                "The field `total` contains the number of calls. Pass the total first: AddUpResponse(total, "
+                "calls)."
+            ),
+        ),
         (
             ANYTHING,
-            "Add the amount to the total of this session, which starts at 0, and return the sum.",
+            (
+                "The field `total` is wrong. The total of a session starts at 0, and each call adds its "
+                "amount."
+            ),
         ),
     ]
 
@@ -102,8 +160,14 @@ def _is_right(
         expected=calls,
         actual=answer.calls,
         hints=[
-            (0, "The field `calls` is 0: set it to the number of calls, including this call."),
-            (ANYTHING, "Count the calls of each session separately, as you do with the total."),
+            (
+                0,
+                (
+                    "The field `calls` is 0. Set it to the number of calls in this session, including this "
+                    "call."
+                ),
+            ),
+            (ANYTHING, "The field `calls` is wrong. Count the calls of each session separately."),
         ],
     )
 
@@ -116,18 +180,24 @@ NOT_REFUSED: Hints = [
     ),
     (
         matches("error processing request: 'session'|NoneType"),
-        "The missing field caused an exception of the wrong type. Read the field with .get(), and raise "
-        "rospy.ServiceException.",
+        (
+            "The missing field caused an exception of the wrong type. Read the field with .get(), and "
+            "raise rospy.ServiceException if it is missing."
+        ),
     ),
     (
         matches("error processing request"),
-        "The handler raised an exception of the wrong type. Raise rospy.ServiceException, so that the "
-        "client gets a refusal.",
+        (
+            "The handler raised an exception of the wrong type. To refuse a call, raise "
+            "rospy.ServiceException."
+        ),
     ),
     (
         matches("returned None"),
-        "The handler returned None, so rospy wrote its own error message. Raise "
-        'rospy.ServiceException with a message that contains the word "session".',
+        (
+            "The handler returned None, so the client got an error message of rospy. Raise "
+            'rospy.ServiceException with a message that contains the word "session".'
+        ),
     ),
     (
         ANYTHING,
@@ -156,10 +226,15 @@ def _refuses_without_a_session(context: CheckContext, kind: ServiceClass) -> Non
 
 
 def _answer(
-    context: CheckContext, kind: ServiceClass, amount: int, headers: dict[str, str], refused: str = REFUSED
+    context: CheckContext,
+    kind: ServiceClass,
+    amount: int,
+    headers: dict[str, str],
+    refused: str = REFUSED,
+    name: str = NAME,
 ) -> Message:
     try:
-        return _call(kind, amount, headers)
+        return _call(kind, amount, headers, name)
     except rospy.ServiceException as error:
         context.fail(
             "a call with a session gets a response",
@@ -171,21 +246,25 @@ def _answer(
 
 def _why_refused(message: str, refused: str) -> str:
     if "returned None" in message:
-        return "The handler returned None. Return an AddUpResponse."
+        return "The handler returned None. Return an AddUpResponse in every case."
     if "_connection_header" in message or "attribute" in message:
         return (
-            "This attribute does not exist. The fields of the header are in the dict "
-            "request._connection_header."
+            "The handler uses an attribute that does not exist. The fields of the header are in the "
+            "dict request._connection_header."
         )
     if "error processing request: '" in message:
-        return "At the first call of a session, the dict has no entry for this session: start with 0."
+        return (
+            "At the first call of a session, the dict has no total for this session. Start with the total 0."
+        )
     if "cannot process request" in message:
         return refused
-    return "The handler raised this error. Read the error message, and correct the line that caused it."
+    return (
+        "The handler raised this error. Read the error message, and correct the line that caused the error."
+    )
 
 
-def _call(kind: ServiceClass, amount: int, headers: dict[str, str]) -> Message:
-    proxy = BoundedProxy(NAME, kind, headers=headers, timeout=TIMEOUT)
+def _call(kind: ServiceClass, amount: int, headers: dict[str, str], name: str = NAME) -> Message:
+    proxy = BoundedProxy(name, kind, headers=headers, timeout=TIMEOUT)
     try:
         return proxy.call(amount=amount)
     finally:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import sys
 import textwrap
 
 from course_pkg.chapters.ch11_look_inside.checks.clients import GEOMETRY
@@ -20,8 +21,14 @@ from course_pkg.waiting import wait_until
 
 # A float32 stores this fraction exactly, and the fraction has many decimals.
 BINARY = 65 / 512
+# On Linux, every address of 127.0.0.0/8 belongs to this computer. A client that always connects to localhost
+# does not reach a server at this address.
+OTHER_HOST = "127.0.0.2"
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
-NO_PROXY = "Do not use a proxy: connect a socket to the address, and send the bytes yourself."
+NO_PROXY = (
+    "The function calls the service with a proxy. Instead, connect a socket to the address, and send "
+    "the bytes."
+)
 WITHOUT_ROS = """
 import subprocess
 
@@ -47,16 +54,18 @@ def end():
         each.__code__ = code
 """  # During the check, a client of ROS or a program such as rosservice cannot call the service.
 AS_BYTES = matches(r"\bb['\"]")
-NO_HEADER = "The header has to start with its length, in 4 bytes. Use pack_header."
-NO_LENGTH = "The request has to start with its length, 12, in 4 bytes. The three numbers follow."
+NO_HEADER = (
+    "The header has to start with its length, in 4 bytes. Use `pack_header`, which writes this length."
+)
+NO_LENGTH = (
+    "The request has to start with its length, 12, in 4 bytes. Send the length before the three numbers."
+)
 MISTAKES = {
     "early request": (
-        "The request came before the server had sent its header. First receive the "
-        'header of the server, and check it for the field "error".'
+        "The request came before the server had sent its header. First receive the header of the "
+        'server, and check whether it contains the field "error".'
     ),
-    "nothing": (
-        "The function connected, but sent nothing. The client has to send its connection header first."
-    ),
+    "nothing": "The function connected, but sent nothing. First send the connection header of the client.",
     "big-endian header": NO_HEADER,
     "no length of the header": NO_HEADER,
     "short header": NO_HEADER,
@@ -64,41 +73,44 @@ MISTAKES = {
         "The header arrived, but no request followed. Send the request after you have "
         "read the header of the server."
     ),
-    "big-endian length": "The length of the request is big-endian. For little-endian numbers, use '<I'.",
+    "big-endian length": "The length of the request is big-endian. Use '<I' for little-endian numbers.",
     "no length of the request": NO_LENGTH,
     "a request of 24 bytes": (
-        "The request has 24 bytes, which are three float64. A float32 has 4 bytes: use "
-        "the format 'f' of struct, not 'd'."
+        "The request has 24 bytes, because it contains three float64. Use the format 'f' of struct, "
+        "not 'd': a float32 has 4 bytes."
     ),
     "a request of 16 bytes": NO_LENGTH,
     "short request": NO_LENGTH,
 }
 SLOWLY = (
-    "The bytes arrived one after the other. Use receive() for all bytes, including the first byte and the "
-    "lengths."
+    "The function fails if the bytes arrive one after the other. Call `receive()` for all bytes, "
+    "including the first byte and the lengths."
 )
-BYTES = "The error message is inside b'', so it is still a bytes object. Convert the bytes with decode()."
+BYTES = "The error message is a bytes object, not a string. Convert the bytes with decode()."
 OPEN = (
-    "The connection was still open after the call. Use the socket in a `with` block, which closes the socket."
+    "The connection was still open after the call. Use the socket in a `with` block, which closes "
+    "the socket at the end."
 )
 UNTIL_THE_END = (
-    "The function read until the server closed the connection. The 4 bytes of "
-    "length contain the number of bytes that follow: receive exactly this number."
+    "The function read until the server closed the connection. Read the length N first (4 bytes), "
+    "and then receive exactly N bytes."
 )
 IN_ORDER = (
-    "First read the whole header of the server. Then read one byte for success, 4 bytes for the length "
-    "N, and N bytes of data."
+    "The function read the response in a wrong order. After the server's header, read one byte for "
+    "success, 4 bytes for the length N, and N bytes of data."
 )
-ANSWERED = "Return the response, even if it arrives byte by byte."
+ANSWERED = "Return the response, even if its bytes arrive one after the other."
 
 
 @part(
     "11.3",
     points=4,
-    goal="Call a geometry service with only a socket; raise ServiceException if the server refuses.",
+    goal=(
+        "Call a geometry service with only a socket. Raise ServiceException if the server refuses the call."
+    ),
     needs=["ask"],
     deadline=40.0,
-    goals={ANSWERED: 3, "Raise ServiceException if the server refuses.": 1},
+    goals={ANSWERED: 3, "Raise ServiceException if the server refuses the call.": 1},
 )
 def call_over_a_socket(context: CheckContext) -> None:
     """Send the response in one piece or byte by byte; or refuse the connection or the request."""
@@ -138,7 +150,10 @@ def _wrong_numbers(area: float, volume: float) -> Hints:
         (None, NO_RETURN),
         (
             (lambda actual: isinstance(actual, dict)),
-            "This is a dict or a response. Return the two numbers as a tuple: (area, volume).",
+            (
+                "The function returned a dict or a response. Return the two numbers as a tuple: (area, "
+                "volume)."
+            ),
         ),
         (
             (
@@ -146,20 +161,22 @@ def _wrong_numbers(area: float, volume: float) -> Hints:
                     abs(one - other) < 0.1 for one, other in zip(actual, (area, volume), strict=True)
                 )
             ),
-            "The numbers are rounded. Return the numbers that arrived, without a change.",
+            "The returned numbers are rounded. Return the received numbers without a change.",
         ),
         (
             [volume, area],
-            "The order is wrong: return the area first, and then the volume, as in the definition.",
+            "The order of the numbers is wrong. Return the area first, and then the volume.",
         ),
         (
             (lambda actual: isinstance(actual[0], int)),
-            "These are bytes. Convert the bytes into numbers with struct.unpack.",
+            "The function returned bytes. Convert the bytes into numbers with struct.unpack.",
         ),
         (
             ANYTHING,
-            "After the byte for success, read 4 bytes of length, and then area and volume "
-            "with the format '<2f'.",
+            (
+                "The returned numbers are wrong. After the byte for success, read 4 bytes for the "
+                "length, and unpack area and volume with '<2f'."
+            ),
         ),
     ]
 
@@ -168,7 +185,8 @@ def _answers(context: CheckContext, *, slowly: bool) -> None:
     name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
     sides = context.random.numbers(3, 0.5, 9.0)
     area, volume = (number + BINARY for number in context.random.integers(2, 10, 90))
-    with TcprosServer(kind, (area, volume), slowly=slowly) as server:
+    host = OTHER_HOST if slowly and sys.platform == "linux" else "localhost"
+    with TcprosServer(kind, (area, volume), slowly=slowly, host=host) as server:
         result = context.run(
             "ask", server.uri, name, *sides, within=10.0 if slowly else 5.0, hints=_errors(slowly)
         )
@@ -179,7 +197,10 @@ def _answers(context: CheckContext, *, slowly: bool) -> None:
         expected=sides,
         actual=conversation.sides,
         near=1e-6,
-        hints="Send the three sides as float32, in the order of the definition: struct.pack('<3f', …).",
+        hints=(
+            "The request is wrong. Send the three sides as float32, in the order of the definition: "
+            "struct.pack('<3f', …)."
+        ),
     )
     context.expect(
         "area and volume are returned" + (", even if the bytes arrive slowly" if slowly else ""),
@@ -207,8 +228,10 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
             (lambda _: "only a socket may connect" in result.error, NO_PROXY),
             (
                 ANYTHING,
-                "Connect to the host and the port in the argument `uri`, rosrpc://HOST:PORT. "
-                "Convert the port into a number.",
+                (
+                    "The function connected to a wrong address. Use the host and the port (as an int) "
+                    "in the argument `uri`, which has the form rosrpc://HOST:PORT."
+                ),
             ),
         ],
     )
@@ -227,11 +250,16 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
 WRONG_MD5: Hints = [
     (
         "*",
-        'The value "*" matches every definition, even a definition with other fields. Send the MD5 sum '
-        "of your type.",
+        ('The value "*" matches every definition, even a wrong definition. Send the MD5 sum of your type.'),
     ),
-    ("none", "The field `md5sum` is missing. The server needs this field to compare the definitions."),
-    (ANYTHING, "This is the MD5 sum of another type, or only of the request: use geometry._md5sum."),
+    (
+        "none",
+        (
+            "The field `md5sum` is missing in the header. Add this field, because the server compares it "
+            "with the MD5 sum of its own type."
+        ),
+    ),
+    (ANYTHING, "The MD5 sum is not the sum of the whole service type. Use geometry._md5sum."),
 ]
 
 
@@ -248,8 +276,8 @@ def _sends_the_header(context: CheckContext, conversation: Conversation, name: s
         expected=name,
         actual=conversation.header.get("service", "none"),
         hints=(
-            "One port serves all services of a node, so the field `service` has to contain "
-            "the name of the service."
+            "The field `service` is wrong. Set it to the name of the service, because one port can "
+            "serve several services."
         ),
     )
     context.require(
@@ -257,7 +285,10 @@ def _sends_the_header(context: CheckContext, conversation: Conversation, name: s
         holds=bool(conversation.header.get("callerid")),
         expected="a field callerid",
         actual=", ".join(conversation.header),
-        hints="The field `callerid` is missing. Set it to the name of the client, such as node.name.",
+        hints=(
+            "The field `callerid` is missing in the header. Set this field to the name of the client, "
+            "such as node.name."
+        ),
     )
 
 
@@ -267,11 +298,11 @@ def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: 
     with TcprosServer(kind, (0.0, 0.0), refusal=message, in_handshake=in_handshake) as server:
         result = context.run("ask", server.uri, name, *context.random.numbers(3, 0.5, 9.0), within=3.0)
     hint = (
-        'The header of the server had a field "error". Check for this field before you send the request.'
+        ('The server\'s header contains the field "error". Check for this field before you send the request.')
         if in_handshake
         else (
-            "The byte for success was 0, so an error message follows instead of a response. Read this "
-            "message, and raise a ServiceException with it."
+            "The byte for success was 0, so an error message follows. Read this message, and raise "
+            "a ServiceException with the same message."
         )
     )
     server_text = (
@@ -283,10 +314,16 @@ def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: 
         "ServiceException",
         saying=reason,
         hints=[
-            (matches("^ServiceException"), f"Put the error message of the server into the exception. {hint}"),
+            (
+                matches("^ServiceException"),
+                f"The exception does not contain the error message of the server. {hint}",
+            ),
             (
                 matches(f"^(?!TimesUp).*{reason}"),
-                "The message is right, but the exception has to be a rospy.ServiceException.",
+                (
+                    "The error message is right, but the exception has the wrong type. Raise a "
+                    "rospy.ServiceException."
+                ),
             ),
             (ANYTHING, hint),
         ],

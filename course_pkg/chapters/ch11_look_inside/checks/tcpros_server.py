@@ -57,16 +57,18 @@ class TcprosServer:
         refusal: str = "",
         in_handshake: bool = False,
         slowly: bool = False,
+        host: str = "localhost",
     ) -> None:
         self.conversations: list[Conversation] = []
         self._kind, self._numbers = kind, numbers
         self._refusal, self._in_handshake, self._slowly = refusal, in_handshake, slowly
-        self._listener = socket.create_server(("127.0.0.1", 0))
+        self._host = host
+        self._listener = socket.create_server((host, 0))
 
     @property
     def uri(self) -> str:
         """The address of the service, in the same format as the master's response."""
-        return f"rosrpc://localhost:{self._listener.getsockname()[1]}"
+        return f"rosrpc://{self._host}:{self._listener.getsockname()[1]}"
 
     def __enter__(self) -> TcprosServer:
         threading.Thread(target=self._accept, daemon=True).start()

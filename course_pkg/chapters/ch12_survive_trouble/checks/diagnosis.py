@@ -16,33 +16,38 @@ RIGHT = {
     "G": "two providers",
 }
 DECISIVE = {
-    "A": "the master has an address for the name, but no process accepts connections at this address.",
-    "B": "open connections to the server work; only the lookup of the name fails.",
-    "C": "no service of this node responds, not even get_loggers.",
+    "A": "The master has an address for the name, but no process accepts connections at this address.",
+    "B": "Connections that are already open still work. Only the lookup of the name fails.",
+    "C": "No service of this node responds, not even get_loggers.",
     "D": (
-        "get_loggers responds, so the process runs. The two services without a response wait for the "
-        "same object."
+        "The service get_loggers responds, so the process runs. The two services without a response "
+        "wait for the same object."
     ),
-    "E": "two handlers read the same number at the same time, but no call failed.",
-    "F": "the server did the work of the first try; only the response was lost.",
-    "G": "both servers work, but the master stores only the newest provider of a name.",
+    "E": "Two handlers read the same number at the same time, but no call failed.",
+    "F": "The server did the work of the first try, but its response was lost.",
+    "G": "Both servers work, but the master stores only the newest provider of a name.",
 }
 ENTRIES = {
-    "killed": "A killed server accepts no connections.",
-    "new master": "A new master does not know any provider, so each lookup fails.",
-    "frozen": "In a frozen process, no service responds.",
-    "lock": "If a handler holds a lock during a call, other clients have to wait.",
-    "race": "A race makes the data wrong, but no client has to wait.",
-    "repeated": "A repeated request does the same work twice.",
-    "two providers": "If a service has two providers, only one of them gets all calls, and it responds.",
+    "killed": 'The diagnosis "killed" means that the server accepts no connections.',
+    "new master": 'The diagnosis "new master" means that the master knows no provider, so each lookup fails.',
+    "frozen": 'The diagnosis "frozen" means that no service of the process responds.',
+    "lock": (
+        'The diagnosis "lock" means that a handler holds a lock during a call, so other clients have to wait.'
+    ),
+    "race": 'The diagnosis "race" means that the data is wrong, but no client has to wait.',
+    "repeated": 'The diagnosis "repeated" means that the server did the same work twice.',
+    "two providers": (
+        'The diagnosis "two providers" means that two servers offer one service, and only one server '
+        "gets calls."
+    ),
 }
 CASES = Cases(
     RIGHT,
     DECISIVE,
     ENTRIES,
-    missing="A case is missing. Give a cause for each letter from A to G.",
-    keys="The keys are the letters A to G, as strings with capital letters.",
-    spelling="Copy the names from the list of causes, letter by letter.",
+    missing="The answer for a case is missing. Give a cause for each letter from A to G.",
+    keys="The keys of the dict are wrong. Use the letters A to G, as strings with capital letters.",
+    spelling="A cause has a wrong name. Copy the names from the list of causes, letter by letter.",
     entry="diagnosis",
     listed="the causes",
 )

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from course_pkg.chapters.ch12_survive_trouble.checks.payments import DEADLINE, GIVEN_UP, UNKNOWN, pay
-from course_pkg.checking import CheckContext, HangUp, matches
+from course_pkg.checking import CheckContext, HangUp, Late, matches
 from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
+TRY = 0.5  # TRY is the time limit in s for one attempt.
 PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
 # In the fastest payment, the first pause and a new connection may take at most this many s.
 FIRST = 1.8 * PAUSE
@@ -16,18 +17,19 @@ AT_END = 0.9
 ENDED = 1.3  # The fastest of these payments may take at most this many s.
 AT_WORK = 0.5  # A client must make attempts for at least this many s.
 GONE = (
-    "The till has no server, but pay() waits for it without a time limit. Use the "
+    "The till has no server, but pay() waits for this service without a time limit. Use the "
     "remaining time as the limit of each wait."
 )
 STOPPED = (
-    "pay() ended before the deadline. The argument `deadline` is a time in seconds: "
-    "try again until this time is over."
+    "pay() ended before the deadline. Try again until the time in the argument `deadline` (in "
+    "seconds) is over."
 )
 LONG_PAUSE = (
-    "The first pause is too long. It has to be 0.1 s: double the pause after the sleep, not before it."
+    "The first pause is too long, because it has to be 0.1 s. Double the pause after the sleep, not "
+    "before it."
 )
 OVERSLEPT = (
-    "The last pause ended after the deadline. Sleep at most for the time that remains until the deadline."
+    "The last pause ended after the deadline. Sleep no longer than the time that remains until the deadline."
 )
 
 
@@ -48,6 +50,26 @@ def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) ->
         expected=f"{PAUSE:g} s after the first try",
         actual=f"{min(pauses):.2f} s",
         hints=LONG_PAUSE,
+    )
+
+
+def pauses_after_a_timeout(context: CheckContext, name: str, till: FaultyServer) -> None:
+    """Let one attempt reach its limit, and measure the pause after it; the longest pause counts."""
+    pauses = []
+    for _ in range(PAYMENTS):
+        before = len(till.arrivals)
+        till.plan.append(Fault(Late(1.5 * TRY, {}), worked=True))
+        pay(context, name, context.random.integer(100, 900), DEADLINE).returned()
+        first, second, *_ = till.arrivals[before:]
+        pauses.append(second - first - TRY)
+        if pauses[-1] > PAUSE / 2:
+            break
+    context.require(
+        "there is a pause before the next try",
+        holds=max(pauses) > PAUSE / 2,
+        expected=f"{PAUSE:g} s after the first try",
+        actual=f"{max(pauses):.2f} s",
+        hints="There was no pause after a TimeoutError. Sleep after every failed try.",
     )
 
 

@@ -16,21 +16,26 @@ DEADLINE = 6.0  # In cases where the client succeeds, the deadline comes after t
 ERRORS = [
     (
         matches("TimesUp"),
-        "pay() waits forever for a till that does not respond, because a proxy has no "
-        "time limit. Use call_within() for each try.",
+        (
+            "pay() waits forever if the till does not respond, because a proxy has no time limit. Use "
+            "`call_within()` for each try."
+        ),
     ),
     (
         matches("^TimeoutError"),
-        "A try took too long, and its TimeoutError ended pay(). Catch TimeoutError, and try again.",
+        "One try took too long, and its TimeoutError ended pay(). Catch TimeoutError, and try again.",
     ),
     (
         matches("^ServiceException"),
-        "One failed try ended pay(). Catch rospy.ServiceException, and try again unless it is a refusal.",
+        (
+            "One failed try ended pay(). Catch rospy.ServiceException, and try again if the error is "
+            "not a refusal."
+        ),
     ),
 ]
 UNKNOWN = (
-    "At the deadline, pay() does not know whether the till has already taken the money. Return None, and "
-    "do not raise an error."
+    "At the deadline, it is not known whether the till has taken the money. Return None in this "
+    "case, and do not raise an error."
 )
 GIVEN_UP = [(matches("^TimeoutError|^ServiceException"), UNKNOWN), *ERRORS]
 
@@ -82,7 +87,7 @@ def pays_after(
         expected="one request_id",
         actual=f"{len(ids)} different ids",
         hints=(
-            "The tries of one payment had different ids, so the till charges each try. "
+            "The tries of one payment had different ids, so the till takes the money for each try. "
             "Create the id once, before the first try."
         ),
     )
@@ -106,6 +111,6 @@ def _why_given_up(words: str, took: float, tries: int) -> str:
             "to the remaining time if this is less."
         )
     return (
-        f"{begin}The till worked again before the deadline, but pay() had given up. Try "
-        "again until the deadline."
+        f"{begin}The till worked again before the deadline, but pay() had already ended. Try again "
+        "until the deadline."
     )

@@ -15,38 +15,44 @@ RIGHT = {
     "step": "look first",
 }
 DECISIVE = {
-    "refused": "The server has refused the request. The next try would get the same refusal.",
-    "not started": "The call did not reach a server, but the server will run in a few seconds.",
-    "md5": "The two programs were built with different definitions. Another try does not change this.",
-    "speed": "The request sets a state. The second request has the same effect as the first one.",
-    "payment": "Perhaps the till has already taken the money, but it recognises a repeated request.",
+    "refused": "The server has refused the request. Another try gets the same refusal.",
+    "not started": "No server got the call, but the server will run in a few seconds.",
+    "md5": (
+        "The two programs were built with different definitions. Another try does not change the definitions."
+    ),
+    "speed": "The request sets a state. A second request has the same effect as the first one.",
+    "payment": "Perhaps the till has already taken the money. The till recognises a repeated request.",
     "step": (
-        "Perhaps the robot has already moved, and a second request would move the robot again. A call of "
-        "/where does not move the robot."
+        "Perhaps the robot has already moved, and a second request moves it again. A call of /where "
+        "does not move the robot."
     ),
 }
 ENTRIES = {
-    "report": 'The policy "report" leaves the work undone, although another try could do the work.',
+    "report": 'With the policy "report", the client does not try again, although another try can succeed.',
     "wait for the service": 'The policy "wait for the service" helps only if no server is registered.',
     "try again": (
-        'The policy "try again" fits only if a second execution does no harm, and if another try can succeed.'
+        'The policy "try again" is right only if another try can succeed, and if it does no harm '
+        "to do the work twice."
     ),
     "same id": (
-        'The policy "same id" helps only if the request has a field for an id, and if '
-        "the server remembers the ids."
+        'The policy "same id" helps only if the request has a field for an id, and if the server '
+        "stores the ids."
     ),
     "look first": (
-        'The policy "look first" is needed only if a repetition would do harm, and if '
-        "the client can read the state."
+        'The policy "look first" is right only if a repetition does harm, and if the client can '
+        "read the state."
     ),
 }
 CASES = Cases(
     RIGHT,
     DECISIVE,
     ENTRIES,
-    missing="A situation is missing. Give a policy for each row of the table.",
-    keys="The keys are the six names in the first column of the table, letter by letter.",
-    spelling="Copy the names of the policies from the list, letter by letter.",
+    missing="The answer for a situation is missing. Give a policy for each row of the table.",
+    keys=(
+        "The keys of the dict are wrong. Use the six names in the first column of the table, letter by "
+        "letter."
+    ),
+    spelling="A policy has a wrong name. Copy the names of the policies from the list, letter by letter.",
     entry="policy",
     case="situation",
     label="the situation {}",

@@ -43,48 +43,47 @@ checked_desk = CheckedDesk()
 """
 )
 AGAIN = (
-    "The same request was charged twice. Store the receipt under its request_id, "
-    "and check for a stored receipt before you take money."
+    "The till charged the same request twice. Store the receipt under its request_id, and look for "
+    "a stored receipt before you take money."
 )
 RACE = (
-    "The same request came five times at the same time and was charged more than "
-    "once. Hold one lock while you check for a receipt, take the money and store "
-    "the receipt."
+    "The same request came five times at the same time, and the till charged it more than once. "
+    "Hold one lock while you check for a receipt, take the money and store the receipt."
 )
 TOO_SOON = (
-    "A request failed and was repeated, but nothing was charged. Store the request_id after `take()` has "
-    "returned, not before."
+    "A request failed and was repeated, but the till did not charge it. Store the request_id only "
+    "after `take()` has returned."
 )
-REFUSED = (
-    "A repeated request was refused. The client did not get the first response, so send the same "
-    "receipt again."
+REFUSED = "The till refused a repeated request. The first response was lost, so send the same receipt again."
+ONLY_TAKE = (
+    "Your code uses a method that a purse does not have. Use only take(cents), and count the receipts "
+    "in your own class."
 )
-ONLY_TAKE = "A purse has only one method, take(cents). Count the receipts in an attribute of your own class."
-SAME_NUMBER = (
-    "Two requests got the same receipt number. Count the receipts under the lock, so that each number is "
-    "given only once."
-)
+SAME_NUMBER = "Two requests got the same receipt number. Hold the lock while you count the receipts."
 ANOTHER_TILL = (
-    "A second Till treated a new request as a repetition, because it uses the "
-    "receipts of the first Till. Create the dict in __init__, and store it in self."
+    "A second Till uses the receipts of the first Till, so it treated a new request as a "
+    "repetition. Create the dict in __init__, and store it in self."
 )
 NOTHING = "The handler returned None. Return a ChargeResponse in every case."
 STUCK = (
-    "After an error of the purse, no client gets a response, because the lock was "
-    "not released. Use `with self.lock:`, which also releases the lock after an "
-    "error."
+    "After an error of the purse, no client gets a response, because the lock was not released. Use "
+    "`with self.lock:`, which releases the lock after an error."
 )
-CHARGED = "Charge a new request, and send the same receipt when it comes again."
-FAILED = "Charge again after the purse has failed, and refuse a request without an id."
+CHARGED = "Charge a new request. If the same request comes again, send the same receipt."
+FAILED = "Charge again after the purse has failed. Refuse a request without an id."
 
 
 @part(
     "12.2",
     points=2,
-    goal="Charge each request only once, even if it comes again, and send the same receipt each time.",
+    goal=("Charge each request only once, even if the request comes again. Send the same receipt each time."),
     needs=["Till"],
     deadline=60.0,
-    goals={CHARGED: 2, FAILED: 1, "Charge only once when 50 requests come at the same time.": 1},
+    goals={
+        CHARGED: 2,
+        FAILED: 1,
+        "Charge each request only once, even if 50 calls come at the same time.": 1,
+    },
 )
 def charge_once(context: CheckContext) -> None:
     """Send new and repeated requests; let the purse fail; send a request without an id.
@@ -162,11 +161,19 @@ def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
 
 
 ANOTHER_RECEIPT: Hints = [
-    (0, "The receipt is 0, the default of the field. Store the first receipt, and send it again."),
+    (
+        0,
+        (
+            "The receipt is 0, which is the default of the field. Store the first receipt, and send it for "
+            "each repetition."
+        ),
+    ),
     (
         ANYTHING,
-        "The repetition got a different receipt. Store the first receipt under the request_id, and send "
-        "this receipt again.",
+        (
+            "The repeated request got a different receipt. Store the first receipt under the "
+            "request_id, and send it for each repetition."
+        ),
     ),
 ]
 
@@ -174,14 +181,15 @@ ANOTHER_RECEIPT: Hints = [
 def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Service) -> tuple[str, int]:
     """Send new requests and repeat them; return the id and the receipt of a charged request."""
     cents = context.random.integer(100, 900)
-    first, second = context.random.word(12), context.random.word(12)
+    first = context.random.word(12)
+    second = first.upper()  # Ids are equal only if all letters are equal.
     receipt = charge(request_id=first, cents=cents).receipt
     _purse_has(
         context,
         purse,
         "a new request is charged",
         [cents],
-        [([], "No money was taken. Call self.purse.take() with the cents of the request.")],
+        [([], "The till did not take money. Call self.purse.take() with the cents of the request.")],
     )
     other = charge(request_id=second, cents=cents).receipt
     _purse_has(
@@ -190,8 +198,8 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
         "another request is charged, even if the amount is the same",
         [cents, cents],
         _only_one(
-            "Two customers may pay the same amount. Only the request_id shows whether a request "
-            "is a repetition."
+            "Two customers may pay the same amount. Compare only the request_id to find out whether "
+            "a request is a repetition."
         ),
     )
     context.require(
@@ -200,8 +208,8 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
         expected="two receipts",
         actual=f"{receipt} twice",
         hints=(
-            "Two purchases got the same receipt. Give each purchase a new number: count the "
-            "receipts, for example."
+            "Two purchases got the same receipt. Give each purchase a new number, for example the "
+            "number of receipts so far."
         ),
     )
     for again, before in ((first, receipt), (second, other), (first, receipt)):
@@ -229,8 +237,8 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
         request_id=request_id,
         cents=cents,
         hints=(
-            "The purse raised an error, but the client got a receipt. Remove the code that catches the "
-            "error: rospy then sends the error to the client."
+            "The purse raised an error, but the client got a receipt. Do not catch this error, "
+            "because rospy sends it to the client."
         ),
     )
     charge(request_id=request_id, cents=cents)
@@ -271,8 +279,10 @@ NOT_REFUSED: Hints = [
     ),
     (
         ANYTHING,
-        "A request with an empty id got a receipt. Raise rospy.ServiceException, "
-        "because the till cannot recognise a repetition of this request.",
+        (
+            "A request with an empty id got a receipt. Raise rospy.ServiceException, because the till "
+            "cannot recognise a repetition without an id."
+        ),
     ),
 ]
 

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 from course_pkg.chapters.ch12_survive_trouble.checks.payment_times import (
     ends_without_a_till,
+    pauses_after_a_timeout,
     pauses_for_a_moment,
 )
 from course_pkg.chapters.ch12_survive_trouble.checks.payments import (
@@ -52,12 +53,11 @@ REPEATED = "Pay exactly once at a till that fails and recovers."
     "12.3",
     points=4,
     goal=(
-        "Pay exactly once before a deadline, even if calls of the till fail in the "
-        "meantime; do not repeat a refused payment."
+        "Pay exactly once before a deadline, even if calls of the till fail. Do not repeat a refused payment."
     ),
     needs=["pay"],
     deadline=60.0,
-    goals={PAID: 1, REPEATED: 2, "Limit each try, let the pauses grow, and keep the deadline.": 1},
+    goals={PAID: 1, REPEATED: 2, "Limit each try, make each pause longer, and keep the deadline.": 1},
 )
 def a_robust_client(context: CheckContext) -> None:
     """Pay at a till that works, refuses, fails and recovers, or never responds."""
@@ -79,12 +79,16 @@ def a_robust_client(context: CheckContext) -> None:
     _gives_up(context, name, till)
     _keeps_the_deadline(context, name, till)
     pauses_for_a_moment(context, name, till)
+    pauses_after_a_timeout(context, name, till)
     ends_without_a_till(context)
 
 
 NO_RECEIPT: Hints = [
     (None, "The till sent a receipt, but pay() returned None. Return the receipt."),
-    ((lambda actual: isinstance(actual, dict)), "This is the whole response. Return its field `receipt`."),
+    (
+        (lambda actual: isinstance(actual, dict)),
+        "pay() returned the whole response. Return only its field `receipt`.",
+    ),
 ]
 
 
@@ -127,7 +131,7 @@ def _is_a_new_payment(
         holds=bool(request["request_id"]),
         expected="a request_id",
         actual="an empty id",
-        hints="The field request_id is empty. Create an id for each payment with uuid.uuid4().",
+        hints="The field `request_id` is empty. Create an id for each payment with uuid.uuid4().",
     )
     context.require(
         "each payment has a different id",
@@ -135,8 +139,8 @@ def _is_a_new_payment(
         expected="a new id",
         actual="the id of the previous payment",
         hints=(
-            "Two payments had the same id, so the till treated the second payment as a "
-            "repetition. Create a new id in each call of pay()."
+            "Two payments had the same id, so the till did not charge the second payment. Create a "
+            "new id in each call of pay()."
         ),
     )
 
@@ -151,9 +155,8 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
         expected=1,
         actual=len(till.requests) - before,
         hints=(
-            'The till refused, but pay() called the till again. An error with "cannot '
-            'process request" and without "handler returned" is a refusal: raise this error '
-            "again."
+            "The till refused the payment, but pay() called the till again. If an error contains "
+            '"cannot process request" but not "handler returned", raise this error again.'
         ),
     )
     result.raised(
@@ -161,11 +164,19 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
         "ServiceException",
         saying=reason,
         hints=[
-            (None, "The till refused, but pay() did not raise an error. Raise the ServiceException again."),
+            (
+                None,
+                (
+                    "The till refused the payment, but pay() did not raise an error. Raise the "
+                    "ServiceException again."
+                ),
+            ),
             (
                 ANYTHING,
-                "pay() raised a different error. To raise the same ServiceException again, write `raise` "
-                "without anything after it.",
+                (
+                    "pay() raised a different error. Raise the same ServiceException again: write "
+                    "`raise` without an argument."
+                ),
             ),
         ],
     )
@@ -193,8 +204,8 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
         expected="the receipt, after another try",
         actual=result.error,
         hints=(
-            'The error contains "handler returned", so it is possible that the handler has done its '
-            "work. Do not treat this error as a refusal: try again."
+            'An error with "handler returned" is not a refusal, because the handler has perhaps '
+            "done its work. Try again after this error."
         ),
     )
 
@@ -209,7 +220,7 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
         holds=tries > 1,
         expected=f"a try that ends after {TRY:g} s, and another try",
         actual="one try that waited longer",
-        hints=f"A try took longer than {TRY:g} s. Pass this limit to call_within().",
+        hints=f"A try took longer than {TRY:g} s. Pass this limit to `call_within()`.",
     )
     before = len(till.requests)
     till.plan.append(Fault(Late(A_LITTLE, {}), worked=True))
@@ -221,8 +232,8 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
         expected=f"one request to a till that takes {A_LITTLE:g} s",
         actual=f"{tries} requests within {result.took:.1f} s",
         hints=(
-            f"A try had less than {TRY:g} s, so pay() called the till again while the till was "
-            f"still working. Give each try {TRY:g} s."
+            f"A try had a limit below {TRY:g} s, so pay() called the till again too early. Give "
+            f"each try {TRY:g} s."
         ),
     )
 
@@ -239,14 +250,19 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         holds=min(pauses) > 0.9 * PAUSE,
         expected=f"{PAUSE:g} s or more",
         actual=f"{min(pauses):.3f} s",
-        hints="There was no pause, or the pause was too short. Sleep for 0.1 s after the first failed try.",
+        hints=(
+            "The pause after the first failed try was missing or too short. Sleep for 0.1 s after this try."
+        ),
     )
     context.require(
         "each pause is longer than the previous pause",
         holds=pauses[2] > 3.5 * PAUSE,
         expected=f"{4 * PAUSE:g} s before the fourth try",
         actual=f"{pauses[2]:.2f} s",
-        hints="The pause did not grow enough. After each failed try, make the pause at least twice as long.",
+        hints=(
+            "The pauses do not grow fast enough. After each failed try, make the next pause at least "
+            "twice as long."
+        ),
     )
     # The pauses grow slowly, so MOST failing attempts fit before the deadline.
     if pauses[2] < 8 * PAUSE:
@@ -269,7 +285,7 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
         expected=f"an end after {SHORT:g} s or slightly more",
         actual=f"an end after {result.took:.1f} s",
         hints=(
-            "pay() continued after the deadline. Check the remaining time before each try "
+            "pay() was still running after the deadline. Check the remaining time before each try "
             "and before each pause."
         ),
     )
@@ -302,7 +318,7 @@ def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) ->
         expected=None,
         actual=returned[-1],
         hints=(
-            "The deadline was 0.05 s, but pay() waited 0.3 s for the till. A try must not "
-            "take longer than the remaining time."
+            "The deadline was 0.05 s, but pay() waited 0.3 s for the till. Do not let a try take "
+            "longer than the remaining time."
         ),
     )

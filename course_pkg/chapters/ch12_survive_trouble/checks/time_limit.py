@@ -35,18 +35,21 @@ class CheckedCall:
 
 checked_call = CheckedCall()
 """
-BUSY = 0.8  # A thread that waits without a pause uses more than this CPU time (s) within LONG s.
+BUSY = 0.2  # A thread that waits without a pause uses more than this CPU time (s) within LONG s.
 ERRORS = [
     (
         matches("TimesUp"),
-        "The function did not return when its time was over, because it still waits for the thread. "
-        "Check join(), and also check the `with` block of a thread pool: at its end, this block waits "
-        "for all threads.",
+        (
+            "The function did not return in time, because it still waits for the thread. Pass a timeout "
+            "to join(), and do not use a thread pool in a `with` block."
+        ),
     ),
     (
         matches("^TimeoutError"),
-        "The response came in time, but the function raised TimeoutError. Wait until "
-        "the thread has ended or the time is over.",
+        (
+            "The response came in time, but the function raised TimeoutError. Wait until the thread "
+            "ends or the time is over."
+        ),
     ),
     (
         matches("no attribute 'sum'"),
@@ -137,14 +140,16 @@ def _responds(context: CheckContext, name: str, adder: Adder) -> None:
         actual=result.returned(),
         hints=[
             (None, NO_RETURN),
-            (ANYTHING, "The response belongs to another request. Pass *values to the proxy."),
+            (ANYTHING, "The response belongs to a different request. Pass *values to the proxy."),
         ],
     )
     context.expect(
         "the service is called once",
         expected=1,
         actual=adder.requests - before,
-        hints="The function called the service more than once. Make only one call, in the thread.",
+        hints=(
+            "The function called the service more than once. Make only one call, and make it in the thread."
+        ),
     )
     context.require(
         "the response is returned as soon as it arrives",
@@ -152,8 +157,8 @@ def _responds(context: CheckContext, name: str, adder: Adder) -> None:
         expected="an immediate return",
         actual=f"a return after {result.took:.1f} s",
         hints=(
-            "The function still waited after the response had arrived. Do not sleep for the "
-            "whole time: join(seconds) returns when the thread has ended."
+            "The function still waited after the response had arrived. Replace the sleep by "
+            "join(seconds), which returns as soon as the thread has ended."
         ),
     )
 
@@ -167,18 +172,24 @@ def _passes_on(context: CheckContext, name: str, act: Act) -> None:
         hints=[
             (
                 matches("^TimeoutError"),
-                "The call raised rospy.ServiceException, but the function raised TimeoutError. "
-                "Catch and store the error in the thread, and raise it after join().",
+                (
+                    "The call raised rospy.ServiceException, but the function raised TimeoutError. "
+                    "Catch the error in the thread, store it, and raise it after join()."
+                ),
             ),
             (
                 matches("^(IndexError|UnboundLocalError|NameError|AttributeError|KeyError)"),
-                "The call ended with an error, so there is no response. Catch and store the "
-                "error in the thread, and raise it after join().",
+                (
+                    "The call failed, so there is no response. Catch the error in the thread, store it, "
+                    "and raise it after join()."
+                ),
             ),
             (
                 None,
-                "The call raised rospy.ServiceException, but the function returned None. Raise "
-                "this error again.",
+                (
+                    "The call raised rospy.ServiceException, but the function returned None. Raise the "
+                    "same error in the function."
+                ),
             ),
             (
                 ANYTHING,
@@ -197,7 +208,13 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         hints=[
             (None, "The time was over, but the function returned None. Raise TimeoutError."),
             (matches("^TimesUp"), ERRORS[0][1]),
-            (ANYTHING, "If the thread is still alive after the time, raise TimeoutError and nothing else."),
+            (
+                ANYTHING,
+                (
+                    "The function did not raise TimeoutError. Raise this error if the thread is still alive "
+                    "when the time is over."
+                ),
+            ),
         ],
     )
     context.require(
@@ -205,14 +222,14 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         holds=limit - 0.1 < result.took < limit + SLACK,
         expected=f"TimeoutError after {limit:g} s",
         actual=f"after {result.took:.1f} s",
-        hints="The function did not wait for `seconds`. Pass `seconds` to join().",
+        hints="The function did not wait for the given time. Pass `seconds` to join().",
     )
     context.require(
         "the time limit is kept",
         holds=context.read("checked_call.daemon", bool),
         expected="a daemon thread that still waits",
         actual="a thread that is not a daemon thread",
-        hints="At the end of a program, Python waits for this thread. Create the thread with daemon=True.",
+        hints="Python waits for this thread at the end of a program. Create the thread with daemon=True.",
     )
     context.require(
         "the time limit is kept",
@@ -220,7 +237,7 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         expected="almost no processor time",
         actual=f"{context.read('checked_call.busy', float):.1f} s of processor time in {limit:g} s",
         hints=(
-            "The function needs processor time while it waits. Use join(seconds), which waits without "
+            "The function uses the processor while it waits. Use join(seconds), which waits without "
             "processor time."
         ),
     )

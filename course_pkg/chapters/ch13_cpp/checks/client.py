@@ -22,8 +22,8 @@ NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 LIMIT = 5.0  # LIMIT is the time in s after which the check stops the program.
 
 MILLISECONDS = (
-    "The program waited only a few milliseconds, because ros::service::waitForService reads a plain "
-    "number as milliseconds. Write ros::Duration(2) for seconds."
+    "The program waited only a few milliseconds, because waitForService reads a plain number as "
+    "milliseconds. Write ros::Duration(2) for 2 seconds."
 )
 START = f"""%%writefile {FILE}
 #include <course_pkg/geometry.h>
@@ -42,15 +42,15 @@ int main(int argc, char** argv) {{
   return 0;
 }}
 """
-REPEATS = "Call the service at most 3 times, with pauses, and end with exit status 1 after the last refusal."
+REPEATS = "Call the service at most 3 times, with pauses. End with exit status 1 after the last refusal."
 
 
 @part(
     "13.3",
     points=3,
     goal=(
-        "Change patient_client.cpp: wait at most 2 s for the service, call at most 3 "
-        "times, and print the volume or end with the exit status 1."
+        "Change patient_client.cpp: wait at most 2 s for the service, and call it at most 3 times. "
+        "Print the volume, or end with exit status 1."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
@@ -86,8 +86,8 @@ def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
         expected=1,
         actual=len(server.requests),
         hints=(
-            "The server sent a response, but the program called the server again: leave the "
-            "loop when call() returns true."
+            "The server sent a response, but the program called the server again. Leave the loop "
+            "when call() returns true."
         ),
     )
     shapes = {NUMBER.sub("#", line) for line in _lines(finished.out) if volume in _numbers(line)}
@@ -107,7 +107,7 @@ def _prints_a_volume_of_0(context: CheckContext, folder: Folder) -> None:
         _run(folder, name, sides),
         0.0,
         "if the server responds, the volume is printed",
-        "A response with the volume 0 is also a valid response. Test the return value of call().",
+        "A response with the volume 0 is valid. Test the return value of call(), not the volume.",
     )
 
 
@@ -137,7 +137,7 @@ def _pauses_between_calls(context: CheckContext, *runs: list[float]) -> None:
             expected="a short pause after each refusal",
             actual=f"the next call after {1000 * shortest:.1f} ms",
             hint=(
-                "A call immediately after a refusal is probably refused, too. Add "
+                "The server probably also refuses a call immediately after a refusal. Add "
                 "ros::WallDuration(0.2).sleep() between two calls."
             ),
         )
@@ -146,12 +146,12 @@ def _pauses_between_calls(context: CheckContext, *runs: list[float]) -> None:
 def _why_not_third(finished: Finished, count: int) -> str:
     if count == 1 and finished.status == 0:
         return (
-            "call() returned false, but the program printed the empty response. Check the "
-            "return value of call()."
+            "call() returned false, but the program printed an empty response. Test the return "
+            "value of call() before you print the volume."
         )
     return (
-        "Repeat the call while call() returns false, with at most three calls in total. "
-        "Then print the volume, and end with exit status 0."
+        "The server refused the first two calls, but it responds to the third call. While call() "
+        "returns false, repeat the call, with at most three calls in total."
     )
 
 
@@ -174,15 +174,15 @@ def _gives_up_after_refusals(context: CheckContext, folder: Folder, shapes: set[
 
 def _why_not_one(finished: Finished, count: int) -> str:
     if finished.status is None:
-        return "The program does not stop calling. Count the calls, and stop after the third call."
+        return "The program calls the service without end. Count the calls, and stop after the third call."
     if count != TRIES:
-        return f"The number of calls was {count}, but it has to be 3. The first call is also counted."
+        return f"The program made {count} calls, but it has to make 3. Also count the first call."
     if finished.status == 0:
-        return (
-            "No call got a response. Return 1 in this case, so that a script that starts "
-            "the client notices the failure."
-        )
-    return "Without a response, there is no volume: return 1 before the line that prints the volume."
+        return "No call got a response, but the exit status is wrong. In this case, return 1 from main."
+    return (
+        "The program printed a volume, although it got no response. Return 1 before the line that "
+        "prints the volume."
+    )
 
 
 def _waits_for_a_late_server(context: CheckContext, folder: Folder) -> None:
@@ -199,7 +199,8 @@ def _waits_for_a_late_server(context: CheckContext, folder: Folder) -> None:
         MILLISECONDS
         if re.search(r"waitForService\([^;]*,\s*\d{1,3}\s*\)", context.source(f"file:{FILE}"))
         else (
-            "The program did not wait. Write client.waitForExistence(ros::Duration(2)) before the first call."
+            "The program did not wait for the service. Write "
+            "client.waitForExistence(ros::Duration(2)) before the first call."
         ),
     )
 
@@ -215,14 +216,17 @@ def _gives_up_without_a_server(context: CheckContext, folder: Folder, shapes: se
         expected="exit status 1 after about 2 s",
         actual=_outcome(finished, 0),
         hints=(
-            "The program waits without a limit: write waitForExistence(ros::Duration(2))."
+            "The program waits without a limit. Write waitForExistence(ros::Duration(2))."
             if finished.status is None
             else (
-                f"The program waited too long, {finished.took:.1f} s: write "
+                f"The program waited too long, {finished.took:.1f} s. Write "
                 "waitForExistence(ros::Duration(2))."
             )
             if finished.took > WAIT + SLACK
-            else "When the time is over, waitForExistence returns false. Return 1 in this case."
+            else (
+                "When the time is over, waitForExistence returns false. Test its return value, and "
+                "return 1 from main if it is false."
+            )
         ),
     )
 
@@ -287,10 +291,13 @@ def _prints(context: CheckContext, finished: Finished, volume: float, assertion:
 def _why_not_printed(finished: Finished, numbers: list[float]) -> str:
     if finished.status == 0 and numbers:
         return (
-            "The server sent a different volume: print box.response.volume, and do not compute the "
-            "volume yourself."
+            "The server sent a different volume. Print box.response.volume, and do not calculate "
+            "the volume in the client."
         )
-    return "Print box.response.volume to std::cout, and return 0."
+    return (
+        "The program does not print the volume, or it ends with a wrong exit status. Print "
+        "box.response.volume to std::cout, and return 0."
+    )
 
 
 def _outcome(finished: Finished, calls: int = -1) -> str:

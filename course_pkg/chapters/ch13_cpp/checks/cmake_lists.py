@@ -16,7 +16,7 @@ from course_pkg.workspace.cmake_messages import cmake_commands
 FILE = f"{PACKAGE}/CMakeLists.txt"
 BUILDING = 75.0  # The build may take this many s; it takes 4 s on an idle machine.
 NO_ROSCPP = (
-    "catkin_LIBRARIES contains only the libraries of the packages in "
+    "The variable catkin_LIBRARIES contains only the libraries of the packages in "
     "find_package(catkin … COMPONENTS …). Add roscpp to this list."
 )
 RULE = "catkin_make builds the package"
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
 @part(
     "13.1",
     points=2,
-    goal="Repair CMakeLists.txt, so that catkin_make builds the program box_server from src/box_server.cpp.",
+    goal="Repair CMakeLists.txt: catkin_make has to build the program box_server from src/box_server.cpp.",
     needs=[f"file:{FILE}"],
     deadline=90.0,
     start=START,
@@ -91,8 +91,7 @@ def cmake_list_file(context: CheckContext) -> None:
             expected=f"a program that prints {drawn}",
             actual=printed,
             hint=(
-                "The program was not built from src/box_server.cpp. Write the name of this file into "
-                "add_executable."
+                "The program was not built from src/box_server.cpp. Write this file name into add_executable."
             ),
         )
 
@@ -103,7 +102,9 @@ def _builds(context: CheckContext, finished: Finished) -> None:
         return
     printed = f"{finished.out}\n{finished.err}"
     last = " / ".join([line for line in printed.strip().splitlines() if line.strip()][-3:])
-    fault = explain(printed) or Fault("catkin_make failed", f"Read the end of its output: {last}.")
+    fault = explain(printed) or Fault(
+        "catkin_make failed", f"Read the end of the output of catkin_make: {last}."
+    )
     if not fault.file.endswith("CMakeLists.txt"):  # The check's own program has no mistake.
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
         if _lacks_roscpp(context.source(f"file:{FILE}")):
@@ -128,17 +129,17 @@ def _why_not_there(text: str) -> str:
     found = {command.name: command for command in cmake_commands(text) if not command.is_comment}
     if "add_executable" not in found:
         return (
-            "The command add_executable is missing, so CMake builds no program. Add this command with "
-            "the name of the program and the file src/box_server.cpp."
+            "The command add_executable is missing, so CMake builds no program. Add this command "
+            "with the program's name and the file src/box_server.cpp."
         )
     if "catkin_package" not in found:
         return (
-            "The command catkin_package is missing, which sets the folder for programs. "
-            "Write it below find_package."
+            "The command catkin_package is missing. Write this command below find_package, because "
+            "it sets the folder for programs."
         )
     if found["catkin_package"].line > found["add_executable"].line:
         return (
-            "The command catkin_package sets the folder for programs, so it has to come first. Move this "
-            "command above add_executable."
+            "The command catkin_package is in the wrong place. Move it above add_executable, "
+            "because it sets the folder for programs."
         )
-    return "The first word in add_executable is the name of the program. It has to be box_server."
+    return "The program has the wrong name. The first word in add_executable has to be box_server."

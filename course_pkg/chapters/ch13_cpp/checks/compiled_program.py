@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import re
-import shlex
 import time
 
 from course_pkg.checking import CheckContext
 from course_pkg.checking.commands.folder import Folder, Running
-from course_pkg.checking.shared.roscpp_program import require_roscpp
-from course_pkg.errors import CheckError, ToolMissing
+from course_pkg.checking.shared.roscpp_program import compile_roscpp
+from course_pkg.errors import ToolMissing
 from course_pkg.waiting import at_this_load
-from course_pkg.workspace import Fault, explain, missing_for_cpp
-from course_pkg.workspace.cpp_support import compile_command
+from course_pkg.workspace import missing_for_cpp
 
 PACKAGE = "src/cpp_boxes"
 BOX = "course_pkg/geometry"
@@ -44,23 +42,7 @@ def compiled(context: CheckContext, file: str) -> Folder:
     """Compile the student's `file` to ./program in a new folder; assert that the compilation succeeds."""
     require_tools()
     folder = context.folder(files=[file])
-    line = f"{LIMITS}; exec {shlex.join(compile_command(file, 'program'))}"
-    finished = folder.command("bash", "-c", line, within=COMPILING, worded=f"the compiler, at {file}")
-    if finished.status is None:
-        raise CheckError(
-            f"The compiler had not finished after {finished.took:.0f} s: the machine is "
-            "busy. Run this cell again."
-        )
-    if finished.status != 0:
-        fault = explain(finished.err + finished.out) or Fault("the compiler ended without a message", "")
-        context.fail(
-            "the compiler accepts the file",
-            expected="a program",
-            actual=f"line {fault.line}: {fault.problem}" if fault.line else fault.problem,
-            hint=fault.remedy,
-        )
-    context.require("the compiler accepts the file", holds=True)
-    require_roscpp(context, folder, "program")
+    compile_roscpp(context, folder, file, "program", limits=LIMITS, within=COMPILING)
     return folder
 
 
@@ -108,19 +90,19 @@ def _does_not_serve(context: CheckContext, running: Running, assertion: str, cod
 def _why_not(status: int | None, code: str) -> str:
     if _drops_the_service(code):
         return (
-            "The service ends when the object that advertiseService returns is deleted. "
-            "Store the object in a variable: ros::ServiceServer server = …"
+            "The service ends, because the object that advertiseService returns is deleted. Store "
+            "this object in a variable: ros::ServiceServer server = …"
         )
     if status is None:
         return (
-            "The node does not offer a service of this name. Compare the name with the "
+            "The node does not offer a service with the right name. Compare the name with the "
             "exercise, and create the NodeHandle without an argument."
         )
     if status < 0 or status > 100:
         return "The program crashed. Call ros::init before you create the first NodeHandle."
     if "Spinner" in code:
         return (
-            "The function main ends although a spinner was started: call ros::waitForShutdown() at the "
-            "end of main."
+            "The program ends, because main ends after the spinner was started. Call "
+            "ros::waitForShutdown() at the end of main."
         )
-    return "The function main ended, so the service ended, too. Call ros::spin() at the end of main."
+    return "The program ends, so its service also ends. Call ros::spin() at the end of main."

@@ -54,30 +54,29 @@ int main(int argc, char** argv) {{
 }}
 """
 ONE_THREAD = (
-    "ros::spin() executes one callback after the other. Use an AsyncSpinner or a "
-    "MultiThreadedSpinner, which use several threads."
+    "ros::spin() executes only one callback at a time. Use an AsyncSpinner or a "
+    "MultiThreadedSpinner, because they use several threads."
 )
 TOO_FEW = (
-    "Each of the six calls needs a thread: create the spinner with at least six "
-    "threads. (0 or no number means one thread for each processor core.)"
+    "The spinner has too few threads. Create it with at least six threads, one for each call (0 "
+    "means one thread for each processor core)."
 )
 LOCKED_TOO_LONG = (
-    "The handler holds the lock during think(), so the other calls wait. Hold the "
-    "lock only while you read and write `served`."
+    "The handler holds the lock during think(), so the other calls have to wait. Hold the lock only "
+    "while you read and write `served`."
 )
-NOT_STARTED = "The AsyncSpinner executes no callbacks, because it was not started: call its method start()."
+NOT_STARTED = "The AsyncSpinner executes no callbacks, because it was not started. Call its method start()."
 NOT_ATOMIC = (
-    "An atomic variable makes each single access safe, but two threads can still "
-    "read the same number before one of them writes. Hold a mutex from the read to "
-    "the write."
+    "Two threads can read the same number before one of them writes, even if the variable is "
+    "atomic. Hold a mutex from the read to the write."
 )
 NO_LOCK = (
-    "Two threads read the same number, and both add 1 to it. Hold a mutex from the "
-    "read to the write: std::lock_guard<std::mutex> lock(mutex);"
+    "Two threads read the same number, and both threads add 1 to it. Hold a mutex from the read to "
+    "the write: std::lock_guard<std::mutex> lock(mutex);"
 )
 LET_GO = (
-    "No lock is held between the read and the write, so two threads read the same "
-    "number. Create a lock_guard with a name before the read."
+    "The lock is not held between the read and the write, so two threads read the same number. "
+    "Create a lock_guard with a name before the read."
 )
 OWN_LOCK = (
     "Each call creates its own mutex, so no call waits for another call. Move the mutex out of the function."
@@ -87,9 +86,7 @@ OWN_LOCK = (
 @part(
     "13.4",
     points=3,
-    goal=(
-        "Change number_server.cpp so that it handles six clients at the same time and counts them correctly."
-    ),
+    goal=("Change number_server.cpp: handle six clients at the same time, and count the clients correctly."),
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
@@ -103,7 +100,9 @@ def number_server(context: CheckContext) -> None:
     with started(context, folder, "number", name) as running:
         serves(context, running, "number", name, code)
         quiet = (
-            NOT_STARTED if "Spinner" in code else "No spinner executes the callbacks: ros::spin() is missing."
+            NOT_STARTED
+            if "Spinner" in code
+            else "No spinner executes the callbacks. Call ros::spin(), or start another spinner."
         )
         number = context.service(name, "std_srvs/Trigger", hints=[(matches("TimesUp"), quiet)], timeout=4.0)
         alone = _number(number().message)
@@ -112,7 +111,7 @@ def number_server(context: CheckContext) -> None:
             "the first client gets number 1",
             expected=1,
             actual=alone,
-            hints=[(-1, "The message has to be only the number: std::to_string(count()).")],
+            hints=[(-1, "The message contains more than the number. Return only std::to_string(count()).")],
         )
         _handles_calls_in_parallel(context, number, code)
 
@@ -132,8 +131,8 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
         if took >= THINKING + COUNTING
         else f"{took:.2f} s for a client",
         hints=(
-            "think() and count() replace real work, so do not change the times in these functions. Use "
-            "several threads, so that the calls overlap."
+            "The functions think() and count() replace real work, so do not change their times. Use "
+            "several threads, so that the calls run at the same time."
         ),
     )
 
@@ -158,6 +157,7 @@ def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str
             hints=_why_lost(code),
         )
         ends = sorted(reply.took for reply in replies)
+        _still_thinks(context, code, ends[0])
         took.append(ends[-1])
         gaps.append(max(after - before for before, after in itertools.pairwise(ends)))
         return gaps[-1] < APART

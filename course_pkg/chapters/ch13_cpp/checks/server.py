@@ -37,15 +37,16 @@ int main(int argc, char** argv) {{
 """
 SIDES = ("length", "width", "height")
 NO_FRACTION = (
-    "The part after the decimal point is missing, because an int contains only "
-    "whole numbers. Use float or auto."
+    "The digits after the decimal point are missing, because an int contains only whole numbers. "
+    "Use float or auto."
 )
 ZERO_IS_ALLOWED = (
-    "A side was 0, but 0 is allowed because it is not below 0. Do not refuse the call; return a volume of 0."
+    "A side was 0, but the handler refused the call. Refuse only a side below 0, and return the "
+    "volume 0 for a side of 0."
 )
 RETURNED_FALSE = (
-    "The handler returned false for a good request, so the client gets an error. Return true after the "
-    "response is filled."
+    "The handler returned false for a valid request, so the client got an error. Return true after "
+    "you have set the fields of the response."
 )
 
 
@@ -53,7 +54,7 @@ RETURNED_FALSE = (
     "13.2",
     points=3,
     goal=(
-        "Repair box_server.cpp, so that its service `box` returns the area and the volume, and refuses a "
+        "Repair box_server.cpp: its service `box` returns the area and the volume, and refuses a "
         "side below 0."
     ),
     needs=[f"file:{FILE}"],
@@ -82,7 +83,7 @@ def box_server(context: CheckContext) -> None:
 
 def _wrong_area(length: float, width: float) -> Hints:
     return [
-        (0.0, "The area is 0: set response.area."),
+        (0.0, "The area is 0. Set response.area."),
         (
             float(int(length * width)),
             NO_FRACTION,
@@ -92,10 +93,10 @@ def _wrong_area(length: float, width: float) -> Hints:
 
 def _wrong_volume(area: float, height: float) -> Hints:
     return [
-        (0.0, "The volume is 0: set response.volume."),
+        (0.0, "The volume is 0. Set response.volume."),
         (float(int(area * height)), NO_FRACTION),
         (int(area) * height, NO_FRACTION),
-        (ANYTHING, "The volume is wrong: multiply the area by the height."),
+        (ANYTHING, "The volume is wrong. Multiply the area by the height."),
     ]
 
 
@@ -132,11 +133,17 @@ def _refuses(context: CheckContext, box: Service, wrong: list[str]) -> None:
         hints=[
             (
                 matches("TimesUp|transport"),
-                "The program has ended or does not respond. To refuse a call, only return false.",
+                (
+                    "The program has ended, or it does not respond. To refuse a call, only return false "
+                    "from the handler."
+                ),
             ),
             (
                 re.compile(""),
-                f"The server sent a response, but {below} was below 0. Return false in this case.",
+                (
+                    f"The server sent a response, but {below} was below 0. Refuse such a request: "
+                    "return false."
+                ),
             ),
         ],
         **sides,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
-
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import (
     MANIFEST,
     TurtleProgram,
@@ -11,16 +9,14 @@ from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import (
 )
 from course_pkg.checking import CheckContext
 from course_pkg.checking.shared.catkin_package import BuiltPackage, Package
-from course_pkg.checking.shared.roscpp_program import require_roscpp
-from course_pkg.errors import CheckError, ToolMissing
-from course_pkg.workspace import Fault, explain, missing_for_cpp
-from course_pkg.workspace.cpp_support import compile_command
+from course_pkg.checking.shared.roscpp_program import compile_roscpp
+from course_pkg.errors import ToolMissing
+from course_pkg.workspace import missing_for_cpp
 
 NAME = "my_turtles_cpp"
 # The compilation may use this CPU time in s and write files of this size in KiB; one file takes 4 s.
 LIMITS = "ulimit -t 40 -f 100000"
 COMPILING = 90.0  # The compilation may take this many s; it takes 4 s on an idle machine.
-COMPILES = "the compiler accepts the file"
 
 
 def cpp(name: str) -> TurtleProgram:
@@ -34,23 +30,6 @@ def _compiled(context: CheckContext, program: TurtleProgram) -> BuiltPackage:
     if missing := missing_for_cpp():
         raise ToolMissing(missing)
     copy = runnable_copy(context, program.package, [program.path])
-    command = compile_command(program.path, program.package.path(program.command))
-    done = copy.folder.command(
-        "bash", "-c", f"{LIMITS}; exec {shlex.join(command)}", within=COMPILING, worded="the compiler"
-    )
-    if done.status is None:
-        raise CheckError(
-            f"The compiler had not finished after {done.took:.0f} s: the machine is busy. "
-            "Run this cell again."
-        )
-    if done.status != 0:
-        fault = explain(done.err + done.out) or Fault("the compiler ended without a message", "")
-        context.fail(
-            COMPILES,
-            expected="a program",
-            actual=f"line {fault.line}: {fault.problem}" if fault.line else fault.problem,
-            hint=fault.remedy,
-        )
-    context.require(COMPILES, holds=True)
-    require_roscpp(context, copy.folder, program.package.path(program.command))
+    path = program.package.path(program.command)
+    compile_roscpp(context, copy.folder, program.path, path, limits=LIMITS, within=COMPILING)
     return copy

@@ -16,9 +16,8 @@ SERVICES = ("battery", "report")
 FEW, MANY = 3, 8  # The check uses these numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
-    "The handler of /report waits for /battery, but no thread is left for the "
-    "handler of /battery. Make sure that a free thread can execute the handler of "
-    "/battery."
+    "The handler of /report waits for /battery, but no free thread can execute the handler of "
+    "/battery. Use more threads, or a separate queue for /battery."
 )
 
 START = """%%writefile {path}
@@ -60,8 +59,8 @@ int main(int argc, char** argv) {{
     "14.7",
     points=2,
     goal=(
-        "Change main of report_threads.cpp: use a spinner with enough threads for 3 "
-        "clients that call /report at the same time."
+        "Change main of report_threads.cpp: use a spinner with enough threads for 3 clients that "
+        "call /report at the same time."
     ),
     needs=[f"file:{THREADS.path}"],
     deadline=150.0,
@@ -74,14 +73,19 @@ def more_threads(context: CheckContext) -> None:
         THREADS,
         r"MultiThreadedSpinner|AsyncSpinner",
         "the program has a spinner with several threads",
-        "Use a MultiThreadedSpinner or an AsyncSpinner instead of ros::spin().",
+        (
+            "The program uses a spinner with only one thread. Use a MultiThreadedSpinner or an "
+            "AsyncSpinner instead of ros::spin()."
+        ),
     )
     _reports(
         context,
         THREADS,
         FEW,
-        "One call works, but three calls at the same time do not end. Each call of /report uses one "
-        "thread, so use at least one further thread for /battery.",
+        (
+            "One call works, but three calls at the same time do not end. Each call of /report needs "
+            "one thread, so add one more thread for /battery."
+        ),
     )
 
 
@@ -89,8 +93,8 @@ def more_threads(context: CheckContext) -> None:
     "14.8",
     points=3,
     goal=(
-        "Change main of report_queue.cpp: give /battery its own callback queue, so that "
-        "8 clients can call /report at the same time."
+        "Change main of report_queue.cpp: give /battery its own callback queue, so that 8 clients "
+        "can call /report at the same time."
     ),
     needs=[f"file:{QUEUE.path}"],
     deadline=150.0,
@@ -103,14 +107,19 @@ def own_queue(context: CheckContext) -> None:
         QUEUE,
         r"CallbackQueue\s+\w+",
         "the program creates another callback queue",
-        "Create a ros::CallbackQueue, and pass it to setCallbackQueue of a second NodeHandle.",
+        (
+            "The program uses only one callback queue. Create a ros::CallbackQueue, and pass it to "
+            "setCallbackQueue of a second NodeHandle."
+        ),
     )
     _reports(
         context,
         QUEUE,
         MANY,
-        "One call works, but eight calls at the same time do not end. Put only /battery into the new "
-        "queue, and give this queue its own thread.",
+        (
+            "One call works, but eight calls at the same time do not end. Put only /battery into the "
+            "new queue, and execute this queue in its own thread."
+        ),
     )
 
 
@@ -128,7 +137,7 @@ def _uses(context: CheckContext, program: TurtleProgram, pattern: str, assertion
         holds=bool(re.search(r"\bcall\s*\(\s*\w", code)) and "handleReport" in code,
         expected="a call of the service",
         actual="none",
-        hints="Do not change the two handlers. Change only main.",
+        hints="The handlers were changed. Use the original two handlers, and change only main.",
     )
 
 
@@ -153,8 +162,10 @@ def _why(hangs: str) -> list[tuple[re.Pattern[str], str]]:
         (matches("TimesUp"), hangs),
         (
             matches("responded with an error"),
-            "The handler returned false, because its call of /battery failed. Compare the "
-            'service name of the ServiceClient with "battery".',
+            (
+                "The handler of /report returned false, because its call of /battery failed. Check that "
+                'the ServiceClient has the service name "battery".'
+            ),
         ),
     ]
 
@@ -167,9 +178,11 @@ def _answers(context: CheckContext, report: Service, level: int) -> None:
         hints=[
             (
                 "battery: 80",
-                "The level has to come from the parameter ~level. Keep the line with "
-                "ros::param::param in main.",
+                (
+                    "The level in the message is wrong. Read it from the parameter ~level: keep the "
+                    "line with ros::param::param in main."
+                ),
             ),
-            (ANYTHING, 'The message has to be the word "battery", a colon, a space and the level.'),
+            (ANYTHING, 'The message is wrong. Write the word "battery", a colon, a space and the level.'),
         ],
     )

@@ -22,8 +22,8 @@ COUNTED = "Count the calls of each session separately."
     "14.9",
     points=3,
     goal=(
-        "Write session_counter.cpp: /count returns the number of calls in the session "
-        "that the connection header contains."
+        "Write session_counter.cpp: /count returns the number of calls in the session that the "
+        "connection header contains."
     ),
     needs=[f"file:{PROGRAM.path}"],
     deadline=150.0,
@@ -46,8 +46,8 @@ def count_sessions(context: CheckContext) -> None:
         service.refused(
             'a call without the field "session" is refused',
             hints=(
-                'The header had no field "session", but the call got a count. First look for '
-                "the field with find()."
+                'The header had no field "session", but the response contains a count. Test with '
+                "find() whether the header has this field."
             ),
         )
         counts[first] += 1
@@ -69,23 +69,30 @@ def _counts(
         hints=[
             (
                 lambda _: bool(caller),
-                "Another node can continue a session. Choose the count only by the value of the field "
-                '"session".',
+                (
+                    'The handler uses the node\'s name. Use only the value of the field "session", '
+                    "because another node can continue a session."
+                ),
             ),
             (
                 str(sum(counts.values())),
-                "This is the number of all calls. Store a separate count for each session.",
+                ("The response contains the number of all calls. Store a separate count for each session."),
             ),
             ("1", "The count starts again in each call. Create the map outside the handler."),
             (
                 str(counts[session] - 1),
-                "This is the number of calls before this call. Increase the count first.",
+                (
+                    "The response contains the number of calls before this call. Increase the count "
+                    "before you write the response."
+                ),
             ),
-            ("", "The message is empty. Set it to the number, with std::to_string."),
+            ("", "The message is empty. Set the message to the count, converted with std::to_string."),
             (
                 ANYTHING,
-                'The header of the call had the field "session", but the response was not the number of '
-                "calls in this session. Read the field from the connection header.",
+                (
+                    "The response does not contain the number of calls in the session. Read the session "
+                    "from the connection header, and count its calls."
+                ),
             ),
         ],
     )

@@ -27,61 +27,74 @@ REFUSED = 55.0  # The service refuses a call with this value of `patience` (s).
 LOGGED = matches(r"^(\x1b\[[\d;]*m)*\[|warn")
 
 LATE = (
-    "The service started 1 s after the program, but the program had already ended. "
-    "Wait for the service with rospy.wait_for_service(name, timeout=3)."
+    "The service started 1 s after the program, but the program had already ended. Wait for the "
+    "service with rospy.wait_for_service(name, timeout=3)."
 )
 PARAMETER = (
-    'The field `patience` has to be the private parameter "~wait" of the node: use '
+    'The field `patience` has a wrong value. Read the private parameter "~wait" of the node: '
     'rospy.get_param("~wait", 2.0).'
 )
 DEFAULT = (
-    "Without a parameter, the field `patience` has to be 2 s: the second argument of rospy.get_param is "
-    "the default."
+    "Without a parameter, the field `patience` has to be 2 s. The second argument of "
+    "rospy.get_param is this default value."
 )
 ONCE = "The program called the service more than once. Make only one call, and print its result."
-NEVER = "The program did not call the service. Call detect_customer, without a slash, after rospy.init_node."
+NEVER = (
+    "The program did not call the service. After rospy.init_node, call detect_customer; write the name "
+    "without a slash."
+)
 NO_END = (
-    "The program called the service, but it did not end. Remove rospy.spin(), "
-    "because the program has nothing else to do."
+    "The program called the service, but the program did not end. Remove rospy.spin(), because the "
+    "program has nothing else to do."
 )
 SILENT = 'The program printed nothing. Print one line: "customer" or "nobody".'
 FIELD = (
-    'found was False, but the program printed "customer". In an if statement, a '
-    "response object always counts as true: test its field `found`."
+    '`found` was False, but the program printed "customer". Test the field `found`: in an if '
+    "statement, a response object always counts as true."
 )
-OTHER_LINE = 'The line has to contain only the word "customer" or only the word "nobody".'
-MORE_LINES = "The program printed other lines, too. Print only one line, because another program may read it."
-STATUS_0 = '"nobody" is also a valid result, so the exit status has to be 0: remove the call of sys.exit.'
+OTHER_LINE = 'The program printed a wrong line. Print only the word "customer" or only the word "nobody".'
+MORE_LINES = (
+    "The program printed more than one line. Print only one line, because another program may read the "
+    "output."
+)
+STATUS_0 = '"nobody" is a valid result, so the exit status has to be 0. In this case, do not call sys.exit.'
 CATCH_REFUSAL = (
-    "A refused call raises rospy.ServiceException. Catch this error, and end with sys.exit(str(error))."
+    "A refused call raises rospy.ServiceException. Catch this error, and end the program with "
+    "sys.exit(str(error))."
 )
 NO_REASON = (
-    "The output does not contain the reason for the failure: print the text of the rospy.ServiceException."
+    "The output does not contain the reason for the failure. Print the text of the rospy.ServiceException."
 )
 STATUS_1 = (
-    "The call failed, so the exit status has to be 1: sys.exit(TEXT) prints the "
-    "text and ends with the exit status 1."
+    "The call failed, so the exit status has to be 1. Call sys.exit(TEXT), which prints the text "
+    "and sets this exit status."
 )
 FOREVER = (
-    "There was no service, but the program waited for more than 3 s: call "
+    "The service does not exist, and the program waited for more than 3 s. Call "
     "rospy.wait_for_service with a timeout."
 )
-CATCH_TIMEOUT = "After its timeout, rospy.wait_for_service raises rospy.ROSException: catch this error, too."
-NO_WORD = "There was no service, but the program ended without a message: print the reason before it ends."
-ASKED = "Wait for detect_customer, call it once, and print customer or nobody."
+CATCH_TIMEOUT = (
+    "After its timeout, rospy.wait_for_service raises rospy.ROSException. Catch this error and print a "
+    "message."
+)
+NO_WORD = (
+    "The service does not exist, and the program ended without a message. Print the reason before the "
+    "program ends."
+)
+ASKED = 'Wait for detect_customer, call it once, and print "customer" or "nobody".'
 
 
 @part(
     "15.4",
     points=2,
     goal=(
-        "Write ask_customer.py: it waits up to 3 s for detect_customer, calls it once, "
-        "prints customer or nobody, and ends."
+        "Write ask_customer.py: wait up to 3 s for detect_customer, call it once, and print "
+        '"customer" or "nobody".'
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
-    goals={ASKED: 3, "End with the right status after a refusal or without a service.": 1},
+    goals={ASKED: 3, "End with the right exit status after a refusal, or if the service does not exist.": 1},
 )
 def the_client(context: CheckContext) -> None:
     """Start the program before its service. The service responds, refuses, or does not exist."""

@@ -16,7 +16,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.student_node import Interface
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.common_hints import REFUSED_BY_HANDLER
-from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.peers.service_calls import Reply, Service
 
 NAME = "customer_detector"
 SEEN, DETECT = "customer_seen", "detect_customer"
@@ -29,49 +29,59 @@ EARLY = 0.1  # Because of rounding, a call may seem to end this many s too early
 CALLERS = 4
 
 NOT_SEEN = (
-    "In the newest message, a customer is there, but found is False in the response. Use the newest message."
+    "The newest message reports a customer, but `found` is False in the response. Use the newest message."
 )
 REMEMBERED = (
-    "In the newest message, no customer is there, but found is True in the "
-    "response. Use only the newest message."
+    "The newest message reports no customer, but `found` is True in the response. Use only the "
+    "newest message, and no older message."
 )
-NO_WAIT = "The response came too early, although no customer was there. Wait for request.patience seconds."
-TOO_LONG = "The response came too late: use request.patience as the limit of the wait."
+NO_WAIT = "The response came too early. If no customer is there, wait for request.patience seconds."
+TOO_LONG = "The response came too late. Use request.patience as the limit of the wait."
 ONE_BY_ONE = (
-    "While one call waited, another call got no response. Do not hold a lock while "
-    "the handler waits; Condition.wait_for releases its lock."
+    "One call had to wait for another call. Do not hold a lock while the handler waits "
+    "(Condition.wait_for releases its lock during the wait)."
 )
 NOT_WOKEN = (
-    "The customer came while several calls were waiting, but one of these calls responded too late. In "
-    "the callback, wake up all waiting calls with notify_all()."
+    "The customer came while several calls were waiting, but one of these calls responded too late. "
+    "In the callback, call notify_all() to wake up all waiting calls."
 )
-UNREFUSED = "The field `patience` has to be from 0 to 60 s: raise rospy.ServiceException for any other value."
-NAN = "Each comparison with nan (not a number) is False. Write `if not 0 <= request.patience <= 60`."
-NAMELESS = 'The error message has to contain the word "patience".'
-FIRST = "The handler waited before it refused: check request.patience at the beginning of the handler."
+UNREFUSED = (
+    "The handler accepted an impossible value of `patience`. Raise rospy.ServiceException if the "
+    "value is not from 0 to 60 s."
+)
+NAN = (
+    "The handler accepted nan (not a number), because each comparison with nan is False. Write `if not "
+    "0 <= request.patience <= 60`."
+)
+NAMELESS = 'The error message does not contain the word "patience". Write this word into the message.'
+FIRST = (
+    "The handler waited before it refused the call. Check request.patience at the beginning of the handler."
+)
 
 FAILED: Hints = [
     (
         REFUSED_BY_HANDLER,
-        "The handler refused a valid call. Accept each value of `patience` from 0 to 60 s while messages "
-        "arrive.",
+        (
+            "The handler refused a valid call. While messages arrive, accept each value of `patience` "
+            "from 0 to 60 s."
+        ),
     ),
     (matches("error processing"), BUG),
     (matches("TimesUp"), TOO_LONG),
 ]
-WAITED = "Wait for a customer, with a limit."
+WAITED = "Wait for a customer, but not longer than the limit."
 SEVERAL = "Respond to several callers at the same time."
-SILENT_CAMERA = "Refuse before the first message, and after 1 s without a message."
+SILENT_CAMERA = "Refuse a call before the first message, and after 1 s without a message."
 
 
 @part(
     "15.2",
     points=3,
-    goal="Write customer_detector.py: detect_customer waits for a customer, with a limit.",
+    goal="Write customer_detector.py: detect_customer waits for a customer, but not longer than a limit.",
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
-    goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible patience.": 1},
+    goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible value of `patience`.": 1},
 )
 def the_detector(context: CheckContext) -> None:
     """Publish on customer_seen; call with and without a customer; then make several simultaneous calls."""
@@ -101,7 +111,10 @@ def _finds(context: CheckContext, detect: Service, patience: float, hint: str, w
         holds=detect.took < within,
         expected="an immediate response",
         actual=f"a response after {detect.took:.1f} s",
-        hints="A customer was there before the call: check first, and wait only if no customer is there.",
+        hints=(
+            "A customer was there before the call, but the handler waited. Check first, and wait only "
+            "if no customer is there."
+        ),
     )
 
 
@@ -124,9 +137,7 @@ def _serves_several_callers(context: CheckContext, detect: Service, vision: Seen
     with ThreadPoolExecutor(1) as pool:
         began = time.monotonic()
         vision.show_later(LATER, True)
-        waiting: Future[list[float]] = pool.submit(
-            lambda: [each.took for each in detect.at_once([{"patience": LONG}] * CALLERS)]
-        )
+        waiting: Future[list[Reply]] = pool.submit(lambda: detect.at_once([{"patience": LONG}] * CALLERS))
         time.sleep(0.5)
         short = context.service(detect.name, AWAIT, timeout=LATER)
         response = short(patience=0.0)
@@ -137,13 +148,16 @@ def _serves_several_callers(context: CheckContext, detect: Service, vision: Seen
             actual="a response after the customer had come",
             hints=ONE_BY_ONE,
         )
-        took = waiting.result()
+        replies = waiting.result()
+    took = [each.took for each in replies]
     context.require(
         "all waiting calls get a response when the customer comes",
-        holds=min(took) > LATER - 2 * EARLY and max(took) < LATER + SLACK,
-        expected=f"{CALLERS} responses after {LATER:g} s",
+        holds=min(took) > LATER - 2 * EARLY
+        and max(took) < LATER + SLACK
+        and all(each.response.found for each in replies),
+        expected=f"{CALLERS} responses with found=True after {LATER:g} s",
         actual=f"responses after {min(took):.1f} to {max(took):.1f} s",
-        hints=NO_WAIT if min(took) < LATER - 2 * EARLY else NOT_WOKEN,
+        hints=NOT_WOKEN if max(took) >= LATER + SLACK else NO_WAIT,
     )
 
 
@@ -152,7 +166,7 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
     hasty = context.service(detect.name, AWAIT, timeout=3.0)
     for what, patience in (
         ("negative", -context.random.number(0.1, 5.0)),
-        ("above 60", context.random.number(60.5, 90.0)),
+        ("above 60", context.random.number(60.1, 60.9)),
         ("infinite", math.inf),
         ("nan", math.nan),
     ):
@@ -170,20 +184,24 @@ def _refuses_impossible_patience(context: CheckContext, detect: Service, vision:
         )
 
 
-SILENT = 'The error message has to contain the word "camera".'
-OLD = "The last message is older than 1 s, so do not use it: store the time at which each message arrives."
+SILENT = 'The error message does not contain the word "camera". Write this word into the message.'
+OLD = (
+    "The handler used a message that is older than 1 s. Store the time at which each message arrives, "
+    "and compare it with the current time."
+)
 NOBODY_KNOWS = (
-    "The camera sends no messages, so the node does not know whether a customer is there. After "
-    "request.patience seconds, raise rospy.ServiceException instead of returning found=False."
+    "Without messages from the camera, the node does not know whether a customer is there. After "
+    "request.patience seconds, raise rospy.ServiceException; do not return found=False."
 )
 TOO_SOON = (
-    "The node refused the call too early. A new message can still arrive, so wait for request.patience "
-    "seconds."
+    "The node refused the call too early. Wait for request.patience seconds, because a new message "
+    "can still arrive."
 )
-FRESH = "The last message was less than 1 s old, so it is valid. Use it."
+BEFORE = "A message that arrived before the call is valid, too. Compare its age with one second."
+FRESH = "The node did not use the last message. A message is valid if it is less than 1 s old."
 CAME_BACK = (
-    "The camera sent no messages for some time, but new messages came before the end of the call. Use "
-    "the newest message, even if it came after a pause."
+    "The camera stopped for some time, but new messages came before the end of the call. Use the "
+    "newest message, even if it came after a pause."
 )
 
 REFUSED_TOO_MUCH: Hints = [(matches("camera"), FRESH), *FAILED[1:]]
@@ -193,11 +211,13 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
 @part(
     "15.3",
     points=2,
-    goal="Extend customer_detector.py: without a message in the last second, detect_customer refuses.",
+    goal=(
+        "Extend customer_detector.py: detect_customer refuses a call if no message came in the last second."
+    ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
-    goals={SILENT_CAMERA: 3, "Notice when the camera stops or starts to send messages during a call.": 1},
+    goals={SILENT_CAMERA: 3, "During a call, notice when the camera stops or starts to send messages.": 1},
 )
 def the_silent_camera(context: CheckContext) -> None:
     """Call before the first message, shortly and long after the last message, and during new messages."""
@@ -217,6 +237,7 @@ def the_silent_camera(context: CheckContext) -> None:
         context.fulfilled(SILENT_CAMERA)
         vision.show(False)
         vision.customer = None
+        _counts_before_the_call(context, name, vision)
         _refuses(context, detect, 1.5, "if the camera becomes silent during the call, the node refuses")
         vision.show_later(0.5, False)
         response = detect(patience=1.0)
@@ -237,6 +258,15 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
     if vision.silent_for() > 1.0:  # The machine is too busy for this assertion.
         found = True
     context.expect("a message is valid for one second", expected=True, actual=found, hints=FRESH)
+
+
+def _counts_before_the_call(context: CheckContext, name: str, vision: SeenCustomers) -> None:
+    """Call once after the last message, which is still valid and contains no customer."""
+    if vision.silent_for() > 0.5:
+        return  # The machine is too busy for this assertion.
+    detect = context.service(name, AWAIT, timeout=LONG, hints=[(matches("camera"), BEFORE), *FAILED[1:]])
+    found = detect(patience=0.0).found
+    context.expect("a message is valid for one second", expected=False, actual=found, hints=REMEMBERED)
 
 
 def _refuses(context: CheckContext, detect: Service, patience: float, assertion: str) -> None:

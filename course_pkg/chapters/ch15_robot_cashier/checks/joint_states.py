@@ -12,6 +12,8 @@ JOINTS = "sensor_msgs/JointState"
 FIRST = 1000  # The first joint state has this stamp in s; each following stamp is 1 s later.
 COUNT = 24
 EFFORT = 7  # The joint state with this index has an infinite effort.
+FEW_EFFORTS = 9  # The joint state with this index has fewer efforts than names.
+EMPTY = 21  # The joint state with this index has no joints.
 
 
 @dataclass
@@ -75,7 +77,10 @@ def joint_states(context: CheckContext) -> list[JointState]:
     states[14].velocity = states[14].velocity[:2]
     states[17].velocity = [*states[17].velocity[:-1], math.inf]
     states[19].velocity = [*states[19].velocity, 0.5]
-    states[EFFORT].effort[0] = math.inf  # This joint state is valid.
+    # The following joint states are valid.
+    states[EFFORT].effort[0] = math.inf
+    states[FEW_EFFORTS].effort = states[FEW_EFFORTS].effort[:2]
+    states[EMPTY].name, states[EMPTY].position, states[EMPTY].velocity, states[EMPTY].effort = [], [], [], []
     return states
 
 

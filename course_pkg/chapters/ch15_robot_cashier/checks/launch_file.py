@@ -29,18 +29,20 @@ for node in config.nodes:
     for key, value in re.findall(r"(?<!\\S)_(\\w+):=(\\S+)", node.args or ""):
         print(f"{node.namespace}{node.name}/{key}: {value}")
 for parameter in config.params.values():
-    print(f"{parameter.key}: {parameter.value}")
+    print(f"{parameter.key}: {parameter.value!r}")
 """
 
-UNDECLARED = (
-    'An argument is not declared: write one <arg> tag for "wait" and another <arg> tag for "hardware".'
+UNDECLARED = 'An argument is not declared. Write an <arg> tag for "wait" and an <arg> tag for "hardware".'
+NO_XML = "The file is not valid XML. Close each tag, and write each value in quotes."
+FIXED = (
+    'An <arg> tag has the attribute "value", so a user cannot change the argument. Use the attribute '
+    '"default" instead.'
 )
-NO_XML = "The file is not valid XML: close each tag, and write each value in quotes."
-FIXED = 'The attribute "value" of an <arg> tag cannot be overridden. Use the attribute "default" instead.'
-REQUIRED = 'The file has to work without arguments: add the attribute "default" to each <arg> tag.'
+REQUIRED = 'The file does not work without arguments. Add the attribute "default" to each <arg> tag.'
 NO_BOOLEAN = 'The value of the attribute "if" has to be true or false. Write if="$(arg hardware)".'
 OTHER = (
-    "Type `roslaunch --nodes my_cashier cashier.launch` in the terminal, and read the output of this command."
+    "roslaunch cannot read the file. Type `roslaunch --nodes my_cashier cashier.launch` in the "
+    "terminal, and read the output of this command."
 )
 UNREADABLE: Hints = [
     (matches("Invalid roslaunch XML|not well-formed|mismatched"), NO_XML),
@@ -51,37 +53,42 @@ UNREADABLE: Hints = [
     (ANYTHING, OTHER),
 ]
 NO_HARDWARE = (
-    "With hardware:=false, the nodes counter_camera, robot and receipt_printer must "
-    'not start: put them into a <group> with the attribute "if".'
+    "With hardware:=false, counter_camera, robot and receipt_printer must not start. Put these "
+    'nodes into a <group> tag with the attribute "if".'
 )
 DEFAULT_HARDWARE = (
-    'Without an argument, the hardware has to start: write default="true", and use '
-    'the attribute "if", not "unless".'
+    'Without an argument, the hardware has to start. Write default="true", and use the attribute '
+    '"if", not "unless".'
 )
 PROGRAMS = (
-    'A node starts the wrong program. Check the attributes "pkg" and "type": each type has to be the '
-    "name of the node, with .py for the four nodes of my_cashier."
+    'A node starts the wrong program. Check the attributes "pkg" and "type" of each <node> tag. '
+    "In my_cashier, the type is the node's name with .py at its end."
 )
-NO_PARAMETER = 'The node robot_cashier needs a <param> tag with name="wait" and value="$(arg wait)".'
+NO_PARAMETER = (
+    'The node robot_cashier has no parameter "wait". Add a <param> tag with name="wait" and '
+    'value="$(arg wait)".'
+)
 PLACE = (
-    'The parameter "wait" does not belong to robot_cashier: write the <param> tag '
-    "inside the <node> tag of robot_cashier."
+    'The parameter "wait" does not belong to robot_cashier. Write the <param> tag inside the '
+    "<node> tag of robot_cashier."
 )
-DEFAULT_WAIT = 'Without an argument, the value of wait has to be 2 s: write default="2.0".'
+TEXT = 'The parameter is a text. Remove the attribute "type", so that roslaunch stores a number.'
+DEFAULT_WAIT = 'Without an argument, the value of "wait" has to be 2 s. Write default="2.0" in its <arg> tag.'
 NOT_PASSED = (
-    'The parameter has a fixed value. Write value="$(arg wait)", so that it gets the value of the argument.'
+    "The parameter always has the same value, even if the user passes another value. Write "
+    'value="$(arg wait)".'
 )
-LISTED = "Start all nodes, and those of the hardware only with hardware:=true."
+LISTED = "Start all nodes, but start the nodes of the hardware only with hardware:=true."
 
 
 @part(
     "15.10",
     points=2,
-    goal="Write cashier.launch: it starts the whole system, with the arguments wait and hardware.",
+    goal=('Write cashier.launch: it starts the whole system, and has the arguments "wait" and "hardware".'),
     needs=[f"file:{FILE}"],
     deadline=60.0,
     start=START,
-    goals=[LISTED, "Pass the argument wait to the nodes, and start the right programs."],
+    goals=[LISTED, 'Pass the argument "wait" to the node, and start the right programs.'],
 )
 def the_launch_file(context: CheckContext) -> None:
     """Compare the nodes, programs and parameters that roslaunch would start."""
@@ -131,7 +138,10 @@ def _lists(context: CheckContext, printed: str, given: str, wanted: Sequence[str
     missing_hint = (
         DEFAULT_HARDWARE
         if set(missing) == set(HARDWARE)
-        else f"{', '.join(missing)} is missing: compare the names of the nodes with the exercise."
+        else (
+            f"The file does not start {', '.join(missing)}. Compare the names of the nodes with the "
+            "names in the exercise."
+        )
     )
     context.require(
         "the file starts the nodes of the exercise",
@@ -147,7 +157,10 @@ def _lists(context: CheckContext, printed: str, given: str, wanted: Sequence[str
         actual=", ".join(sorted(nodes)),
         hints=NO_HARDWARE
         if set(others) <= set(HARDWARE)
-        else f"The exercise does not ask for a node {others[0]}: remove this node from the file.",
+        else (
+            f"The file starts a node {others[0]}, which is not in the exercise. Remove this node from "
+            "the file."
+        ),
     )
 
 
@@ -163,6 +176,7 @@ def _passes_the_argument(context: CheckContext, printed: str, wait: float, given
         hints=[
             (matches("no parameter"), NO_PARAMETER),
             (lambda _: not found, PLACE),
+            (matches("wait: '"), TEXT),
             (lambda _: not given, DEFAULT_WAIT),
             (ANYTHING, NOT_PASSED),
         ],
@@ -171,7 +185,7 @@ def _passes_the_argument(context: CheckContext, printed: str, wait: float, given
 
 def _number(text: str) -> float | None:
     try:
-        return float(text.strip().strip("'\""))
+        return float(text)
     except ValueError:
         return None
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import (
     EFFORT,
+    EMPTY,
+    FEW_EFFORTS,
     FIRST,
     JOINTS,
     JointState,
@@ -21,19 +23,25 @@ DETECT, RESET = "detect_customer", "till/reset"
 INTERFACE = Interface(publishes=[MIRRORED], subscribes=[ARM])
 PROMPT = 0.5  # PROMPT is the maximum time in s between a joint state and its mirror image on a busy machine.
 EVERY = 0.05  # EVERY is the time in s between two joint states.
-NOT_HEARD = "The topic joint_states has the type sensor_msgs/JointState: pass this type to rospy.Subscriber."
-NONE_CAME = "No mirror image came. Publish the mirror image of each valid joint state in the callback."
-OTHER_TIME = "The stamp of the image is not the stamp of its joint state: copy the header of the message."
-LATE = "The images come late. Publish each image in the callback, and do not wait or sleep there."
+NOT_HEARD = (
+    "The node does not subscribe to joint_states with the right type. Pass sensor_msgs/JointState to "
+    "rospy.Subscriber."
+)
+NONE_CAME = "No mirror image arrived. In the callback, publish the mirror image of each valid joint state."
+OTHER_TIME = (
+    "The stamp of an image is different from the stamp of its joint state. Copy the header of the message."
+)
+LATE = "The images arrive late. Publish each image in the callback, without a wait or a pause."
 ZEROS = (
-    "Zeros are valid positions, so the arm would move to them. Publish nothing for an invalid joint state."
+    "The node published zeros for an invalid joint state, so the arm would move to these positions. "
+    "Publish nothing in this case."
 )
 
 
 @part(
     "15.5",
     points=2,
-    goal="Write robot_cashier.py: it publishes the mirror image of each valid joint state.",
+    goal="Write robot_cashier.py: publish the mirror image of each valid joint state.",
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
@@ -114,18 +122,22 @@ def _why_invalid(state: JointState) -> tuple[str, str]:
     if state.misses_positions:
         return (
             f"an image of {len(state.position)} positions for {len(state.name)} joints",
-            "The numbers of names and positions are different: compare both lengths, and ignore a "
-            "message with different lengths.",
+            (
+                "The numbers of names and positions are different. Compare both lengths, and ignore a "
+                "message with different lengths."
+            ),
         )
     if state.misses_velocities:
         return (
             f"an image of {len(state.velocity)} velocities for {len(state.name)} joints",
-            "The number of velocities has to be 0 or equal to the number of names. Check this length, "
-            "too, and ignore a message with any other length.",
+            (
+                "The number of velocities has to be 0 or equal to the number of names. Ignore a "
+                "message with a different number of velocities."
+            ),
         )
     return (
         "an image of a number that is not finite",
-        "nan and inf are not valid positions or velocities: check each number with math.isfinite.",
+        ("A position or velocity was nan or inf, which is not valid. Check each number with math.isfinite."),
     )
 
 
@@ -135,14 +147,20 @@ def _is_image(context: CheckContext, state: JointState, image: JointState) -> No
             "the header is not changed",
             expected=state.header_text,
             actual=image.header_text,
-            hint="Copy the whole header, with stamp and frame_id: header=joints.header.",
+            hint=(
+                "The header is not the same. Copy the whole header, with stamp and frame_id: "
+                "header=joints.header."
+            ),
         )
     for field, values, actual in (("name", state.name, image.name), ("effort", state.effort, image.effort)):
         context.expect(
             f"the field {field} is not changed",
             expected=values,
             actual=actual,
-            hints=f"The field `{field}` has to stay the same: copy the list from the joint state.",
+            hints=(
+                f"The field `{field}` has changed, but it has to stay the same. Copy the list from the "
+                "joint state."
+            ),
         )
     for field, values, actual in (
         ("position", state.position, image.position),
@@ -159,15 +177,17 @@ def _is_image(context: CheckContext, state: JointState, image: JointState) -> No
 
 def _wrong_signs(field: str, values: list[float]) -> Hints:
     return [
-        (values, f"The list `{field}` is not changed: give each number the opposite sign."),
+        (values, f"The list `{field}` has not changed. Give each number the opposite sign."),
         (
             [],
-            f"The list `{field}` is empty in the image, but it was not empty in the joint "
-            "state. Copy it with opposite signs.",
+            (
+                f"The list `{field}` is empty in the image, but not in the joint state. Copy the list "
+                "with opposite signs."
+            ),
         ),
         (
             [-abs(value) for value in values],
-            "A negative number has to become a positive number: use -value, not -abs(value).",
+            "A negative number has to become a positive number. Use -value, not -abs(value).",
         ),
         (ANYTHING, "Some numbers are wrong. Change only the sign of each number."),
     ]
@@ -177,24 +197,42 @@ def _wrong_selection(stamps: list[int]) -> Hints:
     return [
         (
             lambda actual: len(set(actual)) < len(actual),
-            "Some images came more than once. Publish once for each joint state.",
+            "Some images arrived more than once. Publish one image for each joint state.",
         ),
         (
             lambda actual: actual and actual == stamps[: len(actual)] and len(actual) < 5,
-            "No image came after the first invalid joint state. Ignore this message, and continue with "
-            "the next message.",
+            (
+                "No image arrived after the first invalid joint state. Ignore only the invalid message, "
+                "and continue with the next message."
+            ),
         ),
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + EFFORT},
-            "An infinite effort is valid: only positions and velocities have to be finite.",
+            (
+                "The node ignored a joint state with an infinite effort, which is valid. Check only "
+                "positions and velocities with math.isfinite."
+            ),
+        ),
+        (
+            lambda actual: set(stamps) - set(actual) == {FIRST + FEW_EFFORTS},
+            "The conditions do not mention the number of efforts. Remove this test.",
+        ),
+        (
+            lambda actual: set(stamps) - set(actual) == {FIRST + EMPTY},
+            "A joint state with 0 names and 0 positions is valid, so publish its mirror image, too.",
         ),
         (
             lambda actual: set(stamps) - set(actual) <= {FIRST + 5 * n for n in range(6)},
-            "A joint state without velocities is valid, because many robots send no velocities. Publish "
-            "its mirror image, too.",
+            (
+                "The node ignored a joint state without velocities, which is valid. Publish the mirror "
+                "image, because many robots send no velocities."
+            ),
         ),
         (
             ANYTHING,
-            "Some images are missing. Publish in the callback: a loop with a pause misses messages.",
+            (
+                "Some images are missing. Publish each image in the callback, because a loop with a "
+                "pause misses messages."
+            ),
         ),
     ]

@@ -8,8 +8,8 @@ from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.plain_values import Value
 
 BUG = (
-    "The handler raised an error that is not a rospy.ServiceException: read the "
-    "error message above this hint."
+    "The handler raised an error that is not a rospy.ServiceException. Read the error message above "
+    "this hint."
 )
 BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
 

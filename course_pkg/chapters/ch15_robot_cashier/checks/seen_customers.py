@@ -31,7 +31,10 @@ class SeenCustomers:
             holds=bool(wait_until(self._publisher.get_num_connections, 5.0)),
             expected="a subscriber of the type std_msgs/Bool",
             actual="a subscriber of another type",
-            hints="The topic customer_seen has the type std_msgs/Bool: pass this type to rospy.Subscriber.",
+            hints=(
+                "The node does not subscribe to customer_seen with the right type. Pass std_msgs/Bool "
+                "to rospy.Subscriber."
+            ),
         )
 
     def show(self, customer: bool | None) -> None:

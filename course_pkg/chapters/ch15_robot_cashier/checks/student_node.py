@@ -31,9 +31,8 @@ COMPLETE = 3.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 WITH_SLASH = "with_slash"  # The check remaps global names to names in this namespace.
 MISSING = (
-    "The node called a service that did not exist yet, and the "
-    "rospy.ServiceException ended the node. Programs can start in any order: catch "
-    "the exception, and call again later."
+    "The node called a service that did not exist yet, and rospy.ServiceException ended the node. "
+    "Catch this exception, and call the service again later."
 )
 OF_EVERY_NODE = ("/get_loggers", "/set_logger_level")
 
@@ -168,14 +167,17 @@ def _why_incomplete(script: Program, status: int | None, printed: str, here: lis
     with_slash = [name.removeprefix(WITH_SLASH) for name in here if name.startswith(f"{WITH_SLASH}/")]
     if with_slash:
         return (
-            f"The program uses the global name {with_slash[0]}. Remove the slash at the "
-            "beginning of this name."
+            f"The program uses the global name {with_slash[0]}. Remove the slash at the beginning "
+            "of the name."
         )
     if script.node not in here:
-        return f'Call rospy.init_node("{script.node}") without anonymous=True, before everything else.'
+        return (
+            f'The program did not create the right node. First call rospy.init_node("{script.node}"), '
+            "without anonymous=True."
+        )
     return (
-        f"The program runs, but no part of it {lacking}. Compare the names with the exercise, letter by "
-        "letter."
+        f"The program runs, but no part of it {lacking}. Compare your names with the names in the "
+        "exercise, letter by letter."
     )
 
 
@@ -189,4 +191,4 @@ def why_ended(script: Program, printed: str) -> str:
     if "Traceback" in printed or "Error" in printed:
         fault = explain(printed)
         return f"{fault.problem} {fault.remedy}" if fault else own_line(script, printed)
-    return "The program reached its last line, so the node ended: write rospy.spin() as the last line."
+    return "The program reached its last line, so the node ended. Write rospy.spin() as the last line."

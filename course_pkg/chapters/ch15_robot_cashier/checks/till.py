@@ -34,7 +34,10 @@ HOLDING = 0.4  # While a reset waits, the printing of a line takes this many s.
 SET_HINTS: Hints = [
     (
         matches("jam"),
-        "The printer got two lines at the same time. Hold a lock while you print and store the price.",
+        (
+            "The printer got two lines at the same time. Hold one lock while you print a line and store "
+            "its price."
+        ),
     ),
     (
         matches("out of|unavailable"),
@@ -46,8 +49,8 @@ SET_HINTS: Hints = [
     ),
 ]
 BROKEN = (
-    "After a refused call, the next call got no response. Use `with`, so that the "
-    "lock is also released after an exception."
+    "After a refused call, the next call got no response. Use `with`, which releases the lock after "
+    "an exception."
 )
 
 
@@ -83,26 +86,33 @@ def _items(context: CheckContext, count: int) -> list[tuple[str, int]]:
 
 # -- 15.7
 
-NOT_ADDED = "The total has to be the sum of the cents of all items, including the item of this call."
-TWICE = "If an item is set again, only the new price counts. Replace the old price."
-FREE = "An item that costs 0 cents is also an item. Store it like all other items."
-CASE = "milk and MILK are two different items. Store each name as the request contains it."
-COUNT = "The field `items` has to be the number of different items."
-SUM = "The field `cents` of till/total has to be the same sum as the total in the last response of till/set."
-NEGATIVE = "Negative cents have to be refused: raise rospy.ServiceException."
-NEGATIVE_TEXT = "The error message has to contain the name of the item and the cents."
-NAMELESS = "An item with an empty name has to be refused: raise rospy.ServiceException."
+NOT_ADDED = "The total is wrong. Return the sum of the cents of all items, including the item of this call."
+TWICE = (
+    "The total contains the old price and the new price of an item. If the same item is set again, "
+    "replace its old price."
+)
+FREE = "An item that costs 0 cents is missing. Store this item like all other items."
+CASE = "The items milk and MILK are two different items. Do not change the names in the requests."
+COUNT = "The field `items` is wrong. Return the number of different items."
+SUM = (
+    "The field `cents` of till/total is wrong. Return the same sum as the total in the last response of "
+    "till/set."
+)
+NEGATIVE = "The till accepted negative cents. Raise rospy.ServiceException in this case."
+NEGATIVE_TEXT = (
+    "The error message is not complete. Write the name of the item and the cents into the message."
+)
+NAMELESS = "The till accepted an item with an empty name. Raise rospy.ServiceException in this case."
 CHANGED = (
-    "The call was refused, but the content of the till has changed. Check the "
-    "request before you store anything."
+    "The till refused the call, but its content has changed. Check the request before you store anything."
 )
 BIG = (
-    "The sum of amounts above 2147483647 has to be right, too. An int in Python has "
-    "no limit, so do not convert the numbers."
+    "The till returned a wrong sum above 2147483647. Do not convert the numbers, because an int in "
+    "Python has no limit."
 )
 SUMMED = "Store the price of each item, and return the sum."
 EMPTIED = "Remove all items, and return the sum that was paid."
-PRINTED = "Print one line for each item, and count an item only after its line."
+PRINTED = "Print one line for each item, and store the price only after the line was printed."
 
 
 @part(
@@ -114,7 +124,7 @@ PRINTED = "Print one line for each item, and count an item only after its line."
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
-    goals={SUMMED: 3, "Refuse negative cents, with the item and the cents in the message.": 1},
+    goals={SUMMED: 3, "Refuse negative cents. Write the item and the cents into the error message.": 1},
 )
 def the_sum(context: CheckContext) -> None:
     """Set items, some of them twice; compare the total; send items that the till must refuse."""
@@ -166,29 +176,32 @@ def _totals(context: CheckContext, total: Service, prices: dict[str, int], count
 # -- 15.8
 
 REASON = "out of paper"
-LINE = 'The line has to be the name of the item, one space, and the cents, such as "milk 120".'
-NOT_PRINTED = "Nothing was printed. Call print_line in the handler of till/set."
+LINE = (
+    "The printed line is wrong. It has to be the name of the item, one space, and the cents, such as "
+    '"milk 120".'
+)
+NOT_PRINTED = "The till printed nothing. Call print_line in the handler of till/set."
 NOT_REFUSED = (
-    "The printer refused the line, but the till accepted the item: raise "
-    "rospy.ServiceException if the printer refuses."
+    "The printer refused the line, but the till accepted the item. If the printer refuses, raise "
+    "rospy.ServiceException."
 )
 REASONLESS = (
-    "The error message has to contain the printer's message: use the text of the exception that you caught."
+    "The error message does not contain the printer's message. Use the text of the exception that you caught."
 )
 COUNTED = (
     "The line was not printed, but the till counts the item. Store the price only after print_line has "
     "returned."
 )
 NO_PRINTER = (
-    "Without a printer, the till has to refuse the call within 5 s. Do not wait for "
-    "the service without a limit."
+    "There is no printer, and the till did not refuse the call within 5 s. Do not wait for the "
+    "service without a limit."
 )
 ILLEGAL = (
-    "A line was printed for a refused item. Check for negative cents and an empty name before you print."
+    "The till printed a line for a refused item. Check for negative cents and an empty name before you print."
 )
 ORDER = (
-    "A total is not the sum of the lines that were printed before, because another call changed the till "
-    "in the meantime. Hold one lock while you print the line, store the price and calculate the total."
+    "A total is not the sum of the lines printed before, because another call changed the till. "
+    "Hold one lock while you print the line, store the price and calculate the total."
 )
 
 
@@ -196,13 +209,13 @@ ORDER = (
     "15.8",
     points=3,
     goal=(
-        "Extend till.py: an item counts only after print_line has printed it, and only "
-        "one line is printed at a time."
+        "Extend till.py: print a line for each item, and store the price only after the line was "
+        "printed. Print only one line at a time."
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.7, extended.\n..."),
-    goals={PRINTED: 2, "Print one line at a time, and refuse an item without a printer.": 1},
+    goals={PRINTED: 2, "Print one line at a time. Refuse an item if there is no printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
     """Set items with a printer that works or refuses; then set many items at the same time.
@@ -237,8 +250,8 @@ def the_printed_till(context: CheckContext) -> None:
             expected="one line for each call, even if the price did not change",
             actual=f"{len(till.printer.lines) - before} lines",
             hints=(
-                "The item already had this price. Print exactly one new line for each call of till/set, "
-                "even if the price stays the same."
+                "The item already had this price, and the till did not print one line. Print "
+                "exactly one line for each call of till/set."
             ),
         )
         _prints_no_illegal_item(context, till)
@@ -269,8 +282,8 @@ def _refuses_without_print(
             expected="one call of print_line",
             actual=f"{till.printer.calls - before} calls",
             hints=(
-                "The till called print_line again after a refusal. Call print_line only once for each "
-                "call of till/set."
+                "The till called print_line again after the printer had refused. Call print_line "
+                "only once for each call of till/set."
             ),
         )
         _totals(context, total, prices, COUNTED, COUNTED)
@@ -302,8 +315,8 @@ def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int])
         expected=0,
         actual=till.printer.jams,
         hints=(
-            "A line was refused, because another line was being printed. Hold a lock while "
-            "you print, and do not repeat the call."
+            "The printer refused a line, because it was still printing another line. Hold a lock "
+            "while you print, and do not repeat the call."
         ),
     )
     printed = [line.rpartition(" ") for line in till.printer.lines[before:]]
@@ -326,37 +339,35 @@ def _refuses_without_printer(context: CheckContext, till: Till, item: str, cents
 
 # -- 15.9
 
-SUCCEEDS = "A reset has to succeed in every case: set the field `success` to True."
-PAID = (
-    'The message has to be the word "paid", the sum of all items, and the word '
-    '"cents", such as "paid 460 cents".'
+SUCCEEDS = "The field `success` is False, but a reset always succeeds. Set this field to True."
+PAID = 'The message is wrong. Write "paid", the sum of all items and "cents", such as "paid 460 cents".'
+EMPTY = 'The till has no items, so the message has to be "already empty". Set the field `success` to True.'
+FREE_ITEM = (
+    "The till has an item that costs 0 cents, so it is not empty. Check the number of items, not the sum."
 )
-EMPTY = (
-    'If the till has no items, the message has to be "already empty", and the field `success` has to be True.'
-)
-FREE_ITEM = "The till has an item, although its sum is 0: check the number of items, not the sum."
-KEPT = (
-    "The till still has items after a reset. Remove all items, so that the next customer begins with 0 cents."
-)
+KEPT = "The till still has items after a reset. Remove all items in the handler of till/reset."
 NOT_COUNTED = (
-    "A line was being printed during the reset, but its item is missing in the sum: let the reset wait "
-    "for the lock."
+    "The printer was printing a line during the reset, but this item is missing in the sum. Let the "
+    "reset wait for the lock."
 )
-TOO_EARLY = "The reset did not wait for the line that was being printed. Use the same lock as in till/set."
+TOO_EARLY = "The reset did not wait for the line that was being printed. Hold the same lock as in till/set."
 LEFT = (
-    "A line was being printed during the reset, but its item was in the till after the reset. Hold a lock "
-    "while you print and store."
+    "The printer was printing a line during the reset, but this item was in the till after the "
+    "reset. Hold one lock while you print the line and store the price."
 )
 
 
 @part(
     "15.9",
     points=2,
-    goal="Extend till.py: till/reset removes all items and returns a message with the sum that was paid.",
+    goal="Extend till.py: till/reset removes all items, and returns a message with the sum that was paid.",
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.8, extended.\n..."),
-    goals={EMPTIED: 3, "Wait for a line that is being printed, and reset without a printer.": 1},
+    goals={
+        EMPTIED: 3,
+        "Wait for a line that is being printed. Reset the till even if there is no printer.": 1,
+    },
 )
 def the_reset(context: CheckContext) -> None:
     """Reset a till with items, without items, with a free item, and during the printing of a line."""

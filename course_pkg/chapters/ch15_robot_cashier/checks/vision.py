@@ -24,41 +24,44 @@ AGAIN = 0.03  # A wrong second message would arrive within this many s.
 SILENT = 0.25  # A wrong message after a malformed frame would arrive within this many s.
 
 AVERAGE = (
-    "A fifth of the points is dark, and all other points are very light. Count the dark points; do not "
-    "use the average."
+    "A fifth of the points is dark, so this frame shows a customer. Count the dark points, and do "
+    "not use the average of all points."
 )
 NOISE = (
-    "Only a twentieth of the points is dark. A frame shows a customer if at least a "
-    "tenth of all points is dark."
+    "Only a twentieth of the points is dark, so this frame shows no customer. A frame shows a "
+    "customer if at least a tenth of all points is dark."
 )
-TENTH = "Exactly a tenth of the points is dark, which is enough: compare with >=."
+TENTH = "Exactly a tenth of the points is dark, and this is enough. Compare with >=, not with >."
 ROUNDED = (
-    "The number of dark points was one less than a tenth. Compare without rounding: "
-    "10 * dark >= width * height."
+    "The number of dark points is one less than a tenth, so this frame shows no customer. Compare "
+    "without rounding: 10 * dark >= width * height."
 )
-LIMIT = "All points that look dark have the value 96, but a point is dark only below 96: compare with <."
+LIMIT = (
+    "Some points have the value 96, but a point is dark only if its value is below 96. Compare with <, "
+    "not with <=."
+)
 PADDING = (
-    "A row has frame.step bytes, but only the first frame.width bytes are points: row r begins at byte r "
-    "* frame.step."
+    "Each row has frame.step bytes, but only the first frame.width bytes are points. Begin row r at "
+    "byte r * frame.step."
 )
-EMPTY = "All points are light, so this frame does not show a customer. Publish False."
+EMPTY = "All points are light, so this frame shows no customer. Publish False."
 NOTHING = (
-    "The node published nothing for a valid frame. Check that the callback reaches the line that publishes."
+    "The node published nothing for a valid frame. Check whether the callback reaches the line that "
+    "publishes."
 )
-TWICE = "The node published more than one message for a frame. Publish once for each valid frame."
+TWICE = "The node published more than one message for a frame. Publish one message for each valid frame."
 BROKE = (
-    "After a malformed frame, the node published nothing for a valid frame. Check "
-    "each frame before you read its points."
+    "The node published nothing for a valid frame after a malformed frame. Check each frame before "
+    "you read its points."
 )
-SHOWN = "Publish for each valid frame whether it shows a customer."
+SHOWN = "For each valid frame, publish whether the frame shows a customer."
 
 
 @part(
     "15.1",
     points=2,
     goal=(
-        "Write vision.py: for each valid frame, it publishes on customer_seen whether "
-        "the frame shows a customer."
+        "Write vision.py: for each valid frame, publish on customer_seen whether the frame shows a customer."
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
@@ -112,7 +115,10 @@ class Camera:
             holds=bool(wait_until(self._publisher.get_num_connections, 5.0)),
             expected="a subscriber of the type sensor_msgs/Image",
             actual="a subscriber of another type",
-            hints="The frames have the type sensor_msgs/Image: pass this type to rospy.Subscriber.",
+            hints=(
+                "The node does not subscribe to the frames with the right type. Pass sensor_msgs/Image "
+                "to rospy.Subscriber."
+            ),
         )
 
     def send(self, image: Image) -> None:
@@ -188,29 +194,44 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
         (
             "too few bytes",
             frames[0],
-            "Bytes are missing in this frame. First compare len(frame.data) with height * step.",
+            (
+                "Bytes are missing in this frame. Before you read the points, compare len(frame.data) "
+                "with height * step."
+            ),
         ),
         (
             "too many bytes",
             frames[1],
-            "This frame has more bytes than height * step: compare with !=, not with <.",
+            (
+                "This frame has more bytes than height * step, so it is malformed. Compare with !=, not "
+                "with <."
+            ),
         ),
-        ("another encoding", frames[2], "This frame has three bytes for each point: check frame.encoding."),
+        (
+            "another encoding",
+            frames[2],
+            (
+                "This frame has three bytes for each point, so it has the wrong encoding. Check "
+                "frame.encoding."
+            ),
+        ),
         (
             "a step below the width",
             frames[3],
-            "In this frame, a row has fewer bytes than points, which is impossible: compare frame.step "
-            "with frame.width.",
+            (
+                "In this frame, a row has fewer bytes than points, which is impossible. Compare "
+                "frame.step with frame.width."
+            ),
         ),
         (
             "no points and no bytes",
             frames[4],
-            "A frame of 0 by 0 points is malformed: check width and height, and publish nothing.",
+            "A frame of 0 by 0 points is malformed. Check width and height, and publish nothing.",
         ),
         (
             "no points in a row",
             frames[5],
-            "The width is 0, so all bytes are padding: check width and height.",
+            "The width of this frame is 0, so all its bytes are padding. Check width and height.",
         ),
     ]
 

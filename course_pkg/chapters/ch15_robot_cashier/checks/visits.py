@@ -66,77 +66,86 @@ STEPS = (
 # These calls of detect_customer end a visit; the first call has the number 1. A call of till/reset follows
 # each of them.
 VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits and step.name == "False"]
-NO_CALL = "No call came. Let the main thread call detect_customer in a loop until rospy.is_shutdown()."
-GIVEN_UP = "There was no call after a failed call. Catch rospy.ServiceException, wait 0.5 s, and call again."
+NO_CALL = (
+    "No call arrived. In the main thread, call detect_customer in a loop until rospy.is_shutdown() "
+    "returns True."
+)
+GIVEN_UP = (
+    "The node made no call after a failed call. Catch rospy.ServiceException, wait 0.5 s, and call the "
+    "service again."
+)
 CALLED_ONCE = (
-    "The node called the service once, but it did not call the service again. Make the calls in a loop: "
-    "while not rospy.is_shutdown()."
+    "The node called the service only once. Call the service in a loop: while not rospy.is_shutdown()."
 )
 RESET_FAILED = (
-    "The call of till/reset failed, and then no call of detect_customer followed. "
-    "Catch rospy.ServiceException for till/reset, too, and continue."
+    "A call of till/reset failed, and the node then stopped calling detect_customer. Catch "
+    "rospy.ServiceException around till/reset, and continue."
 )
 NO_TILL = (
-    "Without the service till/reset, the node stopped calling detect_customer. Do not wait for this service "
-    "without a limit, and catch rospy.ServiceException."
+    "The service till/reset does not exist, and the node stopped calling detect_customer. Do not "
+    "wait for till/reset without a limit, and catch rospy.ServiceException."
 )
-NO_DEFAULT = 'Without a parameter, the field `patience` has to be 2 s: use rospy.get_param("~wait", 2.0).'
+NO_DEFAULT = 'Without a parameter, the field `patience` has to be 2 s. Use rospy.get_param("~wait", 2.0).'
 PARAMETER = (
-    'The field `patience` has to be the private parameter "~wait" of the node: use '
+    'The field `patience` has a wrong value. Read the private parameter "~wait" of the node: '
     'rospy.get_param("~wait", 2.0).'
 )
 STILL_THERE = (
-    "In the last response, found was True, so a customer is there: set the field `patience` of the next "
-    "call to 0."
+    "In the last response, `found` was True, so a customer is there. Set the field `patience` of "
+    "the next call to 0."
 )
 VISIT_GOES_ON = (
-    "A failed call does not end a visit: after this failure, continue to call with `patience` 0 until "
-    "found is False."
+    "A failed call does not end a visit. After the failure, continue to call with `patience` 0 "
+    "until `found` is False."
 )
 VISIT_OVER = (
-    "In the last response, found was False, so no customer is there: set the field `patience` of the next "
-    "call to the value of ~wait."
+    "In the last response, `found` was False, so no customer is there. Set the field `patience` of "
+    "the next call to the value of ~wait."
 )
 HASTY = "The next call came too early. While a customer is there, wait 0.2 s between two calls."
 NO_PAUSE = (
-    "After a failed call, the next call came immediately. Wait 0.5 s first, for "
-    "example with rospy.sleep(0.5)."
+    "The node made the next call immediately after a failed call. Wait 0.5 s before the next call, "
+    "for example with rospy.sleep(0.5)."
 )
-LONG_PAUSE = "After a failed call, the next call came too late: wait only 0.5 s."
+LONG_PAUSE = "After a failed call, the next call came too late. Wait only 0.5 s."
 HUNG_UP = (
-    "The node made another call before the response came. Wait for each response, which can take as long "
-    "as the `patience` of its request."
+    "The node made a second call before it got the first response. Wait for each response, even if "
+    "this takes `patience` seconds."
 )
 NOT_GREETED = (
-    'A customer came, but no greeting followed: publish on the topic "greetings" when `found` is True.'
+    'A customer came, but the node sent no greeting. Publish on the topic "greetings" when `found` is True.'
 )
-GREETED_AGAIN = "There were more greetings than visits. Publish once, when the visit begins."
+GREETED_AGAIN = (
+    "The node published more than one greeting in a visit. Publish only once, at the beginning of a visit."
+)
 NOT_FOUND = (
-    "The node acted as if a customer was there, although found was False. In an "
-    "if statement, a response object always counts as true: test its field `found`."
+    "`found` was False, but the node acted as if a customer was there. Test the field `found`: in "
+    "an if statement, a response object always counts as true."
 )
-TEXT = "The text of the greeting is wrong. Compare it with the exercise, letter by letter."
-NO_RESET = "The visit is over, but till/reset was not called: call it when found is False."
-EARLY_RESET = "till/reset was called before the visit had ended: call it when found is False."
-RESETS = "till/reset was called more often than there were visits: call it once after each visit."
+TEXT = "The text of the greeting is wrong. Compare it with the text in the exercise, letter by letter."
+NO_RESET = "The visit is over, but the node did not call till/reset. Call this service when `found` is False."
+EARLY_RESET = (
+    "The node called till/reset before the visit had ended. Call this service when `found` is False."
+)
+RESETS = "The node called till/reset more than once after a visit. Call this service once after each visit."
 STANDS_STILL = (
-    "While a call waits, no joint state is mirrored. Make the call in the main "
-    "thread, and publish in the callback of the subscriber."
+    "The node publishes no mirror image while a call waits. Make the call in the main thread, and "
+    "publish in the callback of the subscriber."
 )
-GREETED = "Greet each customer once, and mirror the arm at the same time."
+GREETED = "Greet each customer once, and publish mirror images of the arm at the same time."
 
 
 @part(
     "15.6",
     points=3,
     goal=(
-        "Extend robot_cashier.py: it waits for customers, greets each of them once, and "
-        "mirrors the arm at the same time."
+        "Extend robot_cashier.py: wait for customers and greet each customer once. At the same "
+        "time, publish mirror images of the arm."
     ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.5, extended.\n..."),
-    goals={GREETED: 3, "Call detect_customer in a loop, with a patience of 2 s without the parameter.": 1},
+    goals={GREETED: 3, "Call detect_customer in a loop. Without the parameter, set `patience` to 2 s.": 1},
 )
 def the_visits(context: CheckContext) -> None:
     """Serve a detector that responds, refuses and closes a connection, and a till that refuses once."""
@@ -269,6 +278,7 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
         )
         if number == 0:
             _mirrors_meanwhile(context, mirrored, call)
+    _mirrors_in_visit(context, mirrored, detector.calls)
     _pauses(context, detector.calls)
 
 
@@ -298,6 +308,19 @@ def _mirrors_meanwhile(context: CheckContext, mirrored: Subscription, call: Call
         expected="an image every 50 ms",
         actual=f"{len(meanwhile)} images in 1 s",
         hints=STANDS_STILL,
+    )
+
+
+def _mirrors_in_visit(context: CheckContext, mirrored: Subscription, calls: list[Call]) -> None:
+    """Count the mirror images that arrive during the first visit."""
+    began, ended = calls[1].answered + 0.2, calls[VISITS_END[0] - 1].came
+    meanwhile = [each for each in mirrored.arrivals if began < each.at < ended]
+    context.require(
+        "the node mirrors the arm while a call waits",
+        holds=len(meanwhile) > 2,
+        expected="an image every 50 ms during a visit, too",
+        actual=f"{len(meanwhile)} images during a visit",
+        hints="During a visit, the node mirrored nothing. Publish in the callback at all times.",
     )
 
 

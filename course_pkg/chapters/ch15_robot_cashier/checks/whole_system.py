@@ -49,33 +49,41 @@ VISITS = 2  # After the restart, at most this many customers come until the syst
 MANY = 6  # Two customers make this many simultaneous calls.
 
 NOT_LAUNCHED = (
-    "roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the terminal, and "
-    "read the output of this command."
+    "The command roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the "
+    "terminal, and read its output."
 )
-NO_CUSTOMER = "The frames show a customer, but detect_customer does not find one. Check 15.1 and 15.2 again."
-NO_MESSAGE = "The camera publishes frames, but no message comes on customer_seen. Check 15.1 again."
-NOT_GREETED = "The detector finds the customer, but no greeting came. Check 15.6 again."
-GREETED_AGAIN = "One customer was greeted more than once. Check 15.6 again."
+NO_CUSTOMER = (
+    "The frames show a customer, but detect_customer does not find a customer. Check exercises 15.1 and "
+    "15.2 again."
+)
+NO_MESSAGE = (
+    "The camera publishes frames, but no message arrives on customer_seen. Check exercise 15.1 again."
+)
+NOT_GREETED = "The detector finds the customer, but no greeting arrived. Check exercise 15.6 again."
+GREETED_AGAIN = "The node greeted one customer more than once. Check exercise 15.6 again."
 ADDING = (
-    "Two customers called till/set at the same time, and then the sum in the till "
-    "was not the sum of the printed lines. Check 15.8 again."
+    "After two calls of till/set at the same time, the total was not the sum of the printed lines. "
+    "Check exercise 15.8 again."
 )
-REFUSED_ITEM = "Two customers called till/set at the same time, and a call failed. Check 15.8 again."
-PRINTER = "The printer refused a line, so till/set has to refuse the item. Check 15.8 again."
-UNKNOWN = "An item without a name has to be refused. Check 15.7 again."
-COUNTED = "A refused item changed the total of the till. Check 15.8 again."
-NOT_RESET = "The customer has left, but the till still has items. Check 15.6 and 15.9 again."
+REFUSED_ITEM = (
+    "Two customers called till/set at the same time, and one call failed. Check exercise 15.8 again."
+)
+PRINTER = "The printer refused a line, but till/set did not refuse the item. Check exercise 15.8 again."
+UNKNOWN = "The till accepted an item without a name. Check exercise 15.7 again."
+COUNTED = "A refused item changed the total of the till. Check exercise 15.8 again."
+NOT_RESET = "The customer has left, but the till still has items. Check exercises 15.6 and 15.9 again."
 NO_MIRROR = (
-    "Joint states were published all the time, but only a few mirror images came. Check 15.5 and 15.6 again."
+    "Joint states arrived all the time, but the node published only a few mirror images. Check "
+    "exercises 15.5 and 15.6 again."
 )
-SILENT = "No frame came for more than 1 s, so detect_customer has to refuse each call. Check 15.3 again."
+SILENT = "No frame came for more than 1 s, but detect_customer accepted a call. Check exercise 15.3 again."
 NOT_RECOVERED = (
-    "New frames came after a pause, but detect_customer still refuses each call. Check 15.3 again."
+    "New frames came after a pause, but detect_customer still refuses each call. Check exercise 15.3 again."
 )
-RESPAWN = 'roslaunch starts a node again only if its <node> tag has respawn="true".'
+RESPAWN = 'roslaunch did not start a node again. Add respawn="true" to the <node> tag of each of your nodes.'
 AFTERWARDS = (
-    "All nodes were started again, but the next customer was not greeted. Start the "
-    "system, kill a node, and read the output that follows."
+    "After all nodes were killed and started again, the next customer was not greeted. Start the "
+    "system, kill a node, and read the new output."
 )
 
 
@@ -83,8 +91,8 @@ AFTERWARDS = (
     "15.11",
     points=3,
     goal=(
-        "Change cashier.launch so that roslaunch restarts each of your nodes if it "
-        "dies; this check then tests the whole system."
+        "Change cashier.launch: roslaunch has to restart each of your nodes if the node ends. This "
+        "check then tests the whole system."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
@@ -162,7 +170,8 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
                 hint=NOT_LAUNCHED
                 if status is not None
                 else (
-                    f"The node {node} is missing, or it has no {name}. Check the exercise of this node again."
+                    f"The node {node} is missing, or the node has no {name}. Repeat the check of "
+                    "the exercise for this node."
                 ),
             )
         time.sleep(POLL)

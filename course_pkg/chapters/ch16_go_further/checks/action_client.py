@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 
 import actionlib
+import rospy
+from actionlib_msgs.msg import GoalID
 
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
 from course_pkg.checking.assertions import Hints
@@ -26,22 +28,22 @@ SECONDS = 0.8  # The client must cancel the goal after this many s; the time is 
 SLACK = 3.0  # On a busy machine, a call may take this many s longer.
 LONGEST = 4.7  # If a client must give up after WAIT, the client may take this many s on a busy machine.
 BOUND = (
-    "A wait without a time limit did not end. Pass a rospy.Duration above 0 to "
-    "wait_for_server and also to wait_for_result."
+    "A wait without a time limit did not end. Pass a rospy.Duration above 0 to both wait_for_server "
+    "and wait_for_result."
 )
-DURATION = "actionlib does not accept a plain number of seconds: pass rospy.Duration(seconds)."
+DURATION = "actionlib does not accept a plain number of seconds. Pass rospy.Duration(seconds)."
 UNSENT = (
-    "The goal did not arrive, because messages that are sent before the connection "
-    "exists are lost. Call wait_for_server(rospy.Duration(2)) before send_goal."
+    "The goal did not arrive, because it was sent before the connection existed. Call "
+    "wait_for_server(rospy.Duration(2)) before send_goal."
 )
-HOW_LONG = "The limit has to be the argument `seconds`: wait_for_result(rospy.Duration(seconds))."
+HOW_LONG = "The time limit is wrong. Use the argument `seconds`: wait_for_result(rospy.Duration(seconds))."
 NOBODY = (
-    "wait_for_server returns False if no server started in time. In this case, "
-    "return None and do not send a goal."
+    "No server started in time, so wait_for_server returned False. In this case, return None and do "
+    "not send a goal."
 )
 EARLY = (
-    "There is no result before the goal has ended. After cancel_goal(), wait once "
-    "more, because the robot first finishes the thing that it is fetching."
+    "There is no result before the goal has ended. After cancel_goal(), wait for the result again, "
+    "because the robot first finishes the current thing."
 )
 
 
@@ -51,10 +53,15 @@ class Robot:
     def __init__(self, fetched: int, seconds: float, *, stubborn: bool = False) -> None:
         self.goals: list[FetchGoal] = []
         self.cancelled = threading.Event()
+        self.cancelled_all = False
         self.took = 0.0  # `took` is the time in s from the goal to its cancellation.
         # This event ends a robot that ignores the cancellation.
         self.over = threading.Event()
         self._fetched, self._seconds, self._stubborn = fetched, seconds, stubborn
+
+    def receive_cancel(self, cancelled: GoalID) -> None:
+        """Note a message on the topic `cancel`; an empty id means all goals."""
+        self.cancelled_all = self.cancelled_all or not cancelled.id
 
     def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
         """Finish after the robot's time or after a cancellation; the result is the same in both cases."""
@@ -84,12 +91,12 @@ CANCELLED = "Cancel the goal when the limit is over, and return the number."
     "16.2",
     points=3,
     goal=(
-        "Send a goal, wait for the result with a limit, cancel the goal when the limit "
-        "is over, and return the number of fetched things."
+        "Send a goal, and wait for the result with a limit. When the limit is over, cancel the "
+        "goal. Return the number of fetched things."
     ),
     needs=["fetch_within"],
     deadline=60.0,
-    goals=[FETCHED, CANCELLED, "Wait for the action server, with the same limit."],
+    goals=[FETCHED, CANCELLED, "Wait for the action server with the same limit."],
 )
 def bounded_goal(context: CheckContext) -> None:
     """Serve a fast robot, a slow robot, a late robot, and a robot that ignores cancellations.
@@ -111,11 +118,14 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
         (None, NO_RETURN),
         (
             things,
-            "This is the number in the goal. Return the number in the result: get_result().fetched.",
+            (
+                "The function returned the number in the goal. Return the number in the result: "
+                "get_result().fetched."
+            ),
         ),
         (
             lambda actual: isinstance(actual, dict),
-            "This is the whole result. Return only its field `fetched`.",
+            "The function returned the whole result. Return only its field `fetched`.",
         ),
     ]
 
@@ -124,9 +134,11 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
 def _serving(name: str, robot: Robot) -> Iterator[None]:
     """Serve the action `name` until the end of the block; `robot` executes its goals."""
     server = ActionServer(name, FetchAction, robot.execute)
+    cancellations = rospy.Subscriber(f"{name}/cancel", GoalID, robot.receive_cancel)
     try:
         yield
     finally:
+        cancellations.unregister()
         server.stop()
 
 
@@ -148,8 +160,8 @@ def _in_time(context: CheckContext) -> None:
             expected="the result as soon as it arrives",
             actual=f"the result after {result.took:.1f} s",
             hints=(
-                "The function continued to wait after the result had arrived. wait_for_result "
-                "returns as soon as the goal has ended, so you do not need sleep()."
+                "The function still waited after the result had arrived. Remove sleep(), because "
+                "wait_for_result returns as soon as the goal has ended."
             ),
         )
     _sends_the_goal(context, robot.goals[0], things)
@@ -167,14 +179,16 @@ def _sends_the_goal(context: CheckContext, goal: FetchGoal, things: int) -> None
         "the goal contains the number of things",
         expected=things,
         actual=goal.things,
-        hints=[(0, "The field `things` of the goal is 0. Set it: FetchGoal(things=…, seconds=0.1).")],
+        hints=[(0, "The field `things` of the goal is 0. Set this field: FetchGoal(things=…, seconds=0.1).")],
     )
     context.expect(
         "the goal contains the time for each thing",
         expected=0.1,
         actual=goal.seconds,
         near=1e-6,
-        hints="The field `seconds` of the goal is not 0.1. Set it: FetchGoal(things=…, seconds=0.1).",
+        hints=(
+            "The field `seconds` of the goal is not 0.1. Set this field: FetchGoal(things=…, seconds=0.1)."
+        ),
     )
 
 
@@ -185,6 +199,13 @@ def _too_late(context: CheckContext) -> None:
         result = _fetch(context, robot, name, 5, SECONDS)
         if not result.error:
             _is_cancelled(context, robot)
+            context.require(
+                "a robot that does not finish in time is cancelled",
+                holds=not robot.cancelled_all,
+                expected="a cancellation of this goal",
+                actual="a cancellation of all goals",
+                hints="cancel_all_goals() also cancels the goals of other clients. Call cancel_goal().",
+            )
         context.expect(
             "after a cancellation, the number of things fetched so far is returned",
             expected=fetched,
@@ -192,8 +213,10 @@ def _too_late(context: CheckContext) -> None:
             hints=[
                 (
                     None,
-                    "The function returned None. The robot sends its result after the cancellation: "
-                    "wait for this result.",
+                    (
+                        "The function returned None. Wait for the result again after cancel_goal(), "
+                        "because the robot sends a result after the cancellation."
+                    ),
                 ),
             ],
         )
@@ -207,7 +230,13 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
         actual="no cancellation: the robot continues although the client has stopped waiting",
         hints=[
             ((lambda _: not robot.goals), UNSENT),
-            (ANYTHING, "If wait_for_result returns False, the time is over: call cancel_goal()."),
+            (
+                ANYTHING,
+                (
+                    "The function did not cancel the goal. Call cancel_goal() if wait_for_result returns "
+                    "False, because the time is then over."
+                ),
+            ),
         ],
     )
     if not 0.6 * SECONDS < robot.took < SECONDS + SLACK:
@@ -232,8 +261,8 @@ def _goes_on(context: CheckContext) -> None:
         expected=f"a function that ends at most {WAIT:g} s after the cancellation",
         actual="a function that does not end",
         hints=(
-            "The robot ignored the cancellation, so the function waited forever. Wait at "
-            "most 2 s after cancel_goal()."
+            "The robot ignored the cancellation, so the function waited forever. Wait at most 2 s "
+            "after cancel_goal()."
         ),
     )
 
@@ -255,7 +284,8 @@ def _comes(context: CheckContext) -> None:
             coming.join()
         if result.returned() != fetched:
             too_short = (
-                f"The server started {LATE:g} s after the call: use wait_for_server to wait up to 2 s for it."
+                f"The server started {LATE:g} s after the call, but the goal did not arrive. Use "
+                "wait_for_server to wait up to 2 s for the server."
             )
             context.fail(
                 "a server that starts within 2 s gets the goal",
@@ -280,7 +310,7 @@ def _nobody(context: CheckContext) -> None:
             expected=f"None after {WAIT:g} s",
             actual=f"None after {result.took:.1f} s",
             hint=(
-                f"The function waited too long for a server: pass rospy.Duration({WAIT:g}) to "
+                f"The function waited too long for a server. Pass rospy.Duration({WAIT:g}) to "
                 "wait_for_server."
             ),
         )
@@ -289,7 +319,7 @@ def _nobody(context: CheckContext) -> None:
 WAITED_FOR_EVER: Hints = [
     (
         matches("TimesUp"),
-        "No server exists, but the wait has no limit: write wait_for_server(rospy.Duration(2)).",
+        "No server exists, but the wait has no limit. Write wait_for_server(rospy.Duration(2)).",
     ),
     (
         matches("NoneType"),
@@ -322,8 +352,10 @@ def _fetch(context: CheckContext, robot: Robot, name: str, things: int, seconds:
             (is_early, EARLY),
             (
                 matches("NoneType"),
-                "get_result() returned None, because the goal had not ended. When the time is "
-                "over, call cancel_goal() and wait for the result once more.",
+                (
+                    "get_result() returned None, because the goal had not ended. When the time is over, "
+                    "call cancel_goal() and wait for the result again."
+                ),
             ),
         ],
     )

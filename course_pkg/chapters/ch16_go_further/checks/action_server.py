@@ -35,11 +35,13 @@ TIMEOUT = 6.0  # TIMEOUT is the time limit in s for a goal that needs less than 
 BUSY = 2.0
 STARTING = 2.0  # STARTING is the time limit in s for the start of a server.
 CANCELLING = 3.0  # A goal must end within this many s after its cancellation.
-FIXED = "The time for one thing is different in each goal: sleep for goal.seconds, not for a fixed time."
+FIXED = (
+    "The robot did not work for the right time. Sleep for goal.seconds, because the time for one thing "
+    "is different in each goal."
+)
 NO_STATE = (
-    "The function ended without a state for the goal. Call set_succeeded, "
-    "set_preempted or set_aborted of the server; the return value of the function "
-    "is ignored."
+    "The function ended, but the goal has no end state. Call set_succeeded, set_preempted or "
+    "set_aborted of the server: the return value of the function is ignored."
 )
 EXECUTED = "Publish feedback after each thing, and the result at the end."
 
@@ -47,7 +49,10 @@ EXECUTED = "Publish feedback after each thing, and the result at the end."
 @part(
     "16.1",
     points=3,
-    goal="Write an action server: feedback after each thing, the result at the end, and cancellation.",
+    goal=(
+        "Write an action server: it sends feedback after each thing and the result at the end, and a "
+        "client can cancel the goal."
+    ),
     needs=["Fetcher"],
     deadline=60.0,
     goals={EXECUTED: 2, "Stop when the goal is cancelled, and accept a goal with 0 things.": 1},
@@ -76,8 +81,8 @@ def _is_served(context: CheckContext, client: actionlib.SimpleActionClient) -> N
         expected="an action server",
         actual="no action server",
         hints=(
-            "Pass the argument `name` of the constructor to SimpleActionServer, and call "
-            "start() of the server."
+            "No server for this action started. Pass the argument `name` of the constructor to "
+            "SimpleActionServer, and call start() of the server."
         ),
     )
 
@@ -87,30 +92,42 @@ def _wrong_number_fetched(things: int) -> Hints:
         (0, "The field `fetched` of the result is 0. Write set_succeeded(FetchResult(fetched=…))."),
         (
             1,
-            "The goal ended after the first thing, because set_succeeded ends the goal: "
-            "call it once, after the loop.",
+            (
+                "The goal ended after the first thing, because set_succeeded ends the goal. Call "
+                "set_succeeded only once, after the loop."
+            ),
         ),
         (
             things - 1,
-            "The result is too small by one, because range() counts from 0. Return the number of things.",
+            (
+                "The result is too small by one, because range() starts at 0. Return the number of "
+                "fetched things."
+            ),
         ),
+        (things + 1, "The result is too large by one. Stop after goal.things things."),
     ]
 
 
 def _wrong_feedback(things: int) -> Hints:
     return [
-        ([], "No feedback arrived: call publish_feedback(FetchFeedback(fetched=…)) after each thing."),
+        ([], "No feedback arrived. Call publish_feedback(FetchFeedback(fetched=…)) after each thing."),
         (
             list(range(things)),
-            "After the first thing, `fetched` has to be 1, but range() counts from 0: add 1.",
+            (
+                "The feedback is too small by one, because range() starts at 0. After the first thing, "
+                "`fetched` has to be 1."
+            ),
         ),
         (
             [things],
-            "Only one feedback message arrived, at the end. Publish feedback in the loop, after each thing.",
+            (
+                "Only one feedback message arrived, at the end of the goal. Publish feedback in the "
+                "loop, after each thing."
+            ),
         ),
         (
             lambda actual: not any(actual),
-            "The field `fetched` is 0 in each feedback. Write FetchFeedback(fetched=…).",
+            ("The field `fetched` is 0 in each feedback message. Set this field: FetchFeedback(fetched=…)."),
         ),
     ]
 
@@ -140,7 +157,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
         holds=took > 0.9 * things * each and _pace(at, took / things) < LONG[0] / 2,
         expected=f"about {things * each:.2f} s for {things} things",
         actual=f"{took:.2f} s",
-        hints="The goal ended too early: sleep for goal.seconds before each feedback."
+        hints="The goal ended too early. Sleep for goal.seconds before each feedback."
         if took < 0.9 * things * each
         else FIXED,
     )
@@ -171,8 +188,8 @@ def _is_on_time(context: CheckContext, at: list[float], began: float, each: floa
         expected="one after the other",
         actual="all at the same moment",
         hints=(
-            "All feedback messages arrived at the end. Publish each message as soon as its thing has "
-            "been fetched."
+            "All feedback messages arrived at the end. Publish each message immediately after the "
+            "robot has fetched the thing."
         ),
     )
     context.require(
@@ -180,7 +197,7 @@ def _is_on_time(context: CheckContext, at: list[float], began: float, each: floa
         holds=at[0] - began > 0.9 * each,
         expected=f"the first after {each:.2f} s",
         actual=f"the first after {at[0] - began:.3f} s",
-        hints="The feedback came before the thing was fetched. First sleep, and then publish.",
+        hints="The feedback came before the robot had fetched the thing. First sleep, and then publish.",
     )
 
 
@@ -201,7 +218,7 @@ def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.Simple
         "the result is the number of fetched things",
         expected=2,
         actual=client.get_result().fetched,
-        hints="The number continued from the previous goal. Begin each goal with 0.",
+        hints="The number of things continued from the previous goal. Start each goal with the number 0.",
     )
 
 
@@ -209,16 +226,29 @@ def _wrong_number_left(last: int) -> Hints:
     return [
         (
             0,
-            "The field `fetched` is 0 in the result of the cancelled goal. Write "
-            "set_preempted(FetchResult(fetched=…)).",
+            (
+                "The field `fetched` is 0 in the result of the cancelled goal. Write "
+                "set_preempted(FetchResult(fetched=…))."
+            ),
         ),
-        (80, "80 is the number in the goal. Return the number of things fetched before the cancellation."),
+        (
+            80,
+            (
+                "The result contains the number in the goal, 80. Return the number of things that the robot "
+                "fetched before the cancellation."
+            ),
+        ),
         (
             lambda actual: actual < last,
-            "The robot continued to fetch, because set_preempted ends the goal, but not "
-            "your function. Return after this call.",
+            (
+                "The robot continued after set_preempted, because set_preempted does not end your "
+                "function. Return from the function after this call."
+            ),
         ),
-        (ANYTHING, "The result has to contain the same number as the last feedback."),
+        (
+            ANYTHING,
+            "The result of the cancelled goal is wrong. Return the same number as in the last feedback.",
+        ),
     ]
 
 
@@ -232,7 +262,10 @@ def _cancels(context: CheckContext, client: actionlib.SimpleActionClient, feedba
         holds=_is_over(client, CANCELLING),
         expected="a goal that ends after the thing that is being fetched",
         actual="a robot that continues to fetch",
-        hints="Check is_preempt_requested() before each thing, and end the goal if it returns True.",
+        hints=(
+            "The robot continued after the client had cancelled the goal. Check is_preempt_requested() "
+            "before each thing, and end the goal if it returns True."
+        ),
     )
     _ends_as(context, client, "a goal that is cancelled ends as PREEMPTED", GoalStatus.PREEMPTED)
     last = _last(feedback)
@@ -262,13 +295,22 @@ WRONG_STATE: Hints = [
     ),
     (
         matches("^SUCCEEDED"),
-        "The goal was cancelled, so the right state is not SUCCEEDED: call set_preempted, and return.",
+        (
+            "The client cancelled the goal, so SUCCEEDED is the wrong state. Call set_preempted, and "
+            "return from the function."
+        ),
     ),
     (
         matches("^ABORTED"),
-        "The goal was cancelled, but set_aborted means that the robot failed. Call set_preempted instead.",
+        (
+            "The client cancelled the goal, but set_aborted means that the robot failed. Call "
+            "set_preempted instead."
+        ),
     ),
-    (matches("no end"), "The goal did not end. Check that the loop ends and that set_succeeded is called."),
+    (
+        matches("no end"),
+        "The goal did not end. Check that the loop ends and that the function calls set_succeeded.",
+    ),
 ]
 
 

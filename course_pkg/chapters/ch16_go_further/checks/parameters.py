@@ -13,19 +13,22 @@ from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
 SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this many s.
-NAME = "The name of the parameter has to contain the name of the robot: f'/{robot}/speed'."
+NAME = "The name of the parameter is wrong. Put the name of the robot into it: f'/{robot}/speed'."
 CHANGED = (
-    "The parameter was changed, but the function returned the old value: read the parameter in each call."
+    "The parameter has changed, but the function returned the old value. Read the parameter in each call."
 )
-TEXT = "A parameter can also be a text. Check that the value is a number."
+TEXT = "The value of the parameter was a string, not a number. Check the type of the value."
 LIST = (
-    "A parameter can also be a list. Test whether the value is a number; a test for single types, such "
-    "as str, is not enough."
+    "The value of the parameter was a list. Check that the value is a number, because a parameter "
+    "can have many types."
 )
-TRUTH = "In Python, True is an int with the value 1. Check for bool separately."
-NEGATIVE = "The value was negative, but a speed has to be above 0. Return the default."
+TRUTH = (
+    "The value was True, which is an int with the value 1 in Python. Check for bool separately, and "
+    "return the default."
+)
+NEGATIVE = "The value was negative, but a speed has to be above 0. Return the default in this case."
 SET = "The function has set the parameter. Only read the parameter, and return the default."
-ZERO = "The value was 0, but a speed has to be above 0. Return the default."
+ZERO = "The value was 0, but a speed has to be above 0. Return the default in this case."
 
 
 @part(
@@ -54,7 +57,7 @@ def speed_parameter(context: CheckContext) -> None:
             2,
             "the parameter, if it is a whole number",
             2.0,
-            "The value was the int 2, which is also a valid speed. Return this value.",
+            "The value was the int 2, which is a valid speed. Return this value.",
         ),
         ("fast", no_number, default, TEXT),
         ([first, second], no_number, default, LIST),
@@ -63,7 +66,7 @@ def speed_parameter(context: CheckContext) -> None:
         (0, not_positive, default, ZERO),
     ]
     try:
-        missing = "The parameter is not set: return the argument `default`."
+        missing = "The parameter is not set. In this case, return the argument `default`."
         _returns(context, robot, default, "the default, if the parameter is not set", default, missing)
         context.require(
             "the default, if the parameter is not set",
@@ -112,18 +115,24 @@ def _speed(context: CheckContext, robot: str, default: float) -> Result:
         hints=[
             (
                 matches("^KeyError"),
-                "get_param raises a KeyError if the parameter is not set. Pass a second "
-                "argument, the default.",
+                (
+                    "If the parameter is not set, get_param raises a KeyError. Pass the default as the "
+                    "second argument of get_param."
+                ),
             ),
             (
                 matches("^TypeError"),
-                "Python cannot compare a text or a list with a number. First check that the "
-                "value is a number.",
+                (
+                    "Python cannot compare a string or a list with a number. First check that the value "
+                    "is a number."
+                ),
             ),
             (
                 matches("^ValueError"),
-                "float() raises a ValueError for a text that is not a number. Catch this error, "
-                "and return the default.",
+                (
+                    "If a string is not a number, float() raises a ValueError. Catch this error, and "
+                    "return the default."
+                ),
             ),
         ],
     )

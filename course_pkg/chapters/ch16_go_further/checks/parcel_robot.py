@@ -31,6 +31,7 @@ FEW = 4  # The first robot has the capacity for this many parcels, which is less
 PARCELS = 3  # A delivery has this many parcels, which is less than the smallest capacity.
 EACH = 0.2  # A robot needs this many s for one parcel.
 PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
+LONG = 2.5  # In the last goal with too many parcels, each parcel would take this many s.
 ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
 SETTLING = 1.0  # After a delivery, the charge of the battery is right within this many s.
 NOT_AT_ONCE = 0.9  # A goal that took this fraction of its full time was not aborted at once.
@@ -47,15 +48,15 @@ if __name__ == "__main__":
 """
 DELIVERED = "Deliver parcels with feedback, and publish the charge of the battery."
 STOPPED = "Stop when the delivery is cancelled."
-LIMITED = "Refuse more parcels than the parameter capacity allows."
+LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows."
 
 
 @part(
     "16.4",
     points=4,
     goal=(
-        "Write a node with battery, door, deliver and capacity; for each of these names, use the kind of "
-        "interface that fits."
+        "Write a node with the names battery, door, deliver and capacity. For each name, use the "
+        "right kind of interface."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
@@ -100,27 +101,30 @@ def _starts_with_a_full_battery(context: CheckContext, battery: Subscription) ->
         holds=0.5 * PERIOD < period < 1.7 * PERIOD,
         expected=f"a value every {PERIOD:g} s",
         actual=f"a value every {period:.2f} s" if gaps else "too few values",
-        hints="Publish in a loop that calls sleep() of a rospy.Rate(5) once in each round.",
+        hints=(
+            "The battery does not publish five values per second. Publish in a loop that calls sleep() "
+            "of a rospy.Rate(5) in each round."
+        ),
     )
     context.expect(
         "the battery starts with 100",
         expected=100.0,
         actual=arrivals[0].fields["data"],
-        hints="Publish the charge in percent; before the first delivery, the charge has to be 100.",
+        hints="Before the first delivery, the charge has to be 100. Publish the charge in percent.",
     )
 
 
 def _moves_the_door(context: CheckContext, robot: Robot) -> None:
     door = context.service(robot.name("door"), "std_srvs/SetBool")
-    for wanted, position in ((True, "open"), (False, "closed"), (True, "open")):
+    for wanted, position in ((True, "open"), (False, "closed"), (True, "open"), (True, "open")):
         response = door(data=wanted)
         context.expect(
             "the door reports its new position",
             expected=position,
             actual=response.message,
             hints=(
-                'The field `message` has to be "open" after a request with True, and "closed" '
-                "after a request with False."
+                'The field `message` is wrong. Set it to "open" after a request with True, and to '
+                '"closed" after a request with False.'
             ),
         )
         context.expect(
@@ -128,8 +132,8 @@ def _moves_the_door(context: CheckContext, robot: Robot) -> None:
             expected=True,
             actual=response.success,
             hints=(
-                "The field `success` has to be True after every request, because the robot "
-                "has moved the door."
+                "The field `success` is False, although the robot has moved the door. Set this "
+                "field to True after each request."
             ),
         )
 
@@ -144,7 +148,7 @@ def _delivers(
         client,
         "a delivery succeeds",
         GoalStatus.SUCCEEDED,
-        "Call set_succeeded at the end of the delivery.",
+        "The delivery did not end as SUCCEEDED. Call set_succeeded at the end of the delivery.",
     )
     meanwhile = battery.count - before
     feedback.wait(PARCELS, SETTLING)
@@ -152,14 +156,15 @@ def _delivers(
         "feedback comes after each parcel",
         expected=[1, 2, 3],
         actual=_counts(feedback),
-        hints="Publish the number of delivered parcels after each parcel: 1, 2, 3.",
+        hints="The feedback is wrong. After each parcel, publish the number of delivered parcels: 1, 2, 3.",
     )
     context.expect(
         "the result is the number of delivered parcels",
         expected=PARCELS,
         actual=client.get_result().fetched,
         hints=(
-            "Call set_succeeded(FetchResult(fetched=…)), where `fetched` is the number of delivered parcels."
+            "The result is wrong. Call set_succeeded(FetchResult(fetched=…)) with the number of "
+            "delivered parcels."
         ),
     )
     context.require(
@@ -168,8 +173,8 @@ def _delivers(
         expected=f"about {PARCELS * EACH / PERIOD:.0f} values",
         actual=meanwhile,
         hints=(
-            "The battery values stopped during the delivery. Deliver the parcels in the function of the "
-            "action, which has its own thread, and publish in another thread."
+            "The battery sent no values during the delivery. The function of the action has its own "
+            "thread: deliver the parcels there, and publish the charge in another thread."
         ),
     )
     charge = 100.0 - PARCELS
@@ -182,7 +187,10 @@ def _delivers(
             (100.0, "The charge did not change. Subtract 1 from the charge after each delivered parcel."),
             (
                 99.0,
-                "The battery charge changed only once for the whole delivery. Subtract 1 for each parcel.",
+                (
+                    "The charge changed only once during the whole delivery. Subtract 1 from the charge "
+                    "after each parcel."
+                ),
             ),
         ],
     )
@@ -205,7 +213,10 @@ def _cancels(
         client,
         "a delivery can be cancelled",
         GoalStatus.PREEMPTED,
-        "Check is_preempt_requested() before each parcel, and end the goal with set_preempted.",
+        (
+            "A cancelled delivery did not end as PREEMPTED. Check is_preempt_requested() before each "
+            "parcel, and end the goal with set_preempted."
+        ),
     )
     feedback.until(lambda _: _counts(feedback)[-1] == client.get_result().fetched, SETTLING)
     context.expect(
@@ -213,8 +224,8 @@ def _cancels(
         expected=_counts(feedback)[-1],
         actual=client.get_result().fetched,
         hints=(
-            "Call set_preempted(FetchResult(fetched=…)), where `fetched` is the number of parcels "
-            "delivered so far."
+            "The result of a cancelled delivery is wrong. Call "
+            "set_preempted(FetchResult(fetched=…)) with the number of delivered parcels."
         ),
     )
     before_it = 100.0 - PARCELS
@@ -227,18 +238,24 @@ def _cancels(
         hints=[
             (
                 lambda actual: actual > before_it,
-                "A new delivery set the charge to 100 again. Set the charge to 100 only once, "
-                "when the robot starts.",
+                (
+                    "A new delivery set the charge to 100 again. Set the charge to 100 only at the "
+                    "start of the program."
+                ),
             ),
             (
                 before_it,
-                "The parcels of a cancelled delivery did not reduce the charge. Subtract 1 as "
-                "soon as a parcel is delivered.",
+                (
+                    "The charge did not change for the parcels of a cancelled delivery. Subtract 1 "
+                    "immediately after each delivered parcel."
+                ),
             ),
             (
                 ANYTHING,
-                "The charge became smaller for parcels that were not delivered. Subtract 1 only "
-                "after each delivered parcel.",
+                (
+                    "The charge changed for parcels that were not delivered. Subtract 1 only after each "
+                    "delivered parcel."
+                ),
             ),
         ],
     )
@@ -254,30 +271,15 @@ def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, c
         expected=f"a charge of {charge:g}",
         actual=f"a charge of {battery.arrivals[-1].fields['data']:g}",
         hints=(
-            "The function continued to deliver after set_aborted, because set_aborted does "
-            "not end the function. Return after this call."
+            "The function continued after set_aborted, because set_aborted does not end your "
+            "function. Return from the function after this call."
         ),
     )
 
 
 def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClient, capacity: int) -> None:
     """Send a goal with one parcel too many, and a goal with the highest possible number of parcels."""
-    began = time.monotonic()
-    client.send_goal(FetchGoal(things=capacity + 1, seconds=EACH))
-    _ends_as(
-        context,
-        client,
-        "a delivery of more parcels than the capacity is aborted",
-        GoalStatus.ABORTED,
-        "Compare goal.things with the parameter ~capacity, whose default is 5, and call set_aborted.",
-    )
-    context.require(
-        "an impossible delivery ends immediately",
-        holds=time.monotonic() - began < NOT_AT_ONCE * EACH * capacity,
-        expected="a goal that ends before the first parcel",
-        actual=f"a goal that ended after {time.monotonic() - began:.1f} s",
-        hints="Compare goal.things with the capacity before the loop.",
-    )
+    _aborts_at_once(context, client, capacity, EACH)
     context.expect(
         "an impossible delivery delivers nothing",
         expected=0,
@@ -285,8 +287,10 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
         hints=[
             (
                 ANYTHING,
-                "No parcel was delivered, so the result has to be 0: pass "
-                "FetchResult(fetched=0) to set_aborted.",
+                (
+                    "The robot delivered no parcel, so the result has to be 0. Pass "
+                    "FetchResult(fetched=0) to set_aborted."
+                ),
             )
         ],
     )
@@ -297,7 +301,37 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
         client,
         "a delivery of as many parcels as the capacity succeeds",
         GoalStatus.SUCCEEDED,
-        "The robot can carry as many parcels as its capacity: abort only a goal with more parcels.",
+        (
+            "The robot refused an allowed delivery. Abort a goal only if it has more parcels than "
+            "the capacity."
+        ),
+    )
+    _aborts_at_once(context, client, capacity, LONG)
+
+
+def _aborts_at_once(
+    context: CheckContext, client: actionlib.SimpleActionClient, capacity: int, each: float
+) -> None:
+    """Send a goal with one parcel too many; a delivery of one of its parcels would take `each` s."""
+    began = time.monotonic()
+    client.send_goal(FetchGoal(things=capacity + 1, seconds=each))
+    _ends_as(
+        context,
+        client,
+        "a delivery of more parcels than the capacity is aborted",
+        GoalStatus.ABORTED,
+        (
+            "The delivery has more parcels than the capacity, but it was not aborted. Compare "
+            "goal.things with the parameter ~capacity (default: 5), and call set_aborted."
+        ),
+    )
+    took = time.monotonic() - began
+    context.require(
+        "an impossible delivery ends immediately",
+        holds=took < NOT_AT_ONCE * min(each * capacity, LONG),
+        expected="a goal that ends before the first parcel",
+        actual=f"a goal that ended after {took:.1f} s",
+        hints="The goal ended too late. Compare goal.things with the capacity before the loop.",
     )
 
 
@@ -321,7 +355,10 @@ def _ends_as(
         hints=[
             (
                 (lambda _: "Exception" in text),
-                "The function that delivers raised an exception. Its message is above: correct this error.",
+                (
+                    "The function that delivers raised an exception. Read the error message above, and "
+                    "correct the error."
+                ),
             ),
             (ANYTHING, hint),
         ],

@@ -18,21 +18,26 @@ REGISTERING = 1.5
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 FITTING = {"battery": "topic", "door": "service", "deliver": "action"}
 CAPACITY = (
-    '"capacity" is a setting that the user chooses at the start: read a private '
-    "parameter, and do not offer an interface for it."
+    'The user sets "capacity" when the robot starts, so it is not an interface for clients. Read '
+    "a private parameter instead."
 )
 UNFIT = {
-    "battery": "Several programs need each new value, and none of these programs sends a request.",
-    "door": "The move is short, and the client must not continue before it knows that the move is done.",
+    "battery": (
+        "Several programs need each new value of the battery, but they send no requests. Use the kind "
+        "of interface that fits this."
+    ),
+    "door": (
+        "The door moves only for a short time, and the client has to know when the move is done. Use "
+        "the kind of interface that fits this."
+    ),
     "deliver": (
-        "The client wants to get progress reports and to cancel the job. Only one kind "
-        "of interface offers both."
+        "The client wants progress reports, and it wants to cancel the delivery. Only one kind of "
+        "interface offers both."
     ),
 }
-MISSING = 'The node offers nothing with this name. The three names are "battery", "door" and "deliver".'
+MISSING = 'The node offers nothing with this name. Use the three names "battery", "door" and "deliver".'
 ABSOLUTE = (
-    "This name is not in the namespace in which the robot was started: remove the "
-    '"/" or "~" at the beginning of the name.'
+    'The name is not in the namespace of the robot. Remove the "/" or "~" at the beginning of the name.'
 )
 
 
@@ -123,7 +128,7 @@ def _has_ended(context: CheckContext, robot: Robot) -> None:
         expected="a node",
         actual=f"a program that has ended, with the output: {telling_line(printed)}",
         hint=(
-            "The program has ended. Correct the error if there is one, and let the program "
-            "wait at its end, for example with rospy.spin()."
+            "The program has ended. Correct its error if there is one, and write rospy.spin() at "
+            "its end, for example."
         ),
     )

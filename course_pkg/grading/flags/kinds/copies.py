@@ -31,11 +31,11 @@ def find(group: Group) -> Iterator[Found]:
         answer = _named(teams[one][0], name)
         mine, theirs = prints[one][name], prints[other][name]
         line = _rarest_line(similarity.exercises[name], answer, mine, theirs)
-        words = f"The two answers have {likeness:.0%} of their characteristic code in common."
+        words = f"{likeness:.0%} of the characteristic code is the same in the two answers."
         if answer.source.split() == _named(teams[other][0], name).source.split():
             words = "The answers are identical."
         elif mine.code == theirs.code:
-            words = "The answers are the same; only names, comments, strings or the order differ."
+            words = "The answers differ only in names, comments, strings or the order of the lines."
         others = tuple(work.student for _, number in ranked for work in teams[number])
         flag = Flag("copies", answer.where, words, line, line_of(answer, line), others)
         yield from ((work, flag) for work in teams[one])

@@ -99,7 +99,7 @@ def _observe(program: Program) -> Iterator[Observation]:
             yield from _called(node, program)
         elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in ignored:
             for place in PLACES.finditer(node.value):
-                words = "The code contains the path of a place outside of the exercise."
+                words = "The code contains a path to a place outside the exercise's folder."
                 yield Observation(f"names {place[0]}", node.lineno, words)
 
 

@@ -77,8 +77,8 @@ def _replaced(program: Program) -> Iterator[Observation]:
         targets = node.targets if isinstance(node, ast.Assign) else []
         for target in targets:
             if isinstance(target, ast.Name) and target.id in modules:
-                words = f"The code uses the name of the module {target.id} for another object."
+                words = f"The code assigns another object to {target.id}, which is the name of a module."
                 yield Observation(f"replace {target.id}", node.lineno, words)
         if isinstance(node, ast.ClassDef | ast.FunctionDef) and node.name in modules:
-            words = f"The code uses the name of the module {node.name} for another object."
+            words = f"The code assigns another object to {node.name}, which is the name of a module."
             yield Observation(f"replace {node.name}", node.lineno, words)

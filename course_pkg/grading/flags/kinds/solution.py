@@ -16,7 +16,8 @@ from course_pkg.grading.grade import Flag
 TITLE = "The course's own solution"
 EXACT = "The answer is the same as the course's solution."
 CHANGED = (
-    "The answer is the same as the course's solution; only names, comments, strings or the order differ."
+    "The answer differs from the course's solution only in names, comments, strings or the order of "
+    "the lines."
 )
 
 

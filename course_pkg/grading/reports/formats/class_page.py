@@ -28,8 +28,8 @@ from course_pkg.grading.reports.page import KINDS, Frame, banner, paragraph, tab
 
 HINTS = 12
 UNSANDBOXED = (
-    "These submissions were run without a sandbox. They had access to this machine, to their checks "
-    "and to each other, so the points may be wrong."
+    "The code of these submissions ran without a sandbox. It had access to this machine, to the "
+    "checks and to other submissions, so the points may be wrong."
 )
 ABSENT = "\N{EN DASH}"
 
@@ -142,7 +142,7 @@ def _looks(book: Book) -> str:
     items = "".join(
         f"<li>{_link(student)}{_listed([*grave[student], *_known(book, student)])}</li>" for student in ranked
     )
-    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("None: there were no special cases.")
+    looks = f'<ul class="looks">{items}</ul>' if items else paragraph("None: no student needs attention.")
     others = [student for student in book.students if student not in grave and _known(book, student)]
     if not others:
         return looks

@@ -115,9 +115,9 @@ def _cells(grade: Grade) -> Iterator[str]:
     passed = len(grade.cells) - len(others)
     yield "<h3>Your answers in the whole notebook</h3>"
     yield paragraph(
-        f"The chapter's notebook was run from top to bottom with your answers in it. {passed} of "
-        f"{len(grade.cells)} cells gave the same result as with the right answers. This earns no points; it "
-        "shows where an answer affects a later cell."
+        f"The chapter's notebook was run from top to bottom with your answers. {passed} of "
+        f"{len(grade.cells)} cells gave the same result as with the right answers. You get no "
+        "points for these cells: they only show where an answer affects a later cell."
     )
     if others:
         items = (

@@ -22,7 +22,7 @@ import psutil
 
 from course_pkg.checking.parts import secret_paths
 from course_pkg.errors import SandboxUnavailable
-from course_pkg.sandbox import confinement, namespaces
+from course_pkg.sandbox.linux import confinement, namespaces
 from course_pkg.setup import Places
 from course_pkg.waiting import Deadline, wait_until
 
@@ -52,7 +52,9 @@ def reserve() -> tuple[Users, socket.socket]:
             clear(users)
             return users, lock
         lock.close()
-    raise SandboxUnavailable("All users for students' code are in use by other graders on this machine.")
+    raise SandboxUnavailable(
+        "Other graders on this machine use all accounts for students' code. Wait until a grader has ended."
+    )
 
 
 def become(uid: int) -> None:

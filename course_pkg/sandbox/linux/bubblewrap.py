@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from course_pkg.errors import SandboxUnavailable
-from course_pkg.sandbox.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
+from course_pkg.sandbox.linux.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
 from course_pkg.setup import PACKAGE_PARTS, Places, environment
 
 # If root starts the sandbox, the command runs with this uid and gid of a user without files.
@@ -71,9 +71,9 @@ def require_sandbox() -> None:
     """Raise SandboxUnavailable if this machine cannot create a sandbox."""
     if reason := refusal():
         raise SandboxUnavailable(
-            f"{reason} Without a sandbox, students' code runs with your permissions: it can read your files "
-            "and change grades. Grade on another machine, or add --unsafe-no-sandbox if you trust every "
-            "submission."
+            f"{reason} Without a sandbox, students' code runs with your permissions, so it can read "
+            "your files and change grades. Grade on another machine, or add --unsafe-no-sandbox if "
+            "you trust every submission."
         )
 
 

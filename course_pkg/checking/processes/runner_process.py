@@ -15,8 +15,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 
 from course_pkg.checking.channel import Channel
+from course_pkg.checking.processes.runner import run_check
 from course_pkg.checking.record import StudentRecord
-from course_pkg.checking.runner import run_check
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.sharing.notice import address
 from course_pkg.sharing.outbox import Outbox

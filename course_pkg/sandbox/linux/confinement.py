@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NoReturn
 
-from course_pkg.sandbox import namespaces
+from course_pkg.sandbox.linux import namespaces
 
 STUDENT = 1000  # The student's code inside the sandbox has this uid and gid.
 MEMORY = 1 << 30  # Each process may use at most this address space in bytes.

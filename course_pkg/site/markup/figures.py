@@ -16,7 +16,7 @@ from urllib.parse import unquote
 from xml.etree import ElementTree
 
 from course_pkg.errors import SiteError
-from course_pkg.site.prose import attribute
+from course_pkg.site.markup.prose import attribute
 
 NAMESPACE = "{http://www.w3.org/2000/svg}"
 SHAPES = ("circle", "ellipse", "line", "path", "polygon", "polyline", "rect", "text", "tspan", "use")
@@ -40,16 +40,20 @@ def figure(folder: Path, url: str, alt: str, prefix: str) -> str:
     a script or another forbidden element.
     """
     if not alt.strip():
-        raise SiteError(f"The figure {url} has no description. Write one: ![description]({url}).")
+        raise SiteError(f"The figure {url} has no description. Write a description: ![description]({url}).")
     path = folder / unquote(url)
     try:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
-        raise SiteError(f"There is no figure {url} in {folder}. Correct the path in the Markdown.") from error
+        raise SiteError(
+            f"There is no figure {url} in {folder}. Correct the path in the Markdown cell."
+        ) from error
     if path.suffix == ".svg":
         return _drawing(path, content, alt, prefix)
     if path.suffix not in KINDS:
-        raise SiteError(f"The figure {url} must be a drawing (.svg) or a picture ({', '.join(KINDS)}).")
+        raise SiteError(
+            f"The figure {url} has the wrong format. Use a drawing (.svg) or a picture ({', '.join(KINDS)})."
+        )
     data = base64.b64encode(content).decode()
     return f'<img src="data:image/{KINDS[path.suffix]};base64,{data}" alt="{attribute(alt)}">'
 
@@ -90,7 +94,10 @@ def _carried(path: Path, element: ElementTree.Element, prefix: str) -> None:
         if name == "id":
             element.set(name, prefix + value)
         elif name.lower().startswith("on") or (name.endswith("href") and not value.startswith("#")):
-            raise SiteError(f'The figure {path} has {name}="{value}". A figure may not run or load anything.')
+            raise SiteError(
+                f'The figure {path} has {name}="{value}". Remove this attribute, because a figure must not '
+                "run or load anything."
+            )
         elif name.endswith("href"):
             element.set(name, f"#{prefix}{value[1:]}")
         else:

@@ -92,7 +92,7 @@ class _Renderer(HTMLRenderer):
 
 
 def _no_figure(url: str, _alt: str) -> str:
-    raise SiteError(f"The figure {url} cannot be shown in this text. Move it to a cell of a chapter.")
+    raise SiteError(f"The figure {url} cannot be shown in this text. Move the figure to a cell of a chapter.")
 
 
 def page_of(url: str) -> str:

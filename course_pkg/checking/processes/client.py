@@ -29,7 +29,7 @@ from course_pkg.sharing.notice import notice
 # The check runner has to send its next message within this time in s. In grading, a check can take up to 600
 # s on a busy machine, and the kernel may receive no message during this time.
 TIMEOUT = 900.0
-RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.runner_process import main; main()"
+RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.processes.runner_process import main; main()"
 
 
 def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report:

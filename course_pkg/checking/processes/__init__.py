@@ -1,0 +1,1 @@
+"""The two processes of a check: the check client in the kernel, and the check runner."""

@@ -1,0 +1,1 @@
+"""What Linux offers to separate processes: namespaces, bubblewrap, other users, and removed rights."""

@@ -1,0 +1,1 @@
+"""Parts of a page as HTML: the Markdown, the code cells and the figures of a notebook."""

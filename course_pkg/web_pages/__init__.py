@@ -1,0 +1,1 @@
+"""What the pages of `course class` and `course review` share, and the style sheet below that of each page."""

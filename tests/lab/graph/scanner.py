@@ -1,0 +1,90 @@
+"""Scans the network that this program is in, and prints each way to the nodes of NAME.
+
+usage: python3 scanner.py NAME [SOCKET …]
+
+The program asks each TCP port that listens here for the state of a master, for the address of a node, and for
+the service NAME, and each abstract socket whether it accepts connections. It also connects to each SOCKET,
+which is the path of a Unix socket. It uses only the standard library, because every user can run it.
+"""
+
+from __future__ import annotations
+
+import socket
+import struct
+import sys
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from pathlib import Path
+
+TIMEOUT = 2.0  # s for each request
+BODY = (
+    "<methodCall><methodName>{}</methodName><params><param><value>/scan</value></param></params></methodCall>"
+)
+
+
+def ports() -> Iterator[int]:
+    """Yield the TCP ports on which programs in this network listen."""
+    for kind in ("tcp", "tcp6"):
+        for line in Path("/proc/net", kind).read_text().splitlines()[1:]:
+            words = line.split()
+            if words[3] == "0A":
+                yield int(words[1].rpartition(":")[2], 16)
+
+
+def answer(port: int, request: bytes) -> bytes:
+    """Return what a port answers to a request."""
+    received = b""
+    with suppress(OSError), socket.create_connection(("localhost", port), TIMEOUT) as client:
+        client.settimeout(TIMEOUT)
+        client.sendall(request)
+        while part := client.recv(1 << 16):
+            received += part
+    return received
+
+
+def call(port: int, method: str) -> bytes:
+    """Return what a port answers to an XML-RPC request."""
+    body = BODY.format(method).encode()
+    return answer(port, b"POST /RPC2 HTTP/1.0\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body))
+
+
+def probe(port: int, service: str) -> bytes:
+    """Return what a port answers to a client of a ROS service that only asks for its type."""
+    fields = [b"probe=1", b"md5sum=*", b"callerid=/scan", b"service=" + service.encode()]
+    header = b"".join(struct.pack("<I", len(field)) + field for field in fields)
+    return answer(port, struct.pack("<I", len(header)) + header)
+
+
+def accepts(name: str) -> bool:
+    """Return whether a Unix socket accepts a connection."""
+    with suppress(OSError), socket.socket(socket.AF_UNIX) as client:
+        client.settimeout(TIMEOUT)
+        client.connect(name)
+        return True
+    return False
+
+
+def asked(name: str, port: int) -> list[str]:
+    """Return what a port offers of NAME: a master, a node, the service, or several of them."""
+    answers = {
+        "master": f"/{name}".encode() in call(port, "getSystemState"),
+        "node": f"/{name}".encode() in call(port, "getName"),
+        "service": b"type=" in probe(port, f"/{name}"),
+    }
+    return [kind for kind, offered in answers.items() if offered]
+
+
+def found(name: str, paths: list[str]) -> Iterator[str]:
+    """Yield each master, node, service and socket that was found."""
+    with ThreadPoolExecutor(30) as threads:
+        for kinds in threads.map(lambda port: asked(name, port), set(ports())):
+            yield from kinds
+    abstract = [line.split()[-1] for line in Path("/proc/net/unix").read_text().splitlines() if " @" in line]
+    for socket_name in {"\0" + each[1:] for each in abstract if name in each}:
+        if accepts(socket_name):
+            yield "socket"
+    yield from (path for path in paths if accepts(path))
+
+
+sys.stdout.write(" ".join(found(sys.argv[1], sys.argv[2:])))
