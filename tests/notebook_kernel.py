@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import queue
+import tempfile
 import textwrap
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from types import TracebackType
 
 from jupyter_client import BlockingKernelClient, KernelManager
@@ -36,8 +38,11 @@ class Shown:
 class NotebookKernel:
     """An IPython kernel process with its client."""
 
-    def __init__(self, env: Mapping[str, str] | None = None, **options: str) -> None:
-        self.manager = KernelManager(kernel_name="python3", **options)
+    def __init__(self, env: Mapping[str, str] | None = None) -> None:
+        # With TCP, another program could take the chosen port before the kernel opens it.
+        self._folder = tempfile.TemporaryDirectory(prefix="kernel-")
+        sockets = str(Path(self._folder.name) / "kernel.json")
+        self.manager = KernelManager(kernel_name="python3", transport="ipc", connection_file=sockets)
         self.manager.start_kernel(env={**os.environ, **(env or {})})
         self.client: BlockingKernelClient = self.manager.client()
         self.client.start_channels()
@@ -51,6 +56,7 @@ class NotebookKernel:
     ) -> None:
         self.client.stop_channels()
         self.manager.shutdown_kernel(now=True)
+        self._folder.cleanup()
 
     def begin(self, code: str, cell: str | None = None) -> str:
         """Send the code and the id of a cell to the kernel, and return the message id."""

@@ -6,6 +6,7 @@ import json
 import os
 import re
 import sys
+import tempfile
 import urllib.request
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -35,7 +36,6 @@ OPEN = """async (path) => {
   await shown.context.ready;
   await shown.sessionContext.ready;
 }"""
-# The server waits up to 60 s for the first answer of a new kernel, and the page then connects again.
 CONNECTED = 90_000  # ms
 IDLE = "() => window.jupyterapp.shell.currentWidget?.sessionContext?.session?.kernel?.status === 'idle'"
 THEME = "(theme) => window.jupyterapp.commands.execute('apputils:change-theme', { theme })"
@@ -57,8 +57,10 @@ def running_lab(folder: Path) -> Iterator[Lab]:
     port = free_port()
     root = folder / "notebooks"
     root.mkdir(parents=True)
-    with PrivateMaster() as master:
-        server = SupervisedProcess(_command(port, root), env=_environment(folder, master.uri), cwd=root)
+    # The names of the kernels' sockets are limited to 107 bytes, so their folder has a short name.
+    with PrivateMaster() as master, tempfile.TemporaryDirectory(prefix="lab-") as runtime:
+        environment = {**_environment(folder, master.uri), "JUPYTER_RUNTIME_DIR": runtime}
+        server = SupervisedProcess(_command(port, root), env=environment, cwd=root)
         try:
             url = f"http://127.0.0.1:{port}"
             eventually(lambda: _answers(f"{url}/api/status"), timeout=60)
@@ -119,6 +121,8 @@ def _command(port: int, root: Path) -> list[str]:
         "ServerApp.terminado_settings": {"shell_command": list(SHELL)},
         "LabApp.news_url": "",
         "LabApp.expose_app_in_browser": True,
+        # With TCP, another program could take the chosen port before the kernel opens it.
+        "KernelManager.transport": "ipc",
     }
     return [sys.executable, "-m", "jupyterlab", *(f"--{name}={value}" for name, value in options.items())]
 
@@ -134,7 +138,6 @@ def _environment(folder: Path, master: str) -> Mapping[str, str]:
         "JUPYTERLAB_SETTINGS_DIR": folder / "settings",
         "JUPYTERLAB_WORKSPACES_DIR": folder / "workspaces",
         "JUPYTER_CONFIG_DIR": folder / "config",
-        "JUPYTER_RUNTIME_DIR": folder / "runtime",
         "IPYTHONDIR": folder / "ipython",
         "COURSE_STATE": folder / "state",
         "COURSE_WORKSPACE": folder / "workspace",

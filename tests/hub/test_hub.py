@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from course_pkg.hub.settings import SCRATCH
 from tests.hub.running import arguments, hub, passwords, refusal
 from tests.hub.student import Student
 from tests.lab.commands import all_gone, below
@@ -32,22 +34,24 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("hub")
 
 
-def temporary_folders() -> set[Path]:
-    """Return the folders for temporary files of hubs."""
-    return set(Path("/tmp").glob("course-hub-*"))  # noqa: S108 -- the hub creates them there
+def temporary_folder(folder: Path) -> Path:
+    """Return the folder for temporary files of the hub in `folder`."""
+    settings = json.loads((folder / "hub" / "private" / "settings.json").read_text())
+    return Path(settings["environment"][SCRATCH])
 
 
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
     """Run a hub for the tests of this module, and end it with SIGKILL; nothing remains."""
-    before = temporary_folders()
     with hub(folder, ["anna", "ben"]) as (process, address):
         yield address
         family = below(process)
+        temporary = temporary_folder(folder)
+        assert temporary.is_dir()
         process.kill()
         assert family
         assert all_gone(family)
-        assert temporary_folders() <= before
+        assert not temporary.exists()
 
 
 def test_a_student_logs_in_once_and_passes_a_check(address: str, folder: Path) -> None:

@@ -13,10 +13,11 @@ def settings_for(graph: Graph | None) -> dict[str, object]:
     """Return the settings, by the names of their traits, with which kernels and terminals are on `graph`.
 
     The server stays outside of a private network, so it reaches a kernel by sockets that are files (transport
-    "ipc"). In the network of this computer, no setting is necessary.
+    "ipc"). In the network of this computer, such sockets have another reason: another program could take a
+    TCP port before the kernel opens it.
     """
     if not graph or not graph.files:
-        return {}
+        return {"KernelManager.transport": "ipc"}
     command = network.entering(graph.files)
     return {
         "ServerApp.terminado_settings": {"shell_command": [*command, *SHELL]},
