@@ -60,7 +60,7 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
 
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
-    """Run several of `notebooks` at the same time; the keys are their names.
+    """Run all `notebooks`, several at the same time; the keys of the mapping are the notebooks' names.
 
     Calls `finished` with the name and the outputs of each notebook that ran to its last cell. Returns the
     errors of all other notebooks, by name. A KeyboardInterrupt ends all kernels.
