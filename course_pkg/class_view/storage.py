@@ -12,7 +12,7 @@ from course_pkg.errors import ClassViewError
 
 FILE = "results.sqlite"
 VERSION = 1
-MOST = 10_000  # results of one student
+MOST = 10_000  # The database stores at most this number of results for one student.
 DAY = 86_400.0  # s
 TABLE = """
 CREATE TABLE results (
@@ -31,7 +31,8 @@ class TooMany(Exception):
 class Storage:
     """The database in `folder`, which is created if it does not exist.
 
-    Raises ClassViewError if it cannot be used. The methods raise sqlite3.Error if the disk cannot be written.
+    Raises ClassViewError if the database cannot be used. The methods raise sqlite3.Error if the disk cannot
+    be written.
     """
 
     def __init__(self, folder: Path) -> None:

@@ -29,9 +29,10 @@ from course_pkg.setup import Places
 from course_pkg.setup.own_files import make_own_files
 from course_pkg.workspace import make_own_workspace
 
-PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ones, and 0 means any free port
-READY = 60.0  # time limit for the start in s; it takes 2 s, or much longer with an empty disk cache
-LOOK = 0.01  # s between two checks whether the server answers
+PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ports, and 0 means any free port
+# The start has to end within this time in s; it takes 2 s, or much longer with an empty disk cache.
+READY = 60.0
+LOOK = 0.01  # This is the time in s between two checks whether the server answers.
 KEPT_LINES = 12  # number of lines of the server's log in an error message
 
 
@@ -165,8 +166,9 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
 def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str, object]:
     """Return JupyterLab's settings for one start, by the names of its traits.
 
-    All installed extensions stay enabled. The settings of all starts are in course_pkg/lab/extension.py. The
-    file browser shows the folder `root`; the other two are folders for checkpoints and workspaces.
+    All installed extensions stay enabled. The settings that are the same for every start are in
+    course_pkg/lab/extension.py. The file browser shows the folder `root`; `checkpoints` and `workspaces` are
+    folders for JupyterLab's checkpoints and workspaces.
     """
     return {
         "ServerApp.root_dir": root,
@@ -193,7 +195,7 @@ def _short_folder() -> str | None:
 def _user_settings() -> Path:
     """Return the folder of the user's own settings for JupyterLab, such as a theme.
 
-    This Jupyter uses them, too.
+    The course's Jupyter uses these settings, too.
     """
     given = os.environ.get("JUPYTERLAB_SETTINGS_DIR")
     config = os.environ.get("JUPYTER_CONFIG_DIR") or os.path.expanduser("~/.jupyter")

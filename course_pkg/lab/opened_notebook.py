@@ -34,7 +34,7 @@ def notebook_to_open(root: Path, asked: str | None) -> str:
 def write_workspace(folder: Path, notebook: str) -> None:
     """Write the workspace that JupyterLab opens.
 
-    It has one tab for `notebook`, and no tabs of an earlier start.
+    The workspace has one tab for `notebook`, and no tabs of an earlier start.
 
     JupyterLab would start a kernel for each restored tab before the page is usable. The page's address could
     also contain the notebook and `?reset`, but JupyterLab reads the address 0.5 s later than the workspace.

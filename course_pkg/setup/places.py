@@ -13,7 +13,7 @@ from course_pkg.installed import DATA, own_folder, version_folder
 
 # The first tuple contains the package's folders except course_pkg; the second tuple contains all its files.
 CATKIN_FOLDERS = ("srv", "msg", "action", "launch")
-BUILT = "env"  # in the folder of an installed version: all files that the set-up creates
+BUILT = "env"  # This folder of an installed version contains all files that the set-up creates.
 PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")
 
 
@@ -43,7 +43,7 @@ class Places(NamedTuple):
 
     @property
     def own(self) -> Path:
-        """The folder with the user's notebooks and workspace: the checkout, if it is not installed."""
+        """The folder with the user's notebooks and workspace: the checkout, or a folder of the user's own."""
         return own_folder(self.checkout)
 
     @property

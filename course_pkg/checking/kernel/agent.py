@@ -59,7 +59,7 @@ class KernelAgent:
         self._commands = CommandFolders(self._file)
         self._handler_errors = HandlerErrors()
         self._handler_errors.open()
-        # These names of `prepare` and `place` are separate from the student's names.
+        # The names that `prepare` and `place` define are separate from the student's names.
         self._prepared: dict[str, Value] = {}
         self._proxies: ObjectProxies | None = None
         self._handlers: dict[str, Callable[..., Reply]] = {

@@ -97,7 +97,7 @@ def _started_runner() -> Iterator[Channel]:
         except ChannelError as error:
             raise ChannelClosed(_how_it_ended(process, log)) from error
         finally:
-            # After this, the check runner unregisters its node.
+            # When the channel is closed, the check runner unregisters its node.
             channel.close()
             _end(process)
 

@@ -1,8 +1,8 @@
 """A check's copy of a student's catkin package, built in a separate folder, and the programs of this copy.
 
 The check adds its own version of each missing file, so one file can be examined before the student has
-written all files. In grading, a submission contains only the cells of the notebook, so files are missing
-there too.
+written all files. In grading, a submission contains only the cells of the notebook, so files can be missing
+in grading, too.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-# For a package that contains only scripts, no other path is necessary.
+# A package that contains only scripts needs no path except this path.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 # Without -j2, catkin_make sets a load limit, and make would wait while the machine is busy.
 CATKIN_MAKE = "catkin_make -j2"
@@ -87,9 +87,9 @@ def built(
     """Build a copy of the student's package, and assert that the build succeeds.
 
     If `alone` is true, only `examined` comes from the student. The files in `drawn` (content by path in the
-    package) replace the student's files. The content of these files is random, so no student's CMakeLists.txt
-    can contain it. Raises CheckError if the build takes more than `within` s; a build with C++ needs more
-    than the default.
+    package) replace the student's files. The content of these files is random, so a student's CMakeLists.txt
+    cannot contain this content in advance. Raises CheckError if the build takes more than `within` s; a build
+    with C++ needs more than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}

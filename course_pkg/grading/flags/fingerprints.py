@@ -112,7 +112,8 @@ def _python_words(source: str, module: ast.Module) -> Iterator[str]:
             if token.type == tokenize.COMMENT:
                 yield from _long(token.string)
     except (tokenize.TokenError, SyntaxError, ValueError):
-        # After an IPython magic or an unterminated string, the comments before it have already been found.
+        # An IPython magic or an unterminated string ends the search; the comments before it have already been
+        # found.
         pass
     for node in ast.walk(module):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):

@@ -35,7 +35,8 @@ SMALL = 30  # In a class with fewer students than this, the weights are the same
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
 OWN_CODE = 15  # A single answer is enough with this many features that at most one other student has.
-OWN_WORDS = 3  # A single answer is also enough with this many such comments, strings or names.
+# A single answer is also enough with this many comments, strings or names that at most one other student has.
+OWN_WORDS = 3
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)
 Couple = tuple[int, int]

@@ -53,7 +53,10 @@ class Found:
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the name in `names` that belongs to the package, or ""; parts need the names in `names`."""
+        """Return the name in `names` that belongs to the package, or "".
+
+        `names` are the names that parts need.
+        """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
 

@@ -34,7 +34,7 @@ class Asked:
 
     chapters: frozenset[str] = frozenset()
     columns: tuple[Column, ...] = ()
-    # The arguments are the student, or "" for others, and the chapter.
+    # The first argument is the student, or "" for all other students; the second argument is the chapter.
     due: Callable[[str, str], bool] = _always
 
     def counted(self, student: str, grades: Sequence[Grade], asked: Sequence[str]) -> list[str]:

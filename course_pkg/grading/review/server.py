@@ -1,4 +1,4 @@
-"""The server of the review page: it answers only requests with its token, from its own page."""
+"""The server of the review page: it answers only requests that contain its token and come from its page."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ def zip_path(folder: Path) -> Path:
 
 
 def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
-    """Write `files` to the zip at `path`, in a folder with the name `folder`, or in no folder if it is ""."""
+    """Write `files` to the zip at `path`, in a folder called `folder`, or in no folder if `folder` is ""."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.comment = MARK

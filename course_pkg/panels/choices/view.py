@@ -34,7 +34,7 @@ class _State(TypedDict):
 
 
 class Choices(Panel):
-    """A table of cases: the student chooses an option for each, and then reads the reasons.
+    """A table of cases: the student chooses an option for each case, and then reads the reasons.
 
     The page does not get the expected options and the reasons before it shows them.
     """

@@ -25,7 +25,7 @@ FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
 GRACE = 2.0  # The supervisor waits this time in s between SIGTERM and SIGKILL.
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-# On a system without pidfd, the supervisor polls its parent's process id once in this time (ms).
+# On a system without pidfd, this is the time in ms between two polls of the parent's process id.
 INTERVAL = 200
 
 

@@ -83,7 +83,7 @@ def rpc_probe(uri: str, method: str, *args: RpcValue) -> Probe:
 
 
 def rpc_answer(probe: Probe) -> RpcValue:
-    """Return the value of a node's response, or None without a response or if the node has no such method."""
+    """Return the value of a node's response, or None if the node did not respond or has no such method."""
     if not probe.answered:
         return None
     try:

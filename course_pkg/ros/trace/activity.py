@@ -56,8 +56,8 @@ class Activity:
     """All counts of one poll.
 
     `at` is a time of time.monotonic() (s). `silent` contains the nodes that returned no valid response.
-    `callers` maps each service to its callers, the latest caller first. Services whose servers do not count
-    callers are missing.
+    `callers` maps each service to its callers, the latest caller first. `callers` omits services whose
+    servers do not count callers.
     """
 
     at: float
