@@ -61,7 +61,7 @@ class CheckContext:
     # -- the goals of a part, for partial credit
 
     def fulfilled(self, goal: str) -> None:
-        """Mark a goal of the part as fulfilled: it earns its points even if a later assertion fails.
+        """Mark a goal of the part as fulfilled: the goal earns its points even if a later assertion fails.
 
         A goal earns points only if all assertions before this call hold. Put the part's main goal first, so
         that a program that does nothing, or refuses everything, earns no points for a later goal. If the goal

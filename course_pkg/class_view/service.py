@@ -44,7 +44,7 @@ class ClassService:
     async def store(self, student: str, data: object) -> list[str]:
         """Store the results in `data`; return the ids of the results that need not be sent again.
 
-        Raises ValueError, TooMany, or sqlite3.Error if they cannot be stored.
+        Raises ValueError, TooMany, or sqlite3.Error if the results cannot be stored.
         """
         now = time.time()
         results, ids = received(student, data, now, now - self.settings.days * DAY)

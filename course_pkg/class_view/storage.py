@@ -25,7 +25,7 @@ CREATE TABLE results (
 
 
 class TooMany(Exception):
-    """A student has sent more results than the database keeps for one student."""
+    """A student has sent more results than the database stores for one student."""
 
 
 class Storage:
@@ -53,7 +53,7 @@ class Storage:
         self._database.close()
 
     def add(self, results: Iterable[Result]) -> list[Result]:
-        """Store the results; return those that were not stored before. Raises TooMany.
+        """Store the results; return the results that were not stored before. Raises TooMany.
 
         Either all results are stored, or none.
         """

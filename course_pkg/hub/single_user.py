@@ -30,7 +30,7 @@ NAMES_ONLY_IN_HUB = {"jupyterhub.handlers.pages": "HealthCheckHandler", "sqlalch
 
 
 def main() -> None:
-    """Prepare the student's folder and graph, and run the server until the hub ends it."""
+    """Prepare the student's folder and graph, and run the server until the hub ends the server."""
     folder = Path.home() / FOLDER
     pull(os.environ["COURSE_RELEASED"], folder)
     os.environ["COURSE_WORKSPACE"] = str(folder / "workspace")

@@ -1,4 +1,4 @@
-"""JupyterHub's spawner for the course: a student's server with limits, which ends with the hub."""
+"""JupyterHub's spawner for the course: a student's server has limits, and ends when the hub ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`course lab`: starts a master and JupyterLab with the course's settings, and ends both at the end."""
+"""`course lab`: starts a master and JupyterLab with the course's settings, and ends both before it exits."""
 
 from __future__ import annotations
 
@@ -108,7 +108,10 @@ class _Address(NamedTuple):
 
 
 class _Stop(BaseException):
-    """A signal that ends this command raises this exception. `except Exception` does not catch it."""
+    """A signal that ends this command raises this exception.
+
+    `except Exception` does not catch this exception.
+    """
 
 
 @contextmanager
@@ -184,7 +187,7 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
 
 
 def _short_folder() -> str | None:
-    """Return a folder for temporary files whose name is short enough for the names of a kernel's sockets.
+    """Return a folder for temporary files; its name is short enough for the names of a kernel's sockets.
 
     The path of a socket is 80 bytes longer than the path of this folder, and Linux allows at most 107 bytes.
     None means the usual folder.
@@ -203,7 +206,10 @@ def _user_settings() -> Path:
 
 
 def _make_workspace() -> None:
-    """Create the folder of the student's own packages; print a message on stderr if it cannot be used."""
+    """Create the folder of the student's own packages.
+
+    Print a message on stderr if this folder cannot be used.
+    """
     try:
         make_own_workspace()
     except SetupError as error:
@@ -237,8 +243,8 @@ def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
 def _start_kernel(address: _Address, notebook: str) -> None:
     """Start the notebook's kernel while the page loads, so that the page finds a running kernel.
 
-    If this fails, the page starts the kernel itself. If the page cannot start it either, the page shows the
-    reason.
+    If this fails, the page starts the kernel itself. If the page cannot start the kernel either, the page
+    shows the reason.
     """
     if not notebook:
         return

@@ -14,7 +14,7 @@ WORKSPACE = "default-37a8.jupyterlab-workspace"
 def notebook_to_open(root: Path, asked: str | None) -> str:
     """Return the path of the notebook to open, relative to `root`, the folder with `notebooks`.
 
-    This path is `asked`; it is the first chapter if `asked` is None, or "" if there are no chapters. Raises
+    This path is `asked`, the first chapter if `asked` is None, or "" if there are no chapters. Raises
     SetupError if `asked` is not a file in `root`.
     """
     if asked is None:

@@ -31,7 +31,8 @@ MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the m
 # These lines of /proc/PID/status and /proc/PID/smaps_rollup contain the memory of a process in KiB, without
 # mapped files (proc(5)).
 QUICK = ("RssAnon:", "RssShmem:")  # A page that processes share counts for each of these processes.
-EXACT = ("Pss_Anon:", "Pss_Shmem:")  # A page counts once; the processes that share it divide it.
+# A shared page counts only once: each process that shares the page gets a part of its size.
+EXACT = ("Pss_Anon:", "Pss_Shmem:")
 OPEN = 4096  # No process of a sandbox has a file descriptor of this number or above.
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
 TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # These are exit statuses of a supervisor.

@@ -132,7 +132,7 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
 
 
 def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callable[[str], None]) -> None:
-    """Run `command`, and repeat it while another program holds a lock that the command needs."""
+    """Run `command`, and repeat the command while another program holds a lock that the command needs."""
     deadline = time.monotonic() + LOCK_TIMEOUT
     while True:
         try:

@@ -11,7 +11,8 @@ from typing import NamedTuple
 from course_pkg.errors import SetupError
 from course_pkg.installed import DATA, own_folder, version_folder
 
-# The first tuple contains the package's folders except course_pkg; the second tuple contains all its files.
+# The first tuple contains the package's folders except course_pkg; the second tuple contains all files of the
+# package.
 CATKIN_FOLDERS = ("srv", "msg", "action", "launch")
 BUILT = "env"  # This folder of an installed version contains all files that the set-up creates.
 PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")
@@ -81,7 +82,7 @@ class Places(NamedTuple):
 
     @property
     def environment(self) -> Path:
-        """The file with the variables of the workspace's setup.bash, which is sourced only once."""
+        """The file with the variables of the workspace's setup.bash; setup.bash is sourced only once."""
         return self.workspace / "environment.json"
 
     @property

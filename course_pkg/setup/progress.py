@@ -84,7 +84,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show `text`, which explains a wait, but not twice in succession."""
+        """Show `text`, an explanation of a wait, unless the same text was shown last."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:

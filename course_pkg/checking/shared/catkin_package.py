@@ -120,8 +120,8 @@ def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: f
 def copied(context: CheckContext, package: Package, *, examined: str, alone: bool = False) -> BuiltPackage:
     """Copy a package that needs no build, because it contains only Python programs and launch files.
 
-    rosrun and roslaunch find its programs in `src`, as they do in a workspace that was built. If `alone` is
-    true, only `examined` comes from the student.
+    rosrun and roslaunch find its programs in `src`, as in a built workspace. If `alone` is true, only
+    `examined` comes from the student.
     """
     files = [package.path(examined) if alone else package.folder]
     folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})
@@ -132,7 +132,7 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
 def _own_files(package: Package, examined: str) -> dict[str, str]:
     """Return the check's own files by their paths in the folder of a check, without the examined file.
 
-    A CMakeLists.txt could otherwise use the check's version of the examined file.
+    If the result contained the examined file, a CMakeLists.txt could use the check's version of this file.
     """
     return {f"{OWN}/{package.name}/{file}": text for file, text in package.files.items() if file != examined}
 

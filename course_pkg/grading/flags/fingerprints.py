@@ -65,7 +65,7 @@ def _fingerprint(answer: Answer) -> Fingerprint:
 
 
 def _features(made: list[Statement]) -> Iterator[str]:
-    """Yield the features; the second occurrence of a feature is a different feature."""
+    """Yield the features; the second occurrence of a feature counts as a different feature."""
     counts: Counter[str] = Counter()
     for feature in [*_single(made), *_pairs(made), *_blocks(made)]:
         counts[feature] += 1

@@ -13,7 +13,7 @@ reasons:
 - Otherwise, the two students must have several similar answers. For each answer, p is the estimated
   probability that two students have such a high similarity by chance. The estimate is the fraction of all
   pairs of students with at least this similarity. The sum of log2(1 / p) must be larger than log2 of the
-  number of pairs. With this limit, fewer than one such pair is expected by chance in the whole class.
+  number of pairs. With this limit, chance alone flags fewer than one pair of a class on average.
 """
 
 from __future__ import annotations

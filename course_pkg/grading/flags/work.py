@@ -31,7 +31,7 @@ class Answer:
 
     @property
     def name(self) -> str:
-        """The path of the file or the id of the part; it is the same in all students' work.
+        """The path of the file or the id of the part: a name that is the same in all students' work.
 
         One student can write the file with a cell, and another student can submit it in a package.
         """

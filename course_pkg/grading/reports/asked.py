@@ -1,4 +1,4 @@
-"""The chapters that were assigned; each of them counts for a student even without a submission."""
+"""The assigned chapters; each assigned chapter counts for a student, even without a submission."""
 
 from __future__ import annotations
 

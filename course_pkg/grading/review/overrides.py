@@ -2,7 +2,7 @@
 
 The columns are student, chapter, part, points, comment and answer. Other columns and empty lines do not
 change. A part is written as "Part 05.10", because a spreadsheet would change 05.10 to 5.1. `answer`
-identifies the reviewed answer; it is empty in a row that was typed in a spreadsheet.
+identifies the reviewed answer; the cell is empty in a row that was typed in a spreadsheet.
 """
 
 from __future__ import annotations

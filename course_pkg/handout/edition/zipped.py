@@ -38,7 +38,7 @@ def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
         for name, file in files.items():
             entry = zipfile.ZipInfo(f"{folder}/{name}" if folder else name, TIME)
             entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.create_system = 3  # The value 3 means Unix; with it, unzip sets the permissions.
+            entry.create_system = 3  # The value 3 means Unix; with this value, unzip sets the permissions.
             entry.external_attr = (0o100755 if file.executable else 0o100644) << 16
             archive.writestr(entry, file.content)
     try:

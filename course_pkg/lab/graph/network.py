@@ -33,8 +33,8 @@ def create() -> list[int]:
         try:
             return _create(namespaces.NETWORK)
         except OSError:
-            # In a container, root may have no right to create only a network namespace, but may create a user
-            # namespace.
+            # In a container, root may not be allowed to create only a network namespace, but may be
+            # allowed to create a user namespace, too.
             pass
     return _create(namespaces.USER | namespaces.NETWORK)
 
@@ -59,7 +59,7 @@ def entering(files: Sequence[int]) -> list[str]:
 
 
 def _create(kinds: int) -> list[int]:
-    """Create namespaces in a child process, which sends their files and ends."""
+    """Create namespaces in a child process; the child sends the files of the namespaces, and ends."""
     ours, theirs = socket.socketpair()
     with ours, theirs:
         child = os.fork()

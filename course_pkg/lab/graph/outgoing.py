@@ -1,9 +1,9 @@
 """Connections from a private network to other computers, through slirp4netns.
 
-slirp4netns forwards each connection from the private network as an ordinary connection of the user. It
-accepts no connection from outside, and it does not forward to the loopback addresses of this computer, on
-which other users' servers listen. The program pasta could also be used, but pasta of Debian 12 cannot open a
-namespace by a descriptor in /proc.
+slirp4netns forwards each connection from the private network as an ordinary connection of the user.
+slirp4netns accepts no connection from outside, and does not forward to the loopback addresses of this
+computer, on which other users' servers listen. The program pasta could also be used, but pasta of Debian 12
+cannot open a namespace by a descriptor in /proc.
 """
 
 from __future__ import annotations
@@ -39,7 +39,10 @@ class Outgoing:
             os.close(writing)
 
     def works(self) -> bool:
-        """Wait until the network is connected, or until slirp4netns has failed; return whether it works."""
+        """Wait until the network is connected, or until slirp4netns has failed.
+
+        Return whether the network is connected.
+        """
         return os.read(self._ready, 1) == b"1"
 
     def end(self) -> None:

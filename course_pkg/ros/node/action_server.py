@@ -25,8 +25,8 @@ Execute = Callable[[Message, actionlib.SimpleActionServer], object]
 class ActionServer:
     """Serves the action `name` of type `kind`: calls `execute(goal, server)` for each goal, one at a time.
 
-    `server` is an actionlib.SimpleActionServer: `execute` uses it to send feedback and the result, and to
-    check whether the goal was cancelled.
+    `server` is an actionlib.SimpleActionServer: `execute` uses this object to send feedback and the result,
+    and to check whether the goal was cancelled.
 
     An ActionServer ends when stop() is called, or when no variable refers to it any more, for example because
     its cell runs again.

@@ -117,7 +117,7 @@ class Node:
             subscription.renew()
 
     def close(self, *, with_master: bool = True) -> None:
-        """End everything that this node has started; if `with_master` is true, unregister it."""
+        """End everything that this node has started; if `with_master` is true, unregister the node."""
         # All processes are interrupted at the same time, so they have one common deadline.
         deadline = time.monotonic() + GRACE
         for process in self._processes.values():

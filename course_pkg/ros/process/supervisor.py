@@ -1,8 +1,8 @@
 """A process between an owner and a command: it ends the command after the owner has ended.
 
 `supervised.py` runs this file as a script, in an interpreter without site-packages. The script starts in 20
-ms, because it imports the course and its libraries only at its end, to clean up. To read /proc, the script
-does not use psutil, because the import of psutil is slow.
+ms, because it imports the course and the course's libraries only for the clean-up at the end. To read /proc,
+the script does not use psutil, because the import of psutil is slow.
 
 usage: supervisor.py OWNER REPORT FOREGROUND REMOVE MASTER NODE URI [COMMAND …]
 """

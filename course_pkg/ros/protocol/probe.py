@@ -71,7 +71,7 @@ def service_probe(name: str, uri: str) -> Probe:
 
 
 def node_probe(uri: str) -> Probe:
-    """Return a probe that checks if a node answers; it calls getPid of the slave API."""
+    """Return a probe that calls getPid of the slave API, to check whether a node answers."""
     return rpc_probe(uri, "getPid")
 
 
@@ -94,7 +94,7 @@ def rpc_answer(probe: Probe) -> RpcValue:
 
 
 def encode_header(fields: dict[str, str]) -> bytes:
-    """Return a connection header, with its length before it (http://wiki.ros.org/ROS/Connection Header)."""
+    """Return the length and the bytes of a connection header (http://wiki.ros.org/ROS/Connection Header)."""
     header: bytes = encode_ros_handshake_header(fields)
     return header
 

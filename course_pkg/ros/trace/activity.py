@@ -19,7 +19,7 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
 TIMEOUT = 0.5  # This is the time limit of a poll in s.
-STATISTICS = "getBusStats"  # The third item of the response is for services; rospy leaves it empty.
+STATISTICS = "getBusStats"  # The third item of the response is for services; rospy leaves this item empty.
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
 # One of these errors is raised if a response has an unexpected structure.

@@ -151,7 +151,7 @@ def _processes_of(uid: int) -> Iterator[int]:
 
 
 def disk_is_full(folder: str, users: Users) -> bool:
-    """Return whether `users` have too many bytes or files in `folder`, next to it, or in shared folders."""
+    """Return whether `users` have too many bytes or files in the folders of a part or in shared folders."""
     size, count = 0, 0
     items = [item.path for shared in SHARED for item in _items_of(shared, set(users))]
     for path in _below([os.path.dirname(folder), *items]):

@@ -78,7 +78,7 @@ def _drawing(path: Path, content: bytes, alt: str, prefix: str) -> str:
 
 
 def _width(root: ElementTree.Element) -> float:
-    """Return the width of a drawing in pixels, or 0 if the drawing does not define it."""
+    """Return the width of a drawing in pixels, or 0 if the drawing contains no width."""
     box = re.fullmatch(r"\s*\S+\s+\S+\s+([\d.]+)\s+\S+\s*", root.get("viewBox", ""))
     return float(box[1]) if box else 0.0
 
