@@ -48,7 +48,10 @@ def handed_out(exercise: str, source: str) -> str:
 
 
 def blank(source: str) -> str:
-    """Return the source of an exercise cell without the answer. Raises AuthoringError if no rule fits it."""
+    """Return the source of an exercise cell without the answer.
+
+    Raises AuthoringError if no rule fits the cell.
+    """
     first, newline, rest = source.partition("\n")
     if not first.startswith("%%"):
         return _blank_python(source)

@@ -8,7 +8,7 @@ NO_RETURN = "The function ended without a return line, so it returned None. Add 
 # After a ServiceException, the error message is from the handler. After a wrong return value, the error
 # message is from rospy.
 REFUSED_BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
-# rospy sends this error message to the client if a handler raises another exception than ServiceException.
+# rospy sends this error message to the client if a handler raises an exception other than ServiceException.
 HANDLER_RAISED: Hints = [
     (
         matches(r"error processing request: .*takes 1 positional argument but 2 were given"),

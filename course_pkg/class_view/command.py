@@ -29,7 +29,7 @@ from course_pkg.errors import ClassViewError
 from course_pkg.state import locked, state_folder
 
 SECRET = "secret"  # noqa: S105 -- the name of the file with the secret
-LOCK = "service"  # the folder whose lock the running service holds
+LOCK = "service"  # The running service holds the lock of the folder with this name.
 
 
 def serve_class(options: SimpleNamespace) -> int:
@@ -127,7 +127,7 @@ async def _serve(
 
 
 def _address(options: SimpleNamespace) -> tuple[str, int]:
-    """Return the address and the port: those that the hub has chosen, or those of the options."""
+    """Return the address and port that the hub has chosen, or the address and port in the options."""
     if url := os.environ.get("JUPYTERHUB_SERVICE_URL", ""):
         parts = urlsplit(url)
         return parts.hostname or options.ip, parts.port or options.port
@@ -149,7 +149,7 @@ def _instructions(url: str, teacher_token: str, tokens: Tokens, ip: str) -> str:
 
 
 def _secret(data: Path) -> str:
-    """Return the secret in `data`, which signs cookies; it stays the same after a restart."""
+    """Return the secret in `data`; the secret signs cookies, and does not change after a restart."""
     path = data / SECRET
     if not path.exists():
         write_privately(path, secrets.token_hex(32))

@@ -17,10 +17,11 @@ DELIVERED = "delivered.json"
 
 
 def make_own_files(places: Places) -> None:
-    """Create the user's own folder, or add what an upgrade has brought; a checkout needs neither.
+    """Create the user's own folder, or add the new files of an upgrade; in a checkout, do nothing.
 
-    A file that the user has not changed becomes the new version. A changed file stays, and a message names
-    it. A file that the user has deleted is copied again. Raises SetupError if the folder cannot be written.
+    A file that the user has not changed is replaced with the new version. A file that the user has changed is
+    kept, and a message names the file. A file that the user has deleted is copied again. Raises SetupError if
+    the folder cannot be written.
     """
     if not places.installed:
         return

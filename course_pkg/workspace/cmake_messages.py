@@ -2,7 +2,7 @@
 
 CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error;
 the student's line is in the call stack below the message. A row of a table is (pattern, file, problem,
-remedy); an empty file means the file that the message names.
+remedy); an empty `file` means the file that the message names.
 """
 
 from __future__ import annotations

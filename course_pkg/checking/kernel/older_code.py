@@ -1,7 +1,8 @@
 """Find a student's function or class that is older than the code in its cell.
 
-The check would then examine other code than the student sees. One cause is a syntax error in the changed
-cell. Another cause is that the cell ran again, but not the cell that creates the service.
+If the code in use is older, the check examines other code than the student sees in the cell. One cause is a
+syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but not
+the cell that creates the service.
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ class Publisher:
     def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
         """Assert that the topic has a subscriber of its type, and return when the subscriber is connected.
 
-        `hints` are for the value "no subscriber", also if a subscriber has another type.
+        `hints` are for the value "no subscriber"; a subscriber with another type does not count.
         """
         assertion = f"somebody listens to {self._label}"
         if not self.has_subscriber(within):

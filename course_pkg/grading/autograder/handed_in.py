@@ -12,7 +12,8 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-STUDENT = "student"  # The graded folder gets this name; Gradescope knows the student's name.
+# The folder with the submission gets this name; only Gradescope needs the student's name.
+STUDENT = "student"
 
 
 def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], list[str]]:

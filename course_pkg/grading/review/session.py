@@ -115,7 +115,7 @@ class Session:
     def undo(self) -> dict[str, Plain]:
         """Restore the rows before the last change; `shown` is the number of a changed answer.
 
-        Raises ValueError if there is nothing to undo, or if another program has changed a row since.
+        Raises ValueError if there is nothing to undo, or if another program has changed a row since then.
         """
         if not self._steps:
             raise ValueError("there is no change to undo")
