@@ -150,7 +150,7 @@ replace("add(message.data)", "add(message.data)\n            publisher.publish(m
 replace("            publisher.publish(message.data)\n\n", "")
 # %% 03.2 wrong: does not greet | hint: The number was published before
 replace("\n            say_good_day(message.data)", "")
-# %% 03.2 wrong: a fixed topic | hint: No node is subscribed to the topic
+# %% 03.2 wrong: a fixed topic | hint: No node subscribes to the topic
 replace("greeted = set … UInt32, greet)", 'rospy.Subscriber("/customers", UInt32, publisher.publish)')
 # %% 03.2 wrong: the two topics exchanged | hint: Your function publishes on `customers`
 based_on("a fixed topic")
@@ -206,7 +206,7 @@ replace('"no regular messages"', '"topic without latch"')
 replace('"waits in the control loop"', '"stream for one value"')
 # %% 03.3 wrong: a wait for the stream | hint: A program that waits in … The node receives many messages
 replace('"stream for one value"', '"waits in the control loop"')
-# %% 03.3 wrong: a case left out | hint: A case is missing
+# %% 03.3 wrong: a case left out | hint: A case from the table is missing
 replace('\n    "F": "stream for one value",', "")
 # %% 03.3 wrong: small letters | hint: Some keys are wrong. Use
 replace('"A"', '"a"')
@@ -265,7 +265,7 @@ replace('("topic", "newest")', '"topic"')
 replace('"topic", "newest"', '"newest", "topic"')
 # %% 03.4 wrong: one job left out | hint: The keys have to be
 replace('\n    "free space on disk": ("service", "seldom"),', "")
-# %% 03.4 wrong: a list of triples | hint: Write a dict, which has braces
+# %% 03.4 wrong: a list of triples | hint: Write a dict in braces
 replace("decisions = … }", 'decisions = [\n    ("wheel speed", "topic", "newest"),\n    ("open the gripper", "service", "answer"),\n]')
 # %% 03.4 wrong: a reason that is not in the list | hint: The designs are
 replace('"newest"', '"fast"')

@@ -90,7 +90,10 @@ GREETED = "Greet each of five customers once, in order. Publish the number of a 
     deadline=30.0,
     goals={
         GREETED: 3,
-        "Also greet customers who come later, and customers after a second call of start_greeting().": 1,
+        (
+            "Also greet customers who come later, and customers who come after a second call of "
+            "start_greeting()."
+        ): 1,
     },
 )
 def greet_everyone(context: CheckContext) -> None:
@@ -194,8 +197,8 @@ def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
         holds=publisher.has_subscriber(3.0),
         expected=f"a subscriber of {topic}",
         actual="no subscriber",
-        hints="No node is subscribed to the topic in `customers`. Create the subscriber, and do not "
-        "unregister the subscriber.",
+        hints="No node subscribes to the topic whose name is in `customers`. Create the subscriber, and do "
+        "not unregister the subscriber.",
     )
     publisher.finish(5.0)
     publisher.stop()

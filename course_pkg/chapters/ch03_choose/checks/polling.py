@@ -22,8 +22,8 @@ NO_END = (
 )
 
 COUNTED = (
-    "Each call also takes time, so do not count the calls. Before each call, compare the "
-    "current time with the end of the time."
+    "Each call also takes time, so do not count the calls. Before each call, compare the current time "
+    "with the time at which poll() has to end."
 )
 
 

@@ -24,8 +24,8 @@ START = f"""%%writefile {FILE}
 """
 ACCEPTED = "Write a package.xml that catkin accepts."
 LISTED = {
-    "built": "List the packages that are needed to build.",
-    "run": "List the packages that are needed to run.",
+    "built": "List the packages that the build needs.",
+    "run": "List the packages that the program needs when it runs.",
 }
 
 
@@ -33,8 +33,8 @@ LISTED = {
     "04.3",
     points=2,
     goal=(
-        "Repair package.xml: catkin has to accept the file, and the file has to list all packages "
-        "that are needed."
+        "Repair package.xml: catkin has to accept the file, and the file has to list all packages that "
+        "the build and the program need."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,

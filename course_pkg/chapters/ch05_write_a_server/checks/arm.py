@@ -149,7 +149,10 @@ def _counts(context: CheckContext, messages: list[str], first: int) -> None:
                 "once, at the start.",
             ),
             (["0", "1"], "The first move returned 0. Add 1 to the count before you return the message."),
-            (["1", "1"], "The count stays 1. Store the count in an object or in a global variable."),
+            (
+                ["1", "1"],
+                "The count is 1 after every call. Store the count in an object or in a global variable.",
+            ),
             (
                 ANYTHING,
                 "The count is wrong. Add 1 in each call of /move_arm, and do not change the number "

@@ -35,8 +35,8 @@ EXPLAINED = "If the arguments are wrong, end with exit status 2."
     "07.5",
     points=3,
     goal=(
-        "Write client.py, which takes three numbers and prints the area and the volume. The "
-        "exit status is 0, or 1 without a response, or 2 for wrong arguments."
+        "Write client.py, which takes three numbers and prints the area and the volume. The exit status "
+        "is 0 after a response, 1 if there is no response, and 2 if the arguments are wrong."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,

@@ -39,7 +39,7 @@ START = f"""%%writefile {FILE}
   <exec_depend>std_msgs</exec_depend>
 </package>
 """
-COMPLETE = "List all packages that are needed, in a package.xml that catkin accepts."
+COMPLETE = "Write a package.xml that catkin accepts and that lists all packages your package needs."
 
 
 @part(
