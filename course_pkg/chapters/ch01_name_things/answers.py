@@ -197,7 +197,7 @@ replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers 
 # %% 01.4 wrong: fails for a topic without publishers | hint: A topic without a publisher
 replace("\n    names = dict(publishers).get(topic, [])", "")
 replace("names", "dict(publishers)[topic]")
-# %% 01.4 wrong: pings without a limit | hint: rosnode_ping does not return, because
+# %% 01.4 wrong: pings without a limit | hint: rosnode_ping sends pings forever
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name))")
 # %% 01.4 wrong: the number of nodes | hint: Your function returned the number

@@ -35,7 +35,7 @@ def poll(service, seconds, rate):
 
 # %% 03.1 wrong: polls without a pause | hint: poll() made too many calls
 replace("\n        time.sleep(1 / rate)", "")
-# %% 03.1 wrong: polls without a limit | hint: poll() continues after the end
+# %% 03.1 wrong: polls without a limit | hint: poll() continues after its time
 replace("end = time.monotonic() + seconds\n    while time.monotonic() < end:", "while True:")
 replace("\n    return None", "")
 # %% 03.1 wrong: uses the rate as the pause | hint: Pause for 1 / rate
@@ -57,7 +57,7 @@ replace("return answer.number", "return True")
 replace("answer.number", "answer")
 # %% 03.1 wrong: 0 if there is no customer | hint: If no customer is there
 replace("return None", "return answer.number")
-# %% 03.1 wrong: calls a second time for the number | hint: poll() made another call, although
+# %% 03.1 wrong: calls a second time for the number | hint: poll() called the service a second time
 replace("return answer.number", "return rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=0).number")
 # %% 03.1 wrong: forgets to return | hint: poll() returned None, although a customer was there
 replace("return answer.number", "break")
@@ -78,7 +78,7 @@ replace("after=0", "number=0")
 replace("ServiceProxy(service", 'ServiceProxy("/detect_customer"')
 # %% 03.1 wrong: only customers after the first | hint: The value of `after` in
 replace("after=0", "after=1")
-# %% 03.1 wrong: 1 for a customer | hint: poll() returned a different number
+# %% 03.1 wrong: 1 for a customer | hint: The number that poll() returned
 replace("return answer.number", "return 1")
 
 # %% 03.2 right: a set of the greeted customers

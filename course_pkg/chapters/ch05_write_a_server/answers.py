@@ -376,7 +376,7 @@ if __name__ == "__main__":
     main()
 """
 
-# %% 05.5 wrong: no first line | hint: The shebang is missing, which
+# %% 05.5 wrong: no first line | hint: The shebang is missing: the first
 replace("#!/usr/bin/env python3\n", "")
 # %% 05.5 wrong: no guard | hint: An import of the file starts the node
 replace('if __name__ == "__main__":', "if True:")

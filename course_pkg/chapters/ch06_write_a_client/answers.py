@@ -405,7 +405,7 @@ if __name__ == "__main__":
     print("fits")
 """
 
-# %% 06.6 wrong: no first line | hint: The shebang is missing, which
+# %% 06.6 wrong: no first line | hint: The shebang is missing: the first
 replace("#!/usr/bin/env python3\n", "")
 # %% 06.6 wrong: no guard | hint: Python cannot import the file
 replace('if __name__ == "__main__":\n    sys.exit(main())', "sys.exit(main())")

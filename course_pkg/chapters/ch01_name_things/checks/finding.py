@@ -270,8 +270,8 @@ def _living(context: CheckContext, topic: str) -> object:
             (
                 matches("TimesUp"),
                 (
-                    "rosnode_ping does not return, because rosnode_ping sends pings without "
-                    "end. Pass max_count=1 to rosnode_ping."
+                    "rosnode_ping sends pings forever, so your call of rosnode_ping does not return. "
+                    "Pass max_count=1 to rosnode_ping."
                 ),
             ),
             (

@@ -79,13 +79,19 @@ class Greetings:
             self._busy -= 1
 
 
-GREETED = "Greet each of five customers once, in order. Publish the number of a customer after the greeting."
+GREETED = (
+    "Greet five customers once each, in the order of the messages. After each greeting, publish the "
+    "customer's number."
+)
 
 
 @part(
     "03.2",
     points=2,
-    goal="Greet each customer of a topic once, in the order of the messages.",
+    goal=(
+        "Receive the numbers of customers from a topic. Greet each customer once, in the order of the "
+        "messages."
+    ),
     needs=["start_greeting"],
     deadline=30.0,
     goals={
@@ -281,7 +287,7 @@ def _greeted(
 _NO_RETURN = [
     (
         matches("^(TimesUp|NothingHeard)"),
-        "start_greeting() does not return. Create a subscriber with a callback, and return "
-        "without a wait: rospy calls the callback in another thread.",
+        "start_greeting() does not return. Create a subscriber with a callback, and return immediately: "
+        "rospy calls the callback in another thread.",
     )
 ]

@@ -69,8 +69,8 @@ def _hint(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if elsewhere:
         return (
-            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add "
-            f"{_an(tag)} for this package."
+            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add {_an(tag)} "
+            f"for {package}."
         )
     if package == "rospy":
         return "The program lamp_server.py imports rospy. Add <exec_depend>rospy</exec_depend>."

@@ -73,8 +73,8 @@ def does_it_fit(context: CheckContext) -> None:
         context,
         FILE,
         missing=(
-            "The shebang is missing, which names the program that runs the file. Begin line 1 "
-            "with #!/usr/bin/env python3."
+            "The shebang is missing: the first line has to name the program that runs the file. Begin "
+            "line 1 with #!/usr/bin/env python3."
         ),
     )
     folder = context.folder(files=[FILE])

@@ -188,7 +188,7 @@ def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage) -> 
         holds=done.status == 1 and "Traceback" not in done.err and done.took < WITHIN - 2,
         expected="an error message, and exit status 1",
         actual=_outcome(done),
-        hints="The client waits for the service without a limit. Call wait_for_service with a timeout."
+        hints="The client waits for the service without a time limit. Call wait_for_service with a timeout."
         if done.status is None
         else "wait_for_service raises rospy.ROSException after its timeout. Catch this exception, too."
         if "Traceback" in done.err
