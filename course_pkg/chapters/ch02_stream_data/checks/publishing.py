@@ -219,7 +219,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
     needs=["Notice"],
     deadline=30.0,
-    goals=[LATCHED, "Publish each change once. Do not publish a value again if it stays the same."],
+    goals=[LATCHED, "Publish each change once. Do not publish a value again if it has not changed."],
 )
 def a_notice(context: CheckContext) -> None:
     """Set values without a subscriber, with a subscriber, and before a late subscriber.

@@ -39,7 +39,7 @@ START = f"""%%writefile {FILE}
   <exec_depend>std_msgs</exec_depend>
 </package>
 """
-COMPLETE = "Write a package.xml that catkin accepts and that lists all packages your package needs."
+COMPLETE = "Write a package.xml that catkin accepts. List all packages that your package needs."
 
 
 @part(
