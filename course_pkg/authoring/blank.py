@@ -206,7 +206,7 @@ def _parsed(source: str) -> tuple[str, ast.Module]:
     try:
         return masked, ast.parse(masked)
     except SyntaxError as error:
-        raise AuthoringError(f"Line {error.lineno} is not Python: {error.msg}.") from error
+        raise AuthoringError(f"Line {error.lineno} is not valid Python: {error.msg}.") from error
 
 
 def _masked(line: str) -> str:

@@ -70,8 +70,8 @@ def read_the_graph(context: CheckContext) -> None:
                 ),
                 (
                     matches("^/server_node/?$"),
-                    "Compare your answer with the name on the graph, letter by letter. Capital "
-                    "and small letters are different, and the only slash is at the start.",
+                    "Compare your answer with the name on the graph, letter by letter. Check the "
+                    "capital letters, and write only one slash, at the start of the name.",
                 ),
             ],
         )
@@ -106,8 +106,8 @@ def read_the_graph(context: CheckContext) -> None:
                 ),
                 (
                     matches("^/getgeometry/?$"),
-                    "Compare your answer with the name on the graph, letter by letter. Capital "
-                    "and small letters are different, and the only slash is at the start.",
+                    "Compare your answer with the name on the graph, letter by letter. Check the "
+                    "capital letters, and write only one slash, at the start of the name.",
                 ),
             ],
         )
@@ -204,7 +204,10 @@ def _other_sides(sides: dict[str, float]) -> Hints:
         ),
         (
             lambda actual: not same([*sorted(sides.values())], sorted(actual.values()), near=1e-4),
-            "The request contains other numbers than the arguments. Send the arguments unchanged.",
+            (
+                "The numbers in the request differ from the arguments of your function. Send the arguments "
+                "unchanged."
+            ),
         ),
         (
             ANYTHING,

@@ -142,8 +142,8 @@ def _in_a_random_order(context: CheckContext) -> None:
             actual=context.run("ask_wherever", last, 1.0, 2.0, 3.0, hints=_LOST + _NOBODY).returned(),
             near=1e-6,
             hints=(
-                "The result has to depend on the services that exist now, not on earlier "
-                "calls. Get the list of services in each call."
+                "The result has to depend on the services that exist now, not on earlier calls. Each "
+                "time your function is called, get the list of services again."
             ),
         )
 
@@ -226,7 +226,7 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
             (
                 lambda actual: set(actual) & subscribers,
-                "One of these nodes only subscribes to the topic. Use the list of publishers.",
+                "One node in your list only subscribes to the topic. Use the list of publishers.",
             ),
             (
                 [],
@@ -270,8 +270,8 @@ def _living(context: CheckContext, topic: str) -> object:
             (
                 matches("TimesUp"),
                 (
-                    "rosnode_ping does not return, because rosnode_ping sends pings without "
-                    "end. Pass max_count=1 to rosnode_ping."
+                    "rosnode_ping sends pings forever, so your call of rosnode_ping does not return. "
+                    "Pass max_count=1 to rosnode_ping."
                 ),
             ),
             (

@@ -219,8 +219,8 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
                 ),
                 (
                     (f"/screen/{arm}/joint_states",),
-                    "Your new name is relative, so the topic is in the namespace /screen. Use "
-                    "a global name: it starts with a slash.",
+                    "The new name of the topic is relative, so the topic is in the namespace /screen. "
+                    "Use a global name, which starts with a slash.",
                 ),
                 (
                     ANYTHING,
@@ -242,8 +242,8 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
                 ),
                 (
                     (f"/{arm}/mirrored_joints",),
-                    "The topic of the viewer is outside of the namespace /screen. Use a "
-                    "relative name: it stays in the namespace of the node.",
+                    "The topic of the viewer is outside of the namespace /screen. Use a relative name: "
+                    "ROS adds the namespace of the node to this name.",
                 ),
                 (
                     ANYTHING,

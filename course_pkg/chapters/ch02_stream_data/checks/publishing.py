@@ -13,7 +13,7 @@ from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
 from course_pkg.waiting import wait_until
 
 WAITS_FOR_EVER = (
-    "Wait for a subscriber for at most 2 s. Then publish the numbers, even if the topic has no subscriber."
+    "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
 )
 # These times in s are for a count without a subscriber. The student's function waits 2 s, and then publishes
 # 11 numbers in 1.1 s. The subscriber connects 2.3 s after the publisher.
@@ -48,8 +48,8 @@ LATCHED = "Send the last value to every node that subscribes later."
     "02.1",
     points=2,
     goal=(
-        "Publish 0, 1, 2 and so on at a given rate. Begin when a subscriber is connected, and "
-        "after 2 s at the latest."
+        "Publish 0, 1, 2 and so on at a given rate. Begin when a subscriber is connected. If no "
+        "subscriber connects, begin after 2 s."
     ),
     needs=["count_aloud"],
     deadline=40.0,
@@ -219,7 +219,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
     needs=["Notice"],
     deadline=30.0,
-    goals=[LATCHED, "Publish each change once. Do not publish a value again if it stays the same."],
+    goals=[LATCHED, "Publish each change once. Do not publish a value again if it has not changed."],
 )
 def a_notice(context: CheckContext) -> None:
     """Set values without a subscriber, with a subscriber, and before a late subscriber.

@@ -101,15 +101,18 @@ class Work:
 
 
 MIRRORED = "Publish every message once, with the same header and with the opposite sign of each number."
-NEWEST, ALL_ORDERS = "Draw only the newest angle.", "Prepare each order once, in the order of arrival."
+NEWEST, ALL_ORDERS = (
+    "Draw only the newest angle.",
+    "Prepare each order only once, and begin with the oldest order.",
+)
 
 
 @part(
     "02.2",
     points=2,
     goal=(
-        "Receive every message of one topic, and immediately publish it on another topic with the "
-        "opposite sign of each number."
+        "Receive every message of one topic. Change the sign of each number, and immediately publish "
+        "the result on another topic."
     ),
     needs=["start_mirror"],
     deadline=30.0,
@@ -247,8 +250,8 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         hints=[
             (
                 matches("nothing arrived"),
-                "No message arrived. Publish in the callback, and look for an error message of "
-                "the callback below the cell.",
+                "No message arrived. Publish in the callback, and look below the cell for an error "
+                "message of the callback.",
             ),
             (
                 matches("'secs': 0, 'nsecs': 0"),
@@ -277,8 +280,8 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         hints=[
             (
                 lambda actual: len(actual) == 1,
-                "Only one message was mirrored. Do not unregister the subscriber: rospy calls "
-                "the callback for each message.",
+                "Your callback published only one message. Do not unregister the subscriber: rospy "
+                "calls the callback for each message.",
             ),
             (
                 lambda actual: len(set(actual)) < len(actual),
@@ -359,7 +362,7 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
         holds=statistics.median(delays) < 0.15,
         expected="a mirrored message a few milliseconds after the original",
         actual=f"a delay of more than {statistics.median(delays):.2f} s for half of the mirrored messages",
-        hints="The mirrored messages are late. Publish in the callback, and do not wait in the callback.",
+        hints="Your messages are late. Publish in the callback, and do not wait in the callback.",
     )
 
 
@@ -447,8 +450,8 @@ def _drawn(
         expected="a later angle each time",
         actual=angles,
         hints=(
-            "An angle was drawn twice, or after a newer angle. Wait for a new angle before the "
-            "next call of draw()."
+            "An angle was drawn twice, or an old angle was drawn after a newer angle. Wait for a new "
+            "angle before the next call of draw()."
         ),
     )
     oldest = max(at - sent[angle] for at, angle in drawn)

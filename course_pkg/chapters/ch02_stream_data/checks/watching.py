@@ -193,8 +193,8 @@ _UNASKED: Hints = [
 _APART: Hints = [
     (
         ANYTHING,
-        "Only the other Watch object received messages. Store the data of each Watch object in "
-        "`self`, not in a global variable.",
+        "Another Watch object received messages, but this Watch object received no message. Store the "
+        "data of each Watch object in `self`, not in a global variable.",
     ),
 ]
 _WHILE: Hints = [
@@ -224,5 +224,8 @@ _END: Hints = [
         "No message has arrived for more than 1 s. The publisher is still registered, so use "
         "the time of the last message.",
     ),
-    ("waiting", 'Messages arrived before, but no message arrives now. Return "ended", not "waiting".'),
+    (
+        "waiting",
+        'Some messages have arrived, but no message arrives any more. Return "ended", not "waiting".',
+    ),
 ]

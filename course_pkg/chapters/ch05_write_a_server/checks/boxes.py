@@ -173,8 +173,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
             ),
             (
                 matches("handler returned"),
-                "The handler returned a value that is not a response. Do not return the "
-                "exception: write raise rospy.ServiceException(...).",
+                "The handler returned a value that is not a response. Do not return the exception: "
+                "raise the exception.",
             ),
         ],
     )
@@ -200,8 +200,8 @@ def _unclear(named: list[str], side: str, reason: str) -> str:
         return "The message contains too many numbers. Write only the value of the negative side."
     if "{" in reason:
         return (
-            "The message contains braces. Write f before the string, so that Python writes the "
-            "values in place of the braces."
+            "The message contains braces. Write the letter f before the string, so that Python replaces "
+            "the names in braces with their values."
         )
     if len(named) > 1 and side in named:
         return (

@@ -161,7 +161,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
             (
                 matches("^ServiceException.*(responded with|transport)"),
                 "This failed call raised rospy.ServiceException, too. Return None for each "
-                "rospy.ServiceException, with any error message.",
+                "rospy.ServiceException, and ignore the text of its error message.",
             ),
             (
                 matches("^ServiceException"),

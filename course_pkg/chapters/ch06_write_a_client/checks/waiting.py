@@ -78,8 +78,8 @@ def is_anybody_there(context: CheckContext) -> None:
             expected="no request",
             actual=f"{len(server.requests)} request(s)",
             hint=(
-                "The function called the service, and this call started the server's work. "
-                "Wait for the service without a call."
+                "The function called the service, and this call started the server's work. Wait for the "
+                "service, but do not call the service."
             ),
         )
     _never_there(
@@ -91,7 +91,7 @@ def is_anybody_there(context: CheckContext) -> None:
         context,
         killed,
         "The service is still registered with the master, but its process has ended. Use "
-        "wait_for_service, which connects to the server itself.",
+        "wait_for_service, which also tries to connect to the server.",
     )
     context.fulfilled(THERE)
     Timer(1.3, context.serve, [later, GEOMETRY, lambda _: {}]).start()
