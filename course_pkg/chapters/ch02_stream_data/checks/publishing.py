@@ -10,7 +10,7 @@ from itertools import pairwise
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
-from course_pkg.waiting import wait_until
+from course_pkg.waiting import at_this_load, wait_until
 
 WAITS_FOR_EVER = (
     "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
@@ -71,7 +71,7 @@ def count_aloud(context: CheckContext) -> None:
         _keeps_time(context, arrivals, hertz)
         context.require(
             "it begins as soon as a subscriber is connected",
-            holds=counted.took < count / hertz + 1.2,
+            holds=counted.took < at_this_load(count / hertz + 1.2),
             expected="the first number immediately after a subscriber is connected",
             actual=f"the last number after {counted.took:.1f} s",
             hints=(
@@ -192,9 +192,11 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
 def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> None:
     """Assert that the average rate is right, and that the messages arrive at equal intervals."""
     seen = rate(arrivals)
+    # On a busy machine, each pause is longer. A program that pauses twice has half of the rate.
+    lowest = max(0.75 / at_this_load(1.0), 0.55)
     context.require(
         "the average rate is the given rate",
-        holds=0.75 * hertz < seen < 1.25 * hertz,
+        holds=lowest * hertz < seen < 1.25 * hertz,
         expected=f"about {hertz} per second",
         actual=f"{seen:.3g} per second",
         hints="The rate is too high. Pause after each number."
