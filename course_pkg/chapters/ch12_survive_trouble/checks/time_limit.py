@@ -47,8 +47,8 @@ ERRORS = [
     (
         matches("^TimeoutError"),
         (
-            "The response came in time, but the function raised TimeoutError. Wait until the thread "
-            "ends or the time is over."
+            "The response came in time, but the function raised TimeoutError. Wait until the thread ends "
+            "or the time limit is reached."
         ),
     ),
     (
