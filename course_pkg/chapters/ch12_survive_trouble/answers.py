@@ -292,7 +292,7 @@ def pay(till, cents, deadline):
 # %% 12.3 wrong: no pause after a TimeoutError | hint: There was no pause after a TimeoutError
 based_on("a loop with a clock")
 replace("                raise\n", "                raise\n            if isinstance(error, TimeoutError):\n                continue\n")
-# %% 12.3 wrong: treats a bad return value as a refusal | hint: An error with "handler returned" is not a refusal, because the handler has perhaps
+# %% 12.3 wrong: treats a bad return value as a refusal | hint: An error that contains "handler returned" is not a refusal, because the handler has
 replace(' and "handler returned" not in str(error)', "")
 # %% 12.3 wrong: doubles before the first sleep | hint: The first pause is too long
 replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "        pause *= 2\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))")
@@ -567,7 +567,7 @@ replace('"refused": "report"', '"refused": "try again"')
 replace('"md5": "report"', '"md5": "wait for the service"')
 # %% 12.6 wrong: tries a step again | hint: The policy "try again" is right only if a second call can succeed, and if … Perhaps the robot has already moved, and a second request moves it again
 replace('"look first"', '"try again"')
-# %% 12.6 wrong: gives up a payment | hint: With the policy "report", the client does not call again, although a second call can … Perhaps the till has already taken the money
+# %% 12.6 wrong: gives up a payment | hint: With the policy "report", the client does not repeat the call, although a second … Perhaps the till has already taken the money
 replace('"same id"', '"report"')
 # %% 12.6 wrong: looks before it sets the speed | hint: The policy "look first" is right only if a repetition does harm, and if … The request sets a state
 replace('"try again"', '"look first"')

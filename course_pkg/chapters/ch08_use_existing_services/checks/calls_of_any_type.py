@@ -49,8 +49,8 @@ FLAT = (
     "genpy.message.fill_message_args(request, [fields])."
 )
 NESTED = (
-    "The field `camera_info` needs a message, but it got a dict. Use "
-    "genpy.message.fill_message_args, which can read inner dicts."
+    "The field `camera_info` needs a message, but it got a dict. Use genpy.message.fill_message_args, "
+    "which also accepts a dict inside a dict."
 )
 CALLED = "Call services of three types, and return the fields of the response."
 

@@ -98,8 +98,8 @@ CASES = (
         wrong_results=[
             (
                 "was there",
-                "The switch responded with success=True and is in the wanted position. Use the "
-                "field `success`, not the position before the call.",
+                "The switch responded with success=True and is in the wanted position. To decide whether "
+                "the switch has moved, use the field `success`, not the position before the call.",
             ),
         ],
     ),

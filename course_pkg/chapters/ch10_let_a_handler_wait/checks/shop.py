@@ -28,11 +28,11 @@ ABSENT = 4.0  # Without a till, a sale may take this many s on a busy machine.
 CALL_BACK = 2.0  # After this many s, the till continues without a response from the shop.
 LOCKED = (
     "Your handler holds the lock while it calls the till, so /left cannot respond. Release the lock "
-    "before you call the till."
+    "before you call the till's service."
 )
 SERIAL = (
-    "The till never had two calls at the same time, because your handler holds a lock during the "
-    "call. Release the lock before you call the till."
+    "The till never had two calls at the same time, because your handler holds a lock during the call. "
+    "Release the lock before you call the till's service."
 )
 STUCK = (
     "A client waits forever, because a lock was not released. Use `with`, which releases the lock "

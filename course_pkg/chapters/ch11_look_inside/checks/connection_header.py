@@ -66,8 +66,8 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
         (
             ANYTHING,
             (
-                "Some bytes are wrong. Return the length of the header, and then, for each field, its "
-                "length and its text name=value."
+                "Some bytes are wrong. Return the length of the header, and then the length and the text "
+                "of each field: name=value."
             ),
         ),
     ]

@@ -76,8 +76,8 @@ MISTAKES = {
     "big-endian length": "The length of the request is big-endian. Use '<I' for little-endian numbers.",
     "no length of the request": NO_LENGTH,
     "a request of 24 bytes": (
-        "The request has 24 bytes, because it contains three float64. Use the format 'f' of struct, "
-        "not 'd': a float32 has 4 bytes."
+        "The request has 24 bytes, because it contains three float64 values. Use the format 'f' of "
+        "struct, not 'd': a float32 has 4 bytes."
     ),
     "a request of 16 bytes": NO_LENGTH,
     "short request": NO_LENGTH,

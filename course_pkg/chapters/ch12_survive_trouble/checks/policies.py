@@ -32,7 +32,9 @@ DECISIVE = {
     ),
 }
 ENTRIES = {
-    "report": 'With the policy "report", the client does not call again, although a second call can succeed.',
+    "report": (
+        'With the policy "report", the client does not repeat the call, although a second call can succeed.'
+    ),
     "wait for the service": 'The policy "wait for the service" helps only if no server is registered.',
     "try again": (
         'The policy "try again" is right only if a second call can succeed, and if it does no harm when '

@@ -211,8 +211,8 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
         expected="the receipt, after another try",
         actual=result.error,
         hints=(
-            'An error with "handler returned" is not a refusal, because the handler has perhaps done its '
-            "work. After this error, call the till again."
+            'An error that contains "handler returned" is not a refusal, because the handler has perhaps '
+            "done its work. After this error, call the till again."
         ),
     )
 
