@@ -294,7 +294,7 @@ replace(' if answer.success else "was there"', "")
 # %% 08.3 wrong: with a capital letter | hint: Write the string exactly as
 replace('"moved"', '"Moved"')
 
-# %% 08.3 wrong: compares two reports | hint: Use the field `success`, not
+# %% 08.3 wrong: compares two reports | hint: use the field `success`, not
 def move(switch, to_open):
     report = rospy.ServiceProxy(f"{switch}/report", Trigger)
     before = report().message
