@@ -42,8 +42,8 @@ FOREVER = (
     "The handler waits longer than request.patience seconds. Use request.patience as the timeout of the wait."
 )
 RESTARTED = (
-    "The time limit started again from the beginning when the customers changed. Calculate the time at "
-    "which the wait ends only once, or use `wait_for`."
+    "The time limit started again from the beginning when the customers changed. Calculate before the "
+    "loop at which time the wait ends, or use `wait_for`."
 )
 LEFT = (
     "The handler called watch.next() twice, but the customer left before the second call. Use the "

@@ -381,7 +381,7 @@ def _receive_errors(count: int = 1) -> Hints:
             matches("^TimesUp"),
             (
                 "The function waits for bytes that an earlier call of the function has read and lost. "
-                "Pass only the number of missing bytes to recv() (with makefile(): buffering=0)."
+                "Pass only the number of missing bytes to recv(), or call makefile() with buffering=0."
             ),
         ),
         (

@@ -58,8 +58,8 @@ ONE_THREAD = (
     "MultiThreadedSpinner, because they use several threads."
 )
 TOO_FEW = (
-    "The spinner has too few threads (0 means one thread for each processor core). Create the spinner "
-    "with at least six threads, one thread for each call."
+    "The spinner has too few threads (with the argument 0, one thread for each processor core). Create "
+    "the spinner with at least six threads, one thread for each call."
 )
 LOCKED_TOO_LONG = (
     "The handler holds the lock during think(), so the other calls have to wait. Hold the lock only "
