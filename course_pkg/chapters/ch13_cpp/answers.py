@@ -229,11 +229,11 @@ replace("6", "1")
 replace("\n  spinner.start();", "")
 # %% 13.4 wrong: main does not wait | hint: The program ends, because main ends after the spinner was started
 replace("spinner.start();\n  ros::waitForShutdown();", "spinner.start();")
-# %% 13.4 wrong: does not think | hint: The functions think() and count() replace real work, so do not change their times
+# %% 13.4 wrong: does not think | hint: The functions think() and count() replace real work
 replace("\n  ros::WallDuration(0.4).sleep();", "")
 # %% 13.4 wrong: three threads | hint: The spinner has too few threads
 replace("6", "3")
-# %% 13.4 wrong: thinks for less, on one thread | hint: The functions think() and count() replace real work, so do not change their times
+# %% 13.4 wrong: thinks for less, on one thread | hint: The functions think() and count() replace real work
 replace("int served = 0;\nstd::mutex counting;", "int served = 0;")
 replace("0.4", "0.04")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")

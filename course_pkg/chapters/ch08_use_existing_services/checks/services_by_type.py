@@ -44,7 +44,7 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
     goal="Return a list with the names of all services of a type. Leave out services whose server has ended.",
     needs=["services_of"],
     deadline=25.0,
-    goals=[FOUND, "Leave out a service whose server has ended, and find a new service."],
+    goals=[FOUND, "Leave out services whose server has ended, and include services that started later."],
 )
 def find_by_type(context: CheckContext) -> None:
     """Serve two types and types with similar names.

@@ -51,8 +51,8 @@ CASES = (
         wrong_results=[
             (
                 "moved",
-                "The switch responded with success=False and is in the wanted position, so it "
-                'was there before the call. Return "was there".',
+                "The switch responded with success=False and is in the wanted position, so it was in "
+                'this position before the call. Return "was there".',
             ),
             (
                 "failed",
@@ -98,8 +98,8 @@ CASES = (
         wrong_results=[
             (
                 "was there",
-                "The switch responded with success=True and is in the wanted position. Use the "
-                "field `success`, not the position before the call.",
+                "The switch responded with success=True and is in the wanted position. To decide whether "
+                "the switch has moved, use the field `success`, not the position before the call.",
             ),
         ],
     ),
@@ -153,7 +153,8 @@ def _wrong_outcome(case: Case, switch: FakeSwitch) -> Hints:
         (None, NO_RETURN),
         (
             (lambda actual: isinstance(actual, bool)),
-            "Your function returned a bool, but there are three results. Return one of the three strings.",
+            "Your function returned a bool, but there are three possible results. Return one of the "
+            "three strings.",
         ),
         (
             (lambda actual: switch.message in actual),

@@ -117,8 +117,8 @@ _UNREADABLE: Hints = [
     (
         ANYTHING,
         (
-            "roslaunch cannot read the file. The message above names the line or the tag with the "
-            "error: correct this place."
+            "roslaunch cannot read the file. The message above names the line or the tag with the error: "
+            "correct this line or tag."
         ),
     ),
 ]

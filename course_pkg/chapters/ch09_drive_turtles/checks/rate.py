@@ -15,7 +15,9 @@ KIND = "course_pkg/ChangeRate"
 AT_FIRST = 2.0  # The first rate is in messages per second.
 # The check sets this rate (messages per second) at the end, because the next message then comes after 1000 s.
 TINY = 0.001
-TURNS_BACK = "A call of /change_rate also changed the direction. In its handler, change only the rate."
+TURNS_BACK = (
+    "A call of /change_rate also changed the direction. In the handler of /change_rate, change only the rate."
+)
 ALLOWED = "The node refused an allowed rate. Accept every number above 0 and up to 100, such as 2.5."
 REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
 

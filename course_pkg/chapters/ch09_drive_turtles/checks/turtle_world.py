@@ -147,8 +147,8 @@ def why_it_ended(done: Finished) -> str:
         return f"{fault.problem} {fault.remedy}"
     if "rror" in done.out + done.err:
         return (
-            "The program stopped with an error. The last line of the output above describes the "
-            "error, and the lines before it show its place in your code."
+            "The program stopped with an error. The last line of the output above describes the error, "
+            "and the lines before it show where this error occurred in your code."
         )
     return (
         "The program reached its last line and ended. Publish in a loop that runs until the node is "

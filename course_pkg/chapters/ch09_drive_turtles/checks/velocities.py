@@ -20,8 +20,8 @@ KEEP_COMING = "the program publishes velocities all the time"
 SILENCE = 4.0
 FLYING = 0.05  # Within this time in s after a response, a message from before the call may still arrive.
 SILENT = (
-    "No velocity arrived for 4 s. In each round of the loop, publish a message, even if the "
-    "velocity is 0. Do not add other pauses to the loop."
+    "No velocity arrived for 4 s. Publish a message in each round of the loop, even if the velocity is "
+    "0, and do not add a second pause to the loop."
 )
 NEAR = 0.25  # A measured rate may differ by this fraction, because the machine may be busy.
 
@@ -91,7 +91,7 @@ class Stream:
             holds=not others,
             expected=f"only the velocities {' and '.join(map(str, wanted))}",
             actual=others[0] if others else "no other velocity",
-            hints="A message contained another velocity. Publish in the loop, and not in the handler.",
+            hints="A message contained a wrong velocity. Publish only in the loop, not in the handler.",
         )
 
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:

@@ -50,8 +50,8 @@ checked_basket = CheckedBasket()
 """
 )
 FOREVER = (
-    "The handler of /take waits longer than the limit. The time limit starts at the beginning of "
-    "the call, so pass only the remaining time to `wait` or `wait_for`."
+    "The handler of /take waits longer than the time limit. This limit starts at the beginning of the "
+    "call, so pass only the remaining time to `wait` or `wait_for`."
 )
 HELD = (
     "/put did not respond while a call of /take was waiting. Use the method `wait` or `wait_for` of "
@@ -98,8 +98,8 @@ ERRORS = [
     "10.3",
     points=3,
     goal=(
-        "Write a basket with /put and /take. A call of /take waits for an item, but not longer than "
-        "the limit."
+        "Write a basket with /put and /take. A call of /take waits for an item, but not longer than the "
+        "time limit."
     ),
     needs=["Basket"],
     deadline=45.0,

@@ -214,8 +214,8 @@ ERRORS = [
     (
         matches("TimesUp|in vain"),
         (
-            "The function did not return. If you try again in a loop, release the first lock before "
-            "each new try."
+            "The function did not return. If your code tries in a loop to acquire the second lock, "
+            "release the first lock before each repetition."
         ),
     ),
     (
@@ -231,8 +231,8 @@ CROSSED = (
     "Acquire the locks in the same order in every call, for example by the shelves' numbers."
 )
 UNLOCKED = (
-    "The function changed a count while it did not hold both locks, so another thread can read a "
-    "wrong total. Hold both locks while you read and write."
+    "The function changed a count while it did not hold both locks, so another thread can read a wrong "
+    "total. Hold both locks while you read and write the counts."
 )
 
 UNLOCKED_READ = (

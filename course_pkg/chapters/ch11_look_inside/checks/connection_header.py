@@ -51,7 +51,13 @@ CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 def _wrong_header(orders: list[dict[str, str]]) -> Hints:
     return [
         (None, NO_RETURN),
-        (b"", "The header without fields is wrong. Return only its length, which is 0, in 4 bytes."),
+        (
+            b"",
+            (
+                "For a header without fields, the result is wrong. Return only the length of the header, "
+                "which is 0, in 4 bytes."
+            ),
+        ),
         *(wrong for order in orders for wrong in _wrong_headers(order)),
         (
             (lambda actual: isinstance(actual, str)),
@@ -60,8 +66,8 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
         (
             ANYTHING,
             (
-                "Some bytes are wrong. Return the length of the header, and then, for each field, its "
-                "length and its text name=value."
+                "Some bytes are wrong. Return the length of the header, and then the length and the text "
+                "of each field: name=value."
             ),
         ),
     ]
@@ -177,7 +183,8 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed({name: value for name, value in fields.items() if value}),
-            "A field with an empty value is missing. Its text is the name and the equals sign.",
+            "A field with an empty value is missing. Write this field, too: its text is the name and the "
+            "equals sign.",
         ),
         (
             _packed(fields, code="latin-1", count=len),
@@ -220,10 +227,10 @@ NOT_RAISED: Hints = [
     points=2,
     goal=(
         "Return exactly `count` bytes from a socket, even if the bytes arrive in pieces. Raise "
-        "ConnectionError if the connection ends earlier."
+        "ConnectionError if the connection ends before `count` bytes have arrived."
     ),
     needs=["receive"],
-    goals={RECEIVED: 3, "Raise ConnectionError if the connection ends earlier.": 1},
+    goals={RECEIVED: 3, "Raise ConnectionError if the connection ends before `count` bytes have arrived.": 1},
 )
 def exact_read(context: CheckContext) -> None:
     """Send the bytes in one piece, in several pieces, and with additional bytes.
@@ -373,8 +380,8 @@ def _receive_errors(count: int = 1) -> Hints:
         (
             matches("^TimesUp"),
             (
-                "The function waits for bytes that an earlier call has read and lost. Pass only the "
-                "number of missing bytes to recv() (with makefile(): buffering=0)."
+                "The function waits for bytes that an earlier call of the function has read and lost. "
+                "Pass only the number of missing bytes to recv(), or call makefile() with buffering=0."
             ),
         ),
         (

@@ -47,8 +47,8 @@ AGAIN = (
     "a stored receipt before you take money."
 )
 RACE = (
-    "The same request came five times at the same time, and the till charged it more than once. "
-    "Hold one lock while you check for a receipt, take the money and store the receipt."
+    "Five calls with the same request came at the same time, and the till charged this request more than "
+    "once. Hold one lock while you check for a receipt, take the money and store the receipt."
 )
 TOO_SOON = (
     "A request failed and was repeated, but the till did not charge it. Store the request_id only "

@@ -47,8 +47,8 @@ ERRORS = [
     (
         matches("^TimeoutError"),
         (
-            "The response came in time, but the function raised TimeoutError. Wait until the thread "
-            "ends or the time is over."
+            "The response came in time, but the function raised TimeoutError. Wait until the thread ends "
+            "or the time limit is reached."
         ),
     ),
     (
@@ -237,7 +237,7 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         expected="almost no processor time",
         actual=f"{context.read('checked_call.busy', float):.1f} s of processor time in {limit:g} s",
         hints=(
-            "The function uses the processor while it waits. Use join(seconds), which waits without "
-            "processor time."
+            "The function uses the processor while it waits. Use join(seconds), which uses no processor "
+            "time while it waits."
         ),
     )

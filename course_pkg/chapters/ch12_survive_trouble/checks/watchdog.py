@@ -144,8 +144,8 @@ def _registers_again(
         uri,
         "a name that is free again is registered",
         (
-            "The name is free again, but the watchdog does not register its own service. Continue to "
-            "poll after each result."
+            "The name is free again, but the watchdog does not register its own service. After a poll "
+            "that finds another provider, continue to poll."
         ),
     )
 
@@ -166,7 +166,9 @@ def _is_registered(
         holds=seen != "nobody",
         expected="a registered service",
         actual="no provider of this name",
-        hints=hint if asked else "The watchdog did not call the given master. Use self.master.",
+        hints=hint
+        if asked
+        else "The watchdog did not call the master that was passed to it. Call the methods of self.master.",
     )
     context.require(
         "the service is registered with its own address",
@@ -174,8 +176,8 @@ def _is_registered(
         expected="the argument `uri`",
         actual="another address",
         hints=(
-            "The addresses are in the wrong order. First pass the address of the service (it begins "
-            "with rosrpc), and then the address of the node."
+            "registerService() got the addresses in the wrong order. First pass the address of the "
+            "service (it begins with rosrpc), and then the address of the node."
         ),
     )
 
@@ -205,7 +207,10 @@ def _registers_both_addresses(context: CheckContext, watched: CheckedMaster, uri
         holds=given == [uri, node_uri],
         expected="the address of the service, and then rospy.get_node_uri()",
         actual=", ".join(given) or "no registration by the given master",
-        hints="The last argument is wrong. Pass rospy.get_node_uri(), which is the address of the node.",
+        hints=(
+            "The last argument of registerService() is wrong. Pass rospy.get_node_uri(), which is the "
+            "address of the node."
+        ),
     )
 
 

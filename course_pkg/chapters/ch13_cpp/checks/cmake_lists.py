@@ -134,12 +134,12 @@ def _why_not_there(text: str) -> str:
         )
     if "catkin_package" not in found:
         return (
-            "The command catkin_package is missing. Write this command below find_package, because "
-            "it sets the folder for programs."
+            "The command catkin_package is missing. Write catkin_package() below find_package: "
+            "catkin_package() sets the folder for programs."
         )
     if found["catkin_package"].line > found["add_executable"].line:
         return (
-            "The command catkin_package is in the wrong place. Move it above add_executable, "
-            "because it sets the folder for programs."
+            "The command catkin_package is in the wrong place. Move catkin_package() above "
+            "add_executable: catkin_package() sets the folder for programs."
         )
     return "The program has the wrong name. The first word in add_executable has to be box_server."

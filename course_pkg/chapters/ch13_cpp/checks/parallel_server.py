@@ -58,8 +58,8 @@ ONE_THREAD = (
     "MultiThreadedSpinner, because they use several threads."
 )
 TOO_FEW = (
-    "The spinner has too few threads. Create it with at least six threads, one for each call (0 "
-    "means one thread for each processor core)."
+    "The spinner has too few threads (with the argument 0, one thread for each processor core). Create "
+    "the spinner with at least six threads, one thread for each call."
 )
 LOCKED_TOO_LONG = (
     "The handler holds the lock during think(), so the other calls have to wait. Hold the lock only "
@@ -75,8 +75,8 @@ NO_LOCK = (
     "the write: std::lock_guard<std::mutex> lock(mutex);"
 )
 LET_GO = (
-    "The lock is not held between the read and the write, so two threads read the same number. "
-    "Create a lock_guard with a name before the read."
+    "The lock is not held between the read and the write, so two threads read the same number. Before "
+    "the read, create a lock_guard that has a name."
 )
 OWN_LOCK = (
     "Each call creates its own mutex, so no call waits for another call. Move the mutex out of the function."
@@ -131,8 +131,8 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
         if took >= THINKING + COUNTING
         else f"{took:.2f} s for a client",
         hints=(
-            "The functions think() and count() replace real work, so do not change their times. Use "
-            "several threads, so that the calls run at the same time."
+            "The functions think() and count() replace real work, so do not change how long these "
+            "functions take. Use several threads, so that the calls run at the same time."
         ),
     )
 
