@@ -28,7 +28,7 @@ replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForSe
 replace('  if (!client.call(spawn)) {\n    ROS_ERROR("the simulator refused MyTurtle");\n    return 1;\n  }\n', '  client.call(spawn);\n')
 # %% 14.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
 replace('  spawn.request.name = "MyTurtle";\n', '')
-# %% 14.1 wrong: a semicolon is missing | hint: semicolon
+# %% 14.1 wrong: a semicolon is missing | hint: Look for a missing ; or bracket
 replace('request.x = 3;', 'request.x = 3')
 
 # %% 14.2 right: a function, and spinOnce
@@ -88,7 +88,7 @@ replace('    geometry_msgs::Twist message;\n', '')
 replace('  while (ros::ok()) {\n', '  geometry_msgs::Twist message;\n  while (ros::ok()) {\n')
 # %% 14.2 wrong: ten times per second | hint: The program does not publish twice per second
 replace('rate(2)', 'rate(10)')
-# %% 14.2 wrong: no header | hint: std_srvs/Empty.h
+# %% 14.2 wrong: no header | hint: The compiler does not know the name std_srvs
 replace('#include <std_srvs/Empty.h>\n', '')
 
 # %% 14.3 right: methods, and spinOnce
