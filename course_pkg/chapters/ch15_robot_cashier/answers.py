@@ -404,7 +404,7 @@ replace("while there is not False and", "while there and")
 # %% 15.6 wrong: calls with 0 after a visit | hint: In the last response, `found` was False, so no customer is there
 replace("there = is_there(0)", "there = is_there(0)\n    is_there(0)")
 # %% 15.6 wrong: no pause during a visit | hint: wait 0.2 s between two calls
-replace("        rospy.sleep(0.2)\n", "")
+replace("        if there:\n            rospy.sleep(0.2)\n", "")
 # %% 15.6 wrong: no pause after a refusal | hint: The node made the next call immediately after a failed call
 replace("        rospy.sleep(0.5)\n", "")
 # %% 15.6 wrong: a long pause | hint: the next call came too late
