@@ -60,7 +60,7 @@ def section(book: Book) -> Iterator[str]:
         head = ["Student", "Section", "Username, email, id", "What to look at"]
         yield table("Students who are missing or could not be identified", head, rows, 0)
     else:
-        yield paragraph("Each submission belongs to exactly one row of the list.")
+        yield paragraph("Each submission belongs to exactly one row of the roster.")
 
 
 def _row(person: Person, reason: str, student: str = "") -> Sequence[str]:

@@ -102,7 +102,7 @@ class Session:
         item = self.items[number]
         value, words = points_of(points), clean.text(comment, LONG).strip()
         if value is not None and value > item.report.possible:
-            raise ValueError(f"{value:g} points are more than the possible {item.report.possible:g}")
+            raise ValueError(f"{value:g} points are more than the maximum of {item.report.possible:g} points")
         items = [item, *(self.alike(number) if also_identical else ())]
         changes: dict[Key, Override | None] = {
             each.key: Override(each.grade.student, each.report.check, value, words, each.answer)

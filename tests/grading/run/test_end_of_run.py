@@ -54,7 +54,7 @@ def test_many_changes_are_in_the_file(tmp_path: Path) -> None:
     after = [replace(FULL, student=f"=s{number:03}") for number in range(60)]
     found = changes(before, after)
     lines = described(found, tmp_path)
-    assert (len(lines), lines[-1]) == (42, f"  20 more are in {tmp_path / 'changes.csv'}.")
+    assert (len(lines), lines[-1]) == (42, f"  20 more changes are in {tmp_path / 'changes.csv'}.")
     write_changes(found, tmp_path)
     with (tmp_path / "changes.csv").open(encoding="utf-8-sig", newline="") as file:
         rows = list(csv.DictReader(file))
