@@ -160,7 +160,7 @@ def _by_goal(part: Part, given: dict[str, Any], path: Path | None) -> Worth:
             (
                 f"{part.check!r} has only one goal. Write one number of points for this part, such as "
                 f"{part.points}."
-            ),,
+            ),
         )
     if unknown := [text for text in given if text not in texts]:
         raise _wrong(path, f"{part.check!r} has no goal {unknown[0]!r}. Its goals are {listed}.")

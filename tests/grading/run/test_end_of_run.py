@@ -103,4 +103,4 @@ def test_results_that_stay(tmp_path: Path) -> None:
     """The output lists the students without a new submission."""
     marked, kept = about_rest([replace(FULL, absent=True), replace(FULL, student="s02")], tmp_path)
     assert "s01 (chapter 05)" in marked
-    assert kept == f"1 other result in {tmp_path} stayed as it was."
+    assert kept == f"1 other result in {tmp_path} did not change."
