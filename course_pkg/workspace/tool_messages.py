@@ -34,7 +34,7 @@ FROM_BUILD: tuple[Row, ...] = (
         "package.xml",
         "A package.xml of format {format} cannot have the tag {tags}.",
         "Use the tags buildtool_depend, build_depend, exec_depend or depend (formats 2 and 3), "
-        "and compare the spelling.",
+        "and check the spelling.",
     ),
     (
         r'must contain (?:exactly|at least) one "(?P<tag>\w+)" tag',
@@ -134,8 +134,8 @@ FROM_TOOLS: tuple[Row, ...] = (
         "",
         "No package {name}{other} is on ROS_PACKAGE_PATH.",
         (
-            "Source devel/setup.bash of the package's workspace in this shell. Also compare "
-            "the spelling of the name."
+            "Source devel/setup.bash of the package's workspace in this shell. Also check "
+            "the spelling of the package's name."
         ),
     ),
     (
@@ -168,8 +168,8 @@ FROM_TOOLS: tuple[Row, ...] = (
         r"Couldn't find executable named (?P<name>\S+) below",
         "",
         "The package has no program {name}.",
-        "Make the file executable with chmod +x. If the file is executable, compare its name, "
-        "including the ending.",
+        "Make the file executable with chmod +x. If the file is already executable, compare its name "
+        "with the name in your command, including the ending.",
     ),
     (
         r"(?:import|from): command not found|syntax error near unexpected token"

@@ -200,11 +200,14 @@ class ConnectionSteps:
         if lost and not self._came:
             return "The client received no byte. A process accepted the connection, but sent nothing."
         if lost:
-            return "The client expected a response. It cannot know how much work the server has done."
+            return (
+                "The client received no response, so the client cannot know how much work the "
+                "server has done."
+            )
         if "error" in self._answered:
             return "No request was sent, so no handler ran."
         if self._asked.get("probe") == "1":
-            return "The probe was successful: a server is there, and answers."
+            return "The probe was successful: a server answers at this address."
         if self._asked.get("persistent") in ("1", "true"):
             return "The client had set persistent=1, so it could use the connection for several calls."
         return "The client used the connection for one call. The next call begins with a new look-up."

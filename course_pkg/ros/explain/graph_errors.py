@@ -57,7 +57,7 @@ FROM_GRAPH: tuple[Row, ...] = (
     (
         r"\[Errno 98\]|Address already in use|PortBusy",
         "Another program already uses the port. After this error, a rosmaster continues to "
-        "run, but it is of no use.",
+        "run, but nodes cannot connect to it.",
         "End rosmaster with Ctrl-C. Find the other program with `ss -tlnp`, or use a different port.",
         "01",
     ),
