@@ -39,8 +39,8 @@ from course_pkg.grading.intake.reading import read_cells, slimmed
 from course_pkg.grading.intake.references import References, plain
 
 LATE = (
-    "Canvas marks this submission as late, but not how many days late. Give a table of late days "
-    "(--late TABLE) or a table of submission times (--times TABLE)."
+    "Canvas marks this submission as late, but does not show the number of late days. Give a table of "
+    "late days (--late TABLE) or a table of submission times (--times TABLE)."
 )
 SHOWN = 3  # SHOWN is the maximum number of file names in a sentence.
 

@@ -122,7 +122,7 @@ class Session:
         reloaded, step = self.refresh(), self._steps[-1]
         if any(self._overrides.rows.get(key) != row for key, row in step.after.items()):
             self._steps.pop()
-            raise ValueError("another program has changed this row since then, so the row stays as it is")
+            raise ValueError("another program has changed this row since then, so the change was not undone")
         done = self._change(step.before, undoing=True)
         self._steps.pop()
         shown = self._numbers.get(next(iter(step.before)))

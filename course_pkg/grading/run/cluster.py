@@ -102,7 +102,8 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
         client = Client(scheduler, timeout=patience)
     except (OSError, ValueError, TimeoutError) as error:
         raise GradingError(
-            f"No dask scheduler answers at {scheduler}: {error}. Start it with: ./course run dask scheduler"
+            f"No dask scheduler answers at {scheduler}: {error}. Start a scheduler with: "
+            "./course run dask scheduler"
         ) from error
     try:
         if not client.ncores():

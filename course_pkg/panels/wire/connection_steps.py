@@ -143,9 +143,7 @@ class ConnectionSteps:
 
     def _greeting(self, probe: bool) -> str:
         if probe:
-            return (
-                "probe=1 means that no request follows. wait_for_service uses such a header to find a server."
-            )
+            return "probe=1 means that no request follows. wait_for_service uses probe=1 to find a server."
         return (
             f"The header has {len(self._asked)} fields in any order. The length of each field "
             "comes before the field. The MD5 sum identifies the definition that the client was "

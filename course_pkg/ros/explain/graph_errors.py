@@ -72,7 +72,7 @@ FROM_GRAPH: tuple[Row, ...] = (
     (
         r"signal only works in main thread",
         (
-            "init_node() was called outside the main thread. The call stopped before its end, and a "
+            "init_node() was called outside the main thread. The call did not finish, and a "
             "second call does not work."
         ),
         "Restart the kernel, and call init_node() or join() in a separate cell before you start threads.",
