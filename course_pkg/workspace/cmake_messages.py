@@ -257,7 +257,7 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"The source directory \S*?/(?P<package>[^/\s]+) does not contain a CMakeLists\.txt file",
         "{package}",
         "The package has no CMakeLists.txt.",
-        "Create this file. The name of the file must be exactly CMakeLists.txt, with the same "
+        "Create this file. The name of the file must be exactly CMakeLists.txt, including "
         "upper and lower case.",
     ),
     (

@@ -90,8 +90,8 @@ FROM_BUILD: tuple[Row, ...] = (
         "package.xml",
         "{name} cannot be the name of a package with messages, because the name is not valid "
         "for a Python module.",
-        "In package.xml and in project(), use a name of lower-case letters, digits and _ that "
-        "begins with a letter.",
+        "In package.xml and in project(), use a name that begins with a letter and "
+        "contains only lower-case letters, digits and _.",
     ),
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[-\N{EN DASH}\N{EM DASH}][^\n]*)",
@@ -109,7 +109,8 @@ FROM_BUILD: tuple[Row, ...] = (
         r"InvalidMsgSpec'?>?: (?P<what>[^\n]*)",
         "",
         "A .srv file cannot be read: {what}.",
-        "Correct the line in the .srv file. rossrv show prints the same error, with the name of the type.",
+        "Correct the wrong line in the .srv file. rossrv show prints the same error, with the "
+        "name of the type.",
     ),
     (
         r"base path \"(?P<path>[^\"]+)\" contains a package",

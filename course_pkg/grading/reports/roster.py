@@ -39,7 +39,7 @@ def lead(book: Book) -> str:
     """Return a sentence about the roster for the top of class.html, or "" if there is no roster."""
     known = book.class_list
     return (
-        f"{known.found} of {len(known.roster)} students of the roster handed in their work."
+        f"{known.found} of {len(known.roster)} students on the roster handed in their work."
         if known.roster
         else ""
     )
