@@ -16,7 +16,7 @@ from course_pkg.sandbox.job import WorkFile
 
 IN_PACKAGES = "Examined in the packages, not in the cells of the notebook"
 NOTHING = "The student handed in nothing"  # The problem of an empty folder begins with this text.
-NO_TIME = "The time of handing in is not known, so this submission is treated as on time."
+NO_TIME = "The submission time is not known, so this submission is treated as on time."
 
 
 @dataclass(frozen=True)

@@ -76,7 +76,8 @@ def read_points(path: Path | None) -> PointsTable:
         raise _wrong(path, f"there is no part {unknown[0]!r}.{like} {START}")
     if EVERY in given and given[EVERY] != ALL_OR_NOTHING:
         raise _wrong(
-            path, f'{EVERY!r} can only be "{ALL_OR_NOTHING}". To give other points, write them for each part.'
+            path,
+            f'{EVERY!r} can only be "{ALL_OR_NOTHING}". For other points, write the points of each part.',
         )
     worth = {
         check: _worth(part, given[check], path)
@@ -155,7 +156,11 @@ def _by_goal(part: Part, given: dict[str, Any], path: Path | None) -> Worth:
     listed = ", ".join(map(repr, texts))
     if not texts:
         raise _wrong(
-            path, f"{part.check!r} has only one goal. Give this part a number, such as {part.points}."
+            path,
+            (
+                f"{part.check!r} has only one goal. Write one number of points for this part, such as "
+                f"{part.points}."
+            ),
         )
     if unknown := [text for text in given if text not in texts]:
         raise _wrong(path, f"{part.check!r} has no goal {unknown[0]!r}. Its goals are {listed}.")

@@ -159,7 +159,7 @@ def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
     else:
         yield (
             f"{_count(found.notebooks, 'notebook')} and {_count(found.packages, 'package')} of "
-            f"{_count(found.students, 'student')} are in {options.out}. Their times are in "
+            f"{_count(found.students, 'student')} are in {options.out}. The submission times are in "
             f"{options.out / TIMES}."
         )
     if found.nothing:
@@ -176,7 +176,7 @@ def _report(found: Collected, options: Options, homes: int) -> Iterator[str]:
     ):
         yield from [title, *(f"  {line}" for line in lines)] if lines else []
     if found.students:
-        yield f"Grade them with: ./course grade {options.out}"
+        yield f"Grade this work with: ./course grade {options.out}"
 
 
 def _course_folder(given: str) -> str:

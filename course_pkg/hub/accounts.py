@@ -62,7 +62,7 @@ def home_problems(names: Iterable[str]) -> Iterator[str]:
     """Yield a line for each account in `names` that exists and whose home folder cannot be used."""
     for account in map(pwd.getpwnam, names):
         if problem := home_problem(Path(account.pw_dir), account.pw_uid):
-            yield f"The student {account.pw_name} cannot work here: {problem}"
+            yield f"The student {account.pw_name} cannot use the hub: {problem}"
 
 
 def home_problem(home: Path, uid: int) -> str:

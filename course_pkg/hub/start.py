@@ -102,8 +102,8 @@ def serve_hub(options: Options) -> int:
         problem, remedy = network_problem(None if homes else ORDINARY)
         if problem:
             sys.stdout.write(
-                "The students get no private networks, so everybody who can log in here can call, replace "
-                f"and stop their nodes: {problem}. {remedy}.\n"
+                "The students get no private networks, so everybody who can log in on this "
+                f"machine can call, replace and stop their nodes: {problem}. {remedy}.\n"
             )
         if homes:
             sys.stdout.write("All servers run as you, so students can read each other's files.\n")

@@ -80,7 +80,7 @@ def write_bundle(out: Path) -> int:
     size = sum(path.stat().st_size for path in out.rglob("*") if path.is_file()) >> 20
     sys.stdout.write(
         f"{out} ({size} MB) installs the course on {platform.name} without internet. Copy the folder, and "
-        "type there:\n  sudo sh install.sh\n"
+        "type in the copy:\n  sudo sh install.sh\n"
     )
     return 0
 

@@ -31,7 +31,10 @@ def install(path: Path | None, bin_folder: Path | None) -> int:
     """
     source = Places.of()
     if source.conda:
-        raise SetupError("`course install` needs ROS from Debian or Ubuntu. Leave the conda environment.")
+        raise SetupError(
+            "`course install` needs ROS from Debian or Ubuntu. First leave the conda "
+            "environment with `conda deactivate`."
+        )
     os.umask(0o022)  # all users must be able to read the files
     prefix = Prefix(path, bin_folder)
     try:

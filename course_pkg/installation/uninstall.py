@@ -37,5 +37,7 @@ def uninstall(path: Path | None, *, force: bool) -> int:
             f"{error.filename or prefix.path} cannot be removed ({error.strerror}). Type the "
             "command with sudo."
         ) from error
-    sys.stdout.write(f"{prefix.path} is removed. The users' own folders, such as ~/ros-course, stay.\n")
+    sys.stdout.write(
+        f"{prefix.path} is removed. The users' own folders, such as ~/ros-course, were not removed.\n"
+    )
     return 0

@@ -65,8 +65,9 @@ def _installed(places: Places) -> Iterator[Finding]:
         yield Finding("system", platform.name)
         for part, needed_by in NEEDED_BY[: 1 if places.installed else None]:
             missing = packages.missing_packages(getattr(platform, part))
-            advice = f"`./course {needed_by.split()[1]}` installs them; or type as an administrator: " + (
-                f"apt-get update && apt-get install --no-install-recommends {' '.join(missing)}"
+            advice = (
+                f"`./course {needed_by.split()[1]}` installs these packages; or type as an administrator: "
+                + (f"apt-get update && apt-get install --no-install-recommends {' '.join(missing)}")
             )
             seen = f"missing: {' '.join(missing)}" if missing else "installed"
             yield Finding(f"packages for `{needed_by}`", seen, advice if missing else "")
@@ -113,7 +114,7 @@ def _master() -> Finding:
         return Finding(
             "ROS_MASTER_URI",
             given,
-            "Change ROS_MASTER_URI to the form http://localhost:11311, or unset ROS_MASTER_URI.",
+            "Set ROS_MASTER_URI to an address such as http://localhost:11311, or unset ROS_MASTER_URI.",
         )
     return _answering(given, str(parts.hostname), parts.port or 0)
 

@@ -44,7 +44,10 @@ def network_problem(account: str | None = None) -> tuple[str, str]:
         setting = KERNEL / name.replace(".", "/")
         if setting.is_file() and setting.read_text().strip() == forbids:
             return f"{name} is {forbids} ({reason})", f"As an administrator, type: sysctl -w {name}={allows}"
-    return reason, "Ask the administrator to allow user namespaces; a container needs them from its host"
+    return (
+        reason,
+        "Ask the administrator to allow user namespaces; in a container, the host has to allow them",
+    )
 
 
 def outgoing_problem() -> tuple[str, str]:
@@ -61,7 +64,8 @@ def outgoing_problem() -> tuple[str, str]:
         problem = (
             f"{RESOLVER} contains only {servers[0]}, so the names of other computers cannot be looked up"
         )
-        return problem, f"With systemd-resolved: ln -sf /run/systemd/resolve/resolv.conf {RESOLVER}"
+        link = f"ln -sf /run/systemd/resolve/resolv.conf {RESOLVER}"
+        return problem, f"If this computer uses systemd-resolved, type as an administrator: {link}"
     return "", ""
 
 

@@ -40,7 +40,7 @@ def make_own_files(places: Places) -> None:
     if kept:
         sys.stderr.write(
             f"There is a new version of {', '.join(kept)}. Your version contains your work, so "
-            "it was not changed. To get the new version, rename your version, and start "
+            "the file was not changed. To get the new version, rename your version, and start "
             "again.\n"
         )
 

@@ -76,7 +76,8 @@ def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
             )
     names = ", ".join(entry["name"] for entry in data["distributions"].values())
     raise SetupError(
-        f"ROS 1 comes with {names}; this is {release.get('PRETTY_NAME', 'another system')}. "
+        f"The set-up finds ROS 1 only on {names}, but this system is "
+        f"{release.get('PRETTY_NAME', 'another system')}. "
         "Use conda on this system:\n"
         f"  conda env create -f {checkout / 'environment.yml'}\n"
         "  conda activate ros-services-course\n"

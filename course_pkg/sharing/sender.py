@@ -80,7 +80,7 @@ class Sender:
             answer = self._ask("POST", "/results", {"results": results})
             done = answer.get("done")
             if not isinstance(done, list) or not done:
-                raise NotAccepted("the answer is not that of a class service")
+                raise NotAccepted("the answer does not come from a class service")
             self._outbox.remove([str(each["id"]) for each in results if each["id"] in done])
 
     def _ask(self, method: str, path: str, data: Mapping[str, object] | None = None) -> dict[str, object]:
@@ -100,5 +100,5 @@ class Sender:
             raise NotAccepted(f"status {response.status}: {reason}")
         answer = json.loads(received)
         if not isinstance(answer, dict):
-            raise NotAccepted("the answer is not that of a class service")
+            raise NotAccepted("the answer does not come from a class service")
         return answer

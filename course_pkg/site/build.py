@@ -176,7 +176,8 @@ class Folder:
             ) from error
         if foreign:
             raise SiteError(
-                f"{self._path} contains files that are not a site. Give an empty or a new folder with --out."
+                f"{self._path} contains files that do not belong to a site. Give an empty or a new "
+                "folder with --out."
             )
         self._list.touch()
         self._before = set(self._list.read_text("utf-8").split("\n"))

@@ -87,7 +87,10 @@ class _Diagnosis:
         column = len(line.text) - len(line.text.lstrip()) + 1
         if self.kind == "msg":
             raise self._broken(
-                line, column, "a message cannot have a --- line", "remove it, or make it a service"
+                line,
+                column,
+                "a message cannot have a --- line",
+                "remove this line, or define a service instead",
             )
         if not line.is_separator:
             advice = "write --- at the beginning of the line, without spaces"

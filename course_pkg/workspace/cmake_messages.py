@@ -107,7 +107,10 @@ def unknown_command(name: str, message: Message) -> Fault:
         remedy = (
             f"Write {near[0]}."
             if near
-            else "Compare the spelling of the command, or find the package that defines the command."
+            else (
+                "Check the spelling of the command. If the spelling is right, find the package that "
+                "defines the command."
+            )
         )
     return Fault(problem, remedy, message.file, message.line)
 
@@ -135,7 +138,7 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"file '\S*?/(?P<name>[^/']+)' does not exist.*(?:service|message|action) file not found",
         "",
         "The file {name} is not in the folder that this command searches.",
-        "Compare the spelling of the file's name, including upper and lower case. Do not write "
+        "Check the spelling of the file's name, including upper and lower case. Do not write "
         "the folder srv in front of the name.",
     ),
     (
@@ -155,7 +158,7 @@ FROM_CMAKE: tuple[Row, ...] = (
         r'package configuration file provided by "(?P<name>[^"]+)"',
         "",
         "find_package needs the package {name}, but this package is not installed.",
-        "Compare the spelling of the package, or install the package. If the package is in a "
+        "Check the spelling of the package's name, or install the package. If the package is in a "
         "workspace, source that workspace.",
     ),
     (
@@ -169,7 +172,7 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"Cannot locate message \[(?P<type>\w+)\].*? package \[(?P=package)\]",
         "{package}/{file}",
         "{type} is not a built-in type of ROS, and {package} has no message with this name.",
-        "Write an existing type, such as float32 for float or int32 for int.",
+        "Write an existing type, such as float32 instead of float, or int32 instead of int.",
     ),
     (
         r"which '\S*?/(?P<file>[^/']+\.srv)' depends on.*"
@@ -190,20 +193,19 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"PROJECT_NAME is set to 'Project'",
         "",
         "CMakeLists.txt has no line with project().",
-        "Write project(NAME) near the top of the file. Use the name in package.xml.",
+        "Write project(NAME) near the top of the file, where NAME is the package's name in package.xml.",
     ),
     (
         r"DEPENDS on the catkin package '(?P<name>[^']+)' which must therefore be listed as a run dependency",
         "",
         "catkin_package lists {name}, but package.xml does not list {name} as a package that "
-        "is needed to run.",
+        "the program needs at run time.",
         "Add <exec_depend>{name}</exec_depend> to package.xml, or remove {name} from catkin_package.",
     ),
     (
         r"the catkin package '(?P<name>[^']+)' has been find_package\(\)-ed but is not listed as a build dep",
         "",
-        "find_package needs {name}, but package.xml does not list {name} as a package that is "
-        "needed to build.",
+        "find_package needs {name}, but package.xml does not list {name} as a package that the build needs.",
         "Add <build_depend>{name}</build_depend> to package.xml.",
     ),
     (
@@ -236,7 +238,7 @@ FROM_CMAKE: tuple[Row, ...] = (
         "",
         "The file {name} does not exist at this path.",
         "Write the path of the file relative to the folder of the package, such as "
-        "src/NAME.cpp, and compare the spelling.",
+        "src/NAME.cpp, and check the spelling.",
     ),
     (
         r'Cannot specify link libraries for target "(?P<name>[^"]+)" which is not built',
@@ -248,13 +250,14 @@ FROM_CMAKE: tuple[Row, ...] = (
         r"No CMAKE_CXX_COMPILER could be found|Could not find compiler set in environment variable CXX",
         "",
         "CMake finds no C++ compiler.",
-        "Install a compiler: the package g++ on Debian and Ubuntu, or the package compilers of conda.",
+        "Install a C++ compiler: the package g++ on Debian and Ubuntu, or the conda package with the "
+        "name compilers.",
     ),
     (
         r"The source directory \S*?/(?P<package>[^/\s]+) does not contain a CMakeLists\.txt file",
         "{package}",
         "The package has no CMakeLists.txt.",
-        "Create this file. The name of the file must be exactly CMakeLists.txt, with the same "
+        "Create this file. The name of the file must be exactly CMakeLists.txt, including "
         "upper and lower case.",
     ),
     (

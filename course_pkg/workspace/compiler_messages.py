@@ -15,7 +15,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     (
         r"(?P<name>\S+): No such file or directory",
         "The compiler does not find the header {name}.",
-        "Compare the spelling of the header, and add the header's package to the COMPONENTS of "
+        "Check the spelling of the header's name, and add the header's package to the COMPONENTS of "
         "find_package. Write include_directories(${{catkin_INCLUDE_DIRS}}) above "
         "add_executable.",
     ),
@@ -48,8 +48,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     (
         r".(?P<name>\w+). (?:was not declared in this scope|has not been declared)",
         "The compiler does not know the name {name}.",
-        "Compare the spelling of the name, and check its prefix (ros:: or std::). Then check "
-        "the #include lines.",
+        "Check the spelling of the name, and its prefix (ros:: or std::). Then check the #include lines.",
     ),
     (r"", "The compiler reports: {message}.", "Find the mistake in the line that the compiler reports."),
 )

@@ -34,7 +34,7 @@ FROM_BUILD: tuple[Row, ...] = (
         "package.xml",
         "A package.xml of format {format} cannot have the tag {tags}.",
         "Use the tags buildtool_depend, build_depend, exec_depend or depend (formats 2 and 3), "
-        "and compare the spelling.",
+        "and check the spelling.",
     ),
     (
         r'must contain (?:exactly|at least) one "(?P<tag>\w+)" tag',
@@ -90,8 +90,8 @@ FROM_BUILD: tuple[Row, ...] = (
         "package.xml",
         "{name} cannot be the name of a package with messages, because the name is not valid "
         "for a Python module.",
-        "In package.xml and in project(), use a name of lower-case letters, digits and _ that "
-        "begins with a letter.",
+        "In package.xml and in project(), use a name that begins with a letter and "
+        "contains only lower-case letters, digits and _.",
     ),
     (
         r"InvalidMsgSpec'?>?: Invalid declaration: (?P<text>[-\N{EN DASH}\N{EM DASH}][^\n]*)",
@@ -109,7 +109,8 @@ FROM_BUILD: tuple[Row, ...] = (
         r"InvalidMsgSpec'?>?: (?P<what>[^\n]*)",
         "",
         "A .srv file cannot be read: {what}.",
-        "Correct the line in the .srv file. rossrv show prints the same error, with the name of the type.",
+        "Correct the wrong line in the .srv file. rossrv show prints the same error, with the "
+        "name of the type.",
     ),
     (
         r"base path \"(?P<path>[^\"]+)\" contains a package",
@@ -134,8 +135,8 @@ FROM_TOOLS: tuple[Row, ...] = (
         "",
         "No package {name}{other} is on ROS_PACKAGE_PATH.",
         (
-            "Source devel/setup.bash of the package's workspace in this shell. Also compare "
-            "the spelling of the name."
+            "Source devel/setup.bash of the package's workspace in this shell. Also check "
+            "the spelling of the package's name."
         ),
     ),
     (
@@ -168,8 +169,8 @@ FROM_TOOLS: tuple[Row, ...] = (
         r"Couldn't find executable named (?P<name>\S+) below",
         "",
         "The package has no program {name}.",
-        "Make the file executable with chmod +x. If the file is executable, compare its name, "
-        "including the ending.",
+        "Make the file executable with chmod +x. If the file is already executable, compare its name "
+        "with the name in your command, including the ending.",
     ),
     (
         r"(?:import|from): command not found|syntax error near unexpected token"

@@ -94,7 +94,7 @@ def test_the_outcomes_survive_another_table(tmp_path: Path) -> None:
         ('{"05.3": [1]}', "is a list. Write a number"),
         ('{"05.3": true}', "is a truth value"),
         ('{"05.3": null}', "is a null value"),
-        ('{"03.3": {"a": 1}}', "has only one goal. Give this part a number, such as 2"),
+        ('{"03.3": {"a": 1}}', "has only one goal. Write one number of points for this part, such as 2"),
         ('{"all parts": 2}', "can only be"),
         ('{"05.3": 1, "05.3": 2}', "'05.3' occurs more than once"),
     ],

@@ -377,6 +377,6 @@ def test_who_is_missing_is_in_the_table_and_on_the_page(tmp_path: Path, notebook
     )
     assert missing["notes"] == "This student is on the roster, but handed in nothing."
     page = (out / "class.html").read_text()
-    assert "1 of 3 students of the roster handed in their work." in page
+    assert "1 of 3 students on the roster handed in their work." in page
     assert re.search(r"Lee, Ann</th>.*ann@uni\.example.*handed in nothing", page)
     assert re.search(r"feedback/s99\.html.*is not on the roster\.", page)

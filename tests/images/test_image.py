@@ -147,7 +147,7 @@ def test_the_course_works_without_namespaces(image: Image) -> None:
     with pytest.raises(AssertionError):
         image.run("unshare -Urn true")
     assert "passed" in image.run(f"{PYTEST} {QUICK} {STARTED}")
-    assert "4 parts, all passed." in image.run(f"{PYTEST} --nbval solutions/01_name_things.ipynb")
+    assert "4 parts, and all of them passed." in image.run(f"{PYTEST} --nbval solutions/01_name_things.ipynb")
 
 
 def test_the_course_works_with_namespaces(image: Image) -> None:

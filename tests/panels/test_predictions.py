@@ -53,7 +53,7 @@ def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
     late = model.answer("an error")
     assert late.changed_after
     assert late.first == "an empty reply"
-    assert "changed it to 'an error' after" in late.verdict
+    assert "changed your answer to 'an error' after" in late.verdict
 
 
 def test_comparing_again_changes_nothing(model: PredictionModel) -> None:

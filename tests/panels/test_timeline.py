@@ -136,7 +136,9 @@ def test_the_state_is_bounded() -> None:
     kinds = [kept["kinds"][kind] for kind in kept["columns"]["kind"]]
     assert len(kinds) == MOST
     assert kinds.count("wait") == 1
-    said = "4,000 events are drawn. 6,006 messages and callbacks from 1.998 s on are not drawn."
+    said = (
+        "4,000 events are drawn. 6,006 messages and callbacks that begin at 1.998 s or later are not drawn."
+    )
     assert kept["notes"] == [said]
     assert len(json.dumps(kept)) < 400_000
     assert kept["waits"]["streams"][0]["published"] == 5000
@@ -147,7 +149,9 @@ def test_too_many_calls() -> None:
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST
-    assert kept["notes"] == ["4,000 events are drawn. 2,000 events from 666.4 s on are not drawn."]
+    assert kept["notes"] == [
+        "4,000 events are drawn. 2,000 events that begin at 666.4 s or later are not drawn."
+    ]
 
 
 def test_nothing_recorded() -> None:

@@ -118,4 +118,4 @@ def test_doctor_reports_no_problem_on_this_machine() -> None:
     assert "to do" not in answer.stdout
     answer = course("doctor", ROS_MASTER_URI="localhost:11311")
     assert answer.returncode == 1
-    assert "Change ROS_MASTER_URI to the form http://localhost:11311" in answer.stdout
+    assert "Set ROS_MASTER_URI to an address such as http://localhost:11311" in answer.stdout

@@ -87,7 +87,7 @@ def _results(root: Path) -> dict[str, Plain]:
         messages.append(WEAKER)
     late, policy = days_late(root / "submission_metadata.json"), settings.policy
     if policy and late is None:
-        messages.append("The time of handing in is not known, so no points were deducted for lateness.")
+        messages.append("The submission time is not known, so no points were deducted for lateness.")
     with _runner(deadline, str(extras.folder or ""), weaker=weaker) as run:
         grades = [_grade(each, points, run).for_student() for each in found]
     if policy and late:

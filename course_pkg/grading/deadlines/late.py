@@ -52,7 +52,8 @@ def late_policy(
             f"{'--late' if table else '--deadline'} needs a policy for late work. Give "
             "--late-per-day PERCENT, --late-max-days N, or both. For example, with --late-per-day "
             "10 --late-max-days 3, each late day costs 10 % of the points, and after 3 days no "
-            "points are left. With --late-per-day 0, late work only gets a mark."
+            "points are left. With --late-per-day 0, late work loses no points, but "
+            "the reports say that the work was late."
         )
     if not table and not deadlines and (per_day is not None or max_days is not None):
         raise GradingError(
@@ -123,7 +124,9 @@ def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[s
     """
     student, chapter = values.get("student", "").strip(), values.get("chapter", "").strip()
     if not complete or not student:
-        raise GradingError(f"{where}: each row needs a student and a number of days. Remove all other cells.")
+        raise GradingError(
+            f"{where}: each row needs a student, a number of days, and one cell for each column."
+        )
     if chapter and not re.fullmatch(r"\d{1,2}", chapter):
         raise GradingError(f"{where}: this is not a chapter. Write two digits, such as 05.")
     return (clean.identity(student), chapter.zfill(2) if chapter else ""), _days(where, values["days"])

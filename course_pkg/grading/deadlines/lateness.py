@@ -30,7 +30,7 @@ class Lateness:
         due = [each for each in found if self._due(each) is not None]
         if due and all(NO_TIME in each.notes for each in due):
             raise GradingError(
-                "--deadline needs the times of handing in, but no time is known. Use --times with "
+                "--deadline needs the submission times, but no submission time is known. Use --times with "
                 "Moodle's grading worksheet or with a table student,submitted. For nbgrader, use "
                 "--times nbgrader."
             )
@@ -114,7 +114,7 @@ def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime |
 
 def _about(count: int, chosen: str, others: Sequence[str], why: str) -> str:
     return (
-        f"This chapter was handed in {count} times: {chosen} {why}. These do not count: "
+        f"This chapter was handed in {count} times: {chosen} {why}. These files do not count: "
         f"{', '.join(others[:3])}."
     )
 

@@ -170,11 +170,11 @@ def _moment(row: Row, written: str, zone: tzinfo | None) -> datetime:
         return moment
     if moment_of(written, timezone.utc) is not None:
         raise GradingError(
-            f"{row.where}: the time has no time zone. Give the zone of the table, such as --time-zone "
-            "Europe/Berlin."
+            f"{row.where}: the time has no time zone. Give the time zone of the table, such as "
+            "--time-zone Europe/Berlin."
         )
     raise GradingError(
-        f"{row.where}: this is not a time. Write 2026-11-01T23:59+01:00, or use Moodle's form: "
+        f"{row.where}: this is not a time. Write 2026-11-01T23:59+01:00, or use Moodle's format: "
         "Sunday, 1 November 2026, 11:59 PM."
     )
 

@@ -203,8 +203,8 @@ def _about_names(name: str, ranked: Sequence[Found]) -> Iterator[str]:
     if others:
         shown = ", ".join(each.package.origin for each in others[:SHOWN])
         yield (
-            f"{len(ranked)} packages are named {name}: {best.package.origin} was graded, and these were "
-            f"not graded: {shown}."
+            f"{len(ranked)} packages are named {name}: {best.package.origin} was graded, and these "
+            f"packages were not graded: {shown}."
         )
 
 

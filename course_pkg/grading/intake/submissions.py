@@ -39,8 +39,8 @@ from course_pkg.grading.intake.reading import read_cells, slimmed
 from course_pkg.grading.intake.references import References, plain
 
 LATE = (
-    "Canvas marks this submission as late, but it does not say how many days. Give a table of late "
-    "days or of times."
+    "Canvas marks this submission as late, but does not show the number of late days. Give a table of "
+    "late days (--late TABLE) or a table of submission times (--times TABLE)."
 )
 SHOWN = 3  # SHOWN is the maximum number of file names in a sentence.
 
@@ -284,7 +284,7 @@ def _without_chapter(given: Sequence[Submission]) -> Iterator[Submission]:
     first, *others = sorted(given, key=lambda each: each.origin)
     if others:
         names = _listed([each.origin for each in others])
-        first = replace(first, problem=f"{first.problem} Also not graded: {names}.")
+        first = replace(first, problem=f"{first.problem} These files were not graded either: {names}.")
     yield first
 
 

@@ -60,7 +60,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
         terminalreporter.write_line(
             f"{len(lines)} parts, and {len(lacking)} of them did not pass."
             if lacking
-            else f"{len(lines)} parts, all passed."
+            else f"{len(lines)} parts, and all of them passed."
         )
 
 

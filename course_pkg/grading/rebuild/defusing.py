@@ -106,7 +106,7 @@ def _without_markers(source: str) -> tuple[str, list[str]]:
         line.replace(mark, f"({mark})") if mark else line for line, mark in zip(lines, found, strict=True)
     ]
     names = ", ".join(sorted({mark for mark in found if mark}))
-    return "".join(kept), [f"The name {names} in a comment has no effect in grading."]
+    return "".join(kept), [f"A comment with the text {names} has no effect on the grade."]
 
 
 def _marker(line: str) -> str:

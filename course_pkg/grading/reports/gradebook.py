@@ -134,7 +134,10 @@ def attention(book: Book, student: str) -> list[str]:
         *(reason for grade in grades if (reason := _about(grade))),
         *(reason for grade in grades for reason in _inconclusive(grade)),
         *(
-            (f"{report.check}: the answer has changed since its review. The points of the review stay.")
+            (
+                f"{report.check}: the answer has changed since its review. The points from the review "
+                "still count."
+            )
             for grade in grades
             for report in grade.reports
             if report.review and report.review.outdated
@@ -202,7 +205,7 @@ def _about(grade: Grade) -> str:
 def _inconclusive(grade: Grade) -> list[str]:
     """Return a sentence for each part with an unfinished check."""
     return [
-        f"{report.check} earned no points, but its check could not finish. Look at the answer. "
+        f"{report.check} has 0 points, because the check could not finish. Look at the answer. "
         f"{clean.line(report.note, 160)}"
         for report in grade.reports
         if report.inconclusive and not report.review

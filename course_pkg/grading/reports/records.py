@@ -42,6 +42,6 @@ def _read(path: Path, which: str) -> Grade:
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise GradingError(
             f"In {path.parents[1]}, {which} ({path.name}) is not a grade of this version of the "
-            f"course: {type(error).__name__}. Records are counted in the order of their paths. "
+            f"course: {type(error).__name__}. Records are numbered in the order of their paths. "
             "Delete this file, and grade again."
         ) from error

@@ -39,7 +39,7 @@ def lead(book: Book) -> str:
     """Return a sentence about the roster for the top of class.html, or "" if there is no roster."""
     known = book.class_list
     return (
-        f"{known.found} of {len(known.roster)} students of the roster handed in their work."
+        f"{known.found} of {len(known.roster)} students on the roster handed in their work."
         if known.roster
         else ""
     )
@@ -60,7 +60,7 @@ def section(book: Book) -> Iterator[str]:
         head = ["Student", "Section", "Username, email, id", "What to look at"]
         yield table("Students who are missing or could not be identified", head, rows, 0)
     else:
-        yield paragraph("Each submission belongs to exactly one row of the list.")
+        yield paragraph("Each submission belongs to exactly one row of the roster.")
 
 
 def _row(person: Person, reason: str, student: str = "") -> Sequence[str]:

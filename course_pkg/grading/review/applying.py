@@ -56,7 +56,7 @@ def about_reviews(grades: Sequence[Grade]) -> list[str]:
         more = f" and {len(changed) - SHOWN} more" if len(changed) > SHOWN else ""
         lines.append(
             f"The answer has changed since its review: {', '.join(changed[:SHOWN])}{more}. The "
-            "points of the review stay. `course review GRADES --unfinished` shows these answers."
+            "points from the review still count. `course review GRADES --unfinished` shows these answers."
         )
     return lines
 

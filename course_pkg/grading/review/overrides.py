@@ -87,7 +87,7 @@ class Overrides:
                 )
             if row.points is not None and row.points > report.possible:
                 raise self._wrong(
-                    row, f"{row.points:g} points are more than the possible {report.possible:g}"
+                    row, f"{row.points:g} points are more than the maximum of {report.possible:g} points"
                 )
 
     def changed(self, changes: Mapping[Key, Override | None]) -> bytes:

@@ -102,7 +102,7 @@ class Session:
         item = self.items[number]
         value, words = points_of(points), clean.text(comment, LONG).strip()
         if value is not None and value > item.report.possible:
-            raise ValueError(f"{value:g} points are more than the possible {item.report.possible:g}")
+            raise ValueError(f"{value:g} points are more than the maximum of {item.report.possible:g} points")
         items = [item, *(self.alike(number) if also_identical else ())]
         changes: dict[Key, Override | None] = {
             each.key: Override(each.grade.student, each.report.check, value, words, each.answer)
@@ -122,7 +122,7 @@ class Session:
         reloaded, step = self.refresh(), self._steps[-1]
         if any(self._overrides.rows.get(key) != row for key, row in step.after.items()):
             self._steps.pop()
-            raise ValueError("another program has changed this row since then, so the row stays as it is")
+            raise ValueError("another program has changed this row since then, so the change was not undone")
         done = self._change(step.before, undoing=True)
         self._steps.pop()
         shown = self._numbers.get(next(iter(step.before)))

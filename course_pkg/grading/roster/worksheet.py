@@ -191,7 +191,7 @@ def read_worksheet(path: Path) -> Worksheet:
         text = table_bytes(path, WHAT, LARGEST).decode()
     except UnicodeDecodeError as error:
         raise GradingError(
-            f"The {WHAT} {path.name} is not in UTF-8, but Moodle writes it in UTF-8. {AGAIN}"
+            f"The {WHAT} {path.name} is not in UTF-8, but Moodle writes this file in UTF-8. {AGAIN}"
         ) from error
     separator = delimiter_of(text)
     # The byte order mark is still before the name of the first column.
@@ -224,6 +224,7 @@ def _columns(file: str, head: Sequence[str]) -> dict[str, int]:
             f"{file} is not a grading worksheet of Moodle: the first line does not contain "
             f"{' and '.join(missing)}. In Moodle's assignment, choose Download grading worksheet. "
             "The column names can be English, German, French or Spanish. For another language, set "
-            "Moodle to English, download the worksheet again, and also upload it in English."
+            "Moodle to English. Then download the worksheet again, and leave Moodle in English until you "
+            "have uploaded the grades."
         )
     return found

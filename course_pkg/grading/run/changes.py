@@ -84,5 +84,5 @@ def described(found: Sequence[Change], out: Path) -> list[str]:
         return ["No points have changed since the last run."]
     lines = ["Points that have changed since the last run:", *(f"  {each}" for each in found[:SHOWN])]
     if len(found) > SHOWN:
-        lines.append(f"  {len(found) - SHOWN} more are in {out / FILE}.")
+        lines.append(f"  {len(found) - SHOWN} more changes are in {out / FILE}.")
     return lines

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 PATIENCE = 20.0  # A scheduler must respond, and a worker must connect, within this many s.
 INTERVAL = 1.0  # INTERVAL is the time in s between two polls of the workers, after all tasks were submitted.
-AGAIN = "The finished grades are kept. Correct this problem, and type the same command again."
+AGAIN = "The finished grades are saved. Correct this problem, and type the same command again."
 
 
 class Cluster:
@@ -63,7 +63,7 @@ class Cluster:
             )
         return GradingError(
             "Several dask workers ended while they graded the same notebook. Read the workers' "
-            "output: often there is not enough memory. Start fewer workers, and give each worker "
+            "output: the usual cause is too little memory. Start fewer workers, and give each worker "
             f"--nthreads 1. {AGAIN}"
         )
 
@@ -102,7 +102,8 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
         client = Client(scheduler, timeout=patience)
     except (OSError, ValueError, TimeoutError) as error:
         raise GradingError(
-            f"No dask scheduler answers at {scheduler}: {error}. Start it with: ./course run dask scheduler"
+            f"No dask scheduler answers at {scheduler}: {error}. Start a scheduler with: "
+            "./course run dask scheduler"
         ) from error
     try:
         if not client.ncores():

@@ -61,8 +61,8 @@ def require_parts(folder: Path) -> None:
             if part.check == exercise or exercise not in public:
                 raise GradingError(
                     f"{folder / name} declares the part {part.check}, which belongs to no exercise "
-                    f"of chapter {chapter}. Give the part the number of an exercise and one more "
-                    f"number, such as {chapter}.1.1."
+                    f"of chapter {chapter}. Write the number of an exercise and one more number, "
+                    f"such as {chapter}.1.1."
                 )
 
 

@@ -58,7 +58,7 @@ def about_rest(rest: Sequence[Grade], out: Path) -> list[str]:
         )
     if kept:
         results = "1 other result" if kept == 1 else f"{kept} other results"
-        lines.append(f"{results} in {out} stayed as {'it was' if kept == 1 else 'they were'}.")
+        lines.append(f"{results} in {out} did not change.")
     return lines
 
 

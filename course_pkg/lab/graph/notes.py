@@ -6,8 +6,8 @@ from course_pkg.lab.graph.graph import Graph, Which
 from course_pkg.setup.network import FORWARDER, outgoing_problem
 
 EXPOSED = (
-    "The graph uses the network of this computer. All users who can log in here can call, "
-    "replace and stop your nodes."
+    "The graph uses the network of this computer. All users who can log in on this computer "
+    "can call, replace and stop your nodes."
 )
 ADVICE = "Run `./course doctor` to see what to do."
 UNREACHABLE = (

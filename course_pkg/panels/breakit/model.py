@@ -239,7 +239,7 @@ def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -
         words = "The diagnosis is right, but a different remedy is better for this fault."
         return {"state": "half", "words": words, "reason": ""}
     other = fault_with(diagnosis)
-    reason = f"The fault that you chose would look different: {other.reason}" if other else ""
+    reason = f"The fault that you chose would have different symptoms: {other.reason}" if other else ""
     return {
         "state": "wrong",
         "words": "Your diagnosis is wrong: the graph has a different fault.",

@@ -51,7 +51,9 @@ class Prediction:
         if not self.first:
             late = f" Your answer {self.answer!r} came after the result." if self.answer else ""
             return f"You had made no prediction.{late}"
-        changed = f" You changed it to {self.answer!r} after the result." if self.changed_after else ""
+        changed = (
+            f" You changed your answer to {self.answer!r} after the result." if self.changed_after else ""
+        )
         different = "but something else happened. Find out why before you continue"
         return f"You predicted {self.first!r}, {'and that happened' if self.right else different}.{changed}"
 

@@ -211,7 +211,9 @@ class ServiceModel:
             try:
                 self.form = RequestForm(self.service, self._find_type(found.type))
                 if before and before != found.type:
-                    self._problem = f"The type has changed from {before} to {found.type}, so the form is new."
+                    self._problem = (
+                        f"The type has changed from {before} to {found.type}, so the panel shows a new form."
+                    )
             except CourseError as error:
                 self._problem = str(error)
         self.draft = self.form.blank if self.form else {}

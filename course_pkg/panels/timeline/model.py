@@ -214,7 +214,9 @@ def _kept(events: Sequence[Event]) -> tuple[list[Event], list[str]]:
     first = messages[room].start if messages_left_out else events[MOST].start
     what = "messages and callbacks" if messages_left_out else "events"
     count = len(events) - len(kept)
-    return kept, [f"{MOST:,} events are drawn. {count:,} {what} from {first:.4g} s on are not drawn."]
+    return kept, [
+        f"{MOST:,} events are drawn. {count:,} {what} that begin at {first:.4g} s or later are not drawn."
+    ]
 
 
 def _count(events: Sequence[Event], rows: Sequence[int], node: str) -> int:

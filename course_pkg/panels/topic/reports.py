@@ -144,9 +144,9 @@ def _of_publishers(
         md5 = source["md5"] if source else _md5(name, find)
         if node != own and _differs(kind, name, md5):
             yield (
-                f"{node} publishes {_type(name, md5)}, but this panel has "
+                f"{node} publishes {_type(name, md5)}, but this panel uses "
                 f"{_type(kind.name, kind.md5)}. A subscriber with the panel's type gets none "
-                "of these messages, and no error message."
+                "of these messages, and it gets no error message."
             )
 
 
@@ -158,9 +158,9 @@ def _of_subscribers(
         md5 = _md5(name, find)
         if node != own and _differs(kind, name, md5):
             yield (
-                f"{node} subscribes to {_type(name, md5)}, but this panel has "
+                f"{node} subscribes to {_type(name, md5)}, but this panel uses "
                 f"{_type(kind.name, kind.md5)}. This node gets none of the panel's messages, "
-                "and no error message."
+                "and it gets no error message."
             )
 
 

@@ -143,9 +143,7 @@ class ConnectionSteps:
 
     def _greeting(self, probe: bool) -> str:
         if probe:
-            return (
-                "probe=1 means that no request follows. wait_for_service uses such a header to find a server."
-            )
+            return "probe=1 means that no request follows. wait_for_service uses probe=1 to find a server."
         return (
             f"The header has {len(self._asked)} fields in any order. The length of each field "
             "comes before the field. The MD5 sum identifies the definition that the client was "
@@ -200,11 +198,14 @@ class ConnectionSteps:
         if lost and not self._came:
             return "The client received no byte. A process accepted the connection, but sent nothing."
         if lost:
-            return "The client expected a response. It cannot know how much work the server has done."
+            return (
+                "The client received no response, so the client cannot know how much work the "
+                "server has done."
+            )
         if "error" in self._answered:
             return "No request was sent, so no handler ran."
         if self._asked.get("probe") == "1":
-            return "The probe was successful: a server is there, and answers."
+            return "The probe was successful: a server answers at this address."
         if self._asked.get("persistent") in ("1", "true"):
             return "The client had set persistent=1, so it could use the connection for several calls."
         return "The client used the connection for one call. The next call begins with a new look-up."

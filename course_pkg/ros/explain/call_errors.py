@@ -14,7 +14,8 @@ FROM_CALLS: tuple[Row, ...] = (
     (
         r"timeout must be non-zero",
         "wait_for_service() needs a timeout above 0.",
-        "Use a timeout of some seconds, or omit wait_for_service() and catch the exception of the call.",
+        "Use a timeout of a few seconds, or omit wait_for_service() and catch the exception that the call "
+        "raises.",
         "06",
     ),
     (
@@ -61,7 +62,7 @@ FROM_CALLS: tuple[Row, ...] = (
     (
         r"CallTimeout.{0,300}accepts connections, but sends nothing",
         "The server did not answer in time. The server's process is stopped, or a connection "
-        "without data blocks the server.",
+        "that sends no data blocks the server.",
         (
             "If the server's process is stopped, resume it with `kill -CONT`. Otherwise, start "
             "the server again."

@@ -57,7 +57,7 @@ FROM_GRAPH: tuple[Row, ...] = (
     (
         r"\[Errno 98\]|Address already in use|PortBusy",
         "Another program already uses the port. After this error, a rosmaster continues to "
-        "run, but it is of no use.",
+        "run, but nodes cannot connect to it.",
         "End rosmaster with Ctrl-C. Find the other program with `ss -tlnp`, or use a different port.",
         "01",
     ),
@@ -72,7 +72,7 @@ FROM_GRAPH: tuple[Row, ...] = (
     (
         r"signal only works in main thread",
         (
-            "init_node() was called outside the main thread. The call stopped before its end, and a "
+            "init_node() was called outside the main thread. The call did not finish, and a "
             "second call does not work."
         ),
         "Restart the kernel, and call init_node() or join() in a separate cell before you start threads.",

@@ -39,7 +39,8 @@ FROM_HANDLERS: tuple[Row, ...] = (
     (
         r"[Ee]rror processing request: field .{1,300} (?:is not|must be)",
         "A value in the handler's response has the wrong type for its field.",
-        "Convert each value that the handler returns to the type of its field, such as bool(…) or float(…).",
+        "In the handler, convert each value to the type of its field, for example with bool(…) or float(…). "
+        "Then return the values.",
         "05",
     ),
     (

@@ -144,7 +144,7 @@ def _require_launch_file(package: str, name: str) -> None:
     hint = (
         f" Did you mean {alike[0]!r}?"
         if alike
-        else f" The package has: {', '.join(others)}."
+        else f" The package has these launch files: {', '.join(others)}."
         if others
         else ""
     )

@@ -60,7 +60,11 @@ def _missing(package: str, name: str, others: list[str]) -> str:
     message = f"Package {package!r} has no program {name!r}."
     if others:
         alike = difflib.get_close_matches(name, others, n=1)
-        message += f" Did you mean {alike[0]!r}?" if alike else f" The package has: {', '.join(others)}."
+        message += (
+            f" Did you mean {alike[0]!r}?"
+            if alike
+            else f" The package has these programs: {', '.join(others)}."
+        )
     needed = (
         "A script has to be executable (chmod +x), and it has to begin with a line such as "
         "#!/usr/bin/env python3."

@@ -77,7 +77,8 @@ class PrivateMaster:
         if self._port_wanted:
             raise _busy(self._port_wanted)
         raise GraphError(
-            f"The master found no free port, because other programs took {ATTEMPTS} ports. Try again."
+            f"The master found no free port: other programs use all {ATTEMPTS} ports that were tried. "
+            "Try again."
         )
 
     def stop(self) -> None:

@@ -47,7 +47,7 @@ def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
     not have this path.
     """
     if path not in numbers(message):
-        raise ValueError(f"{message.name} has no number {path!r}")
+        raise ValueError(f"{message.name} has no number at the path {path!r}")
     steps = [int(step) if step.isdigit() else step for step in re.findall(r"\w+", path)]
     cls = message.cls
 

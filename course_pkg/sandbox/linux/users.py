@@ -53,7 +53,8 @@ def reserve() -> tuple[Users, socket.socket]:
             return users, lock
         lock.close()
     raise SandboxUnavailable(
-        "Other graders on this machine use all accounts for students' code. Wait until a grader has ended."
+        "Other runs of `course grade` on this machine use all accounts for students' code. Wait until one "
+        "of these runs has ended."
     )
 
 

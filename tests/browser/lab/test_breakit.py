@@ -80,7 +80,7 @@ def test_a_case_is_opened_examined_and_answered(form: Locator) -> None:
     form.get_by_label(shown(named("stale").remedy)).check()
     form.get_by_role("button", name="Check").click()
     expect(form.get_by_text("Your diagnosis is wrong: the graph has a different fault.")).to_be_visible()
-    expect(form.get_by_text("The fault that you chose would look different")).to_be_visible()
+    expect(form.get_by_text("The fault that you chose would have different symptoms")).to_be_visible()
     picture(form, "breakit-wrong")
     answer(form, named("stale"))
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()

@@ -138,7 +138,7 @@ def test_a_time_that_is_not_known() -> None:
     """
     known, unknown = _lateness({"s01": DUE}).applied([_submission("s01"), _submission("s02")])
     assert (known.notes, unknown.notes, unknown.late) == ((), (NO_TIME,), 0.0)
-    with pytest.raises(GradingError, match="--deadline needs the times"):
+    with pytest.raises(GradingError, match="--deadline needs the submission times"):
         _lateness({}).applied([_submission("s01")])
 
 
@@ -158,7 +158,7 @@ def test_the_last_attempt_by_time(tmp_path: Path) -> None:
     assert chosen.origin == f"s01/a/{FILE}"
     assert chosen.notes == (
         f"This chapter was handed in 2 times: {chosen.origin} was handed in last and was graded. "
-        f"These do not count: s01/b/{FILE}.",
+        f"These files do not count: s01/b/{FILE}.",
     )
     assert attempts_to_grade([given], "last", lambda _: None) == [given]
 
@@ -176,7 +176,7 @@ def test_the_best_attempt_counts_after_lateness(tmp_path: Path) -> None:
     (best,) = best_attempts([full, last])
     assert best.origin == names[2]
     assert best.notes[-1] == (
-        f"This chapter was handed in 2 times: {names[2]} has the most points and counts. These do not "
+        f"This chapter was handed in 2 times: {names[2]} has the most points and counts. These files do not "
         f"count: {names[0]}."
     )
     assert best_attempts([grade]) == [grade]

@@ -116,7 +116,7 @@ def test_plain_nbval_passes_if_all_checks_passed(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout
     assert _after(lines, "parts of the course")[: len(PASSED) + 1] == [
         *PASSED,
-        f"{len(PASSED)} parts, all passed.",
+        f"{len(PASSED)} parts, and all of them passed.",
     ]
 
 

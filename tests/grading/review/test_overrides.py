@@ -16,7 +16,7 @@ WRONG = [
     ("s01,05,Part 05.9,1,,", "line 2: the submission has no part 05.9"),
     ("s01,05,05. Jan,1,,", "line 2: 05. Jan is not a part"),
     ("s01,06,05.1,1,,", "line 2: part 05.1 is not in chapter 06"),
-    ("s01,05,05.1,2.5,,", "line 2: 2.5 points are more than the possible 2"),
+    ("s01,05,05.1,2.5,,", "line 2: 2.5 points are more than the maximum of 2 points"),
     ("s01,05,05.1,-1,,", "line 2: -1 is not a number of points"),
     ("s01,05,05.1,01. Mai,,", "line 2: 01. Mai is not a number of points"),
     ('s01,05,05.1,1,"two\nlines",\ns01,5,5.1,1,,', "line 4: line 2 has the same student and part"),

@@ -74,7 +74,7 @@ def test_a_review_with_the_keyboard_only(browser: Browser, tmp_path: Path) -> No
         eventually(lambda: _rows(out).get(("s01", "Part 05.2")) == ("2", ""))
         keys.press("9")
         keys.press("Enter")
-        expect(page.get_by_role("alert")).to_contain_text("9 points are more than the possible 2")
+        expect(page.get_by_role("alert")).to_contain_text("9 points are more than the maximum of 2 points")
         expect(page.locator("#points")).to_have_value("9")
         assert words == ["Failed to load resource: the server responded with a status of 409 (Conflict)"]
 

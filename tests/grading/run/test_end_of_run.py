@@ -54,7 +54,7 @@ def test_many_changes_are_in_the_file(tmp_path: Path) -> None:
     after = [replace(FULL, student=f"=s{number:03}") for number in range(60)]
     found = changes(before, after)
     lines = described(found, tmp_path)
-    assert (len(lines), lines[-1]) == (42, f"  20 more are in {tmp_path / 'changes.csv'}.")
+    assert (len(lines), lines[-1]) == (42, f"  20 more changes are in {tmp_path / 'changes.csv'}.")
     write_changes(found, tmp_path)
     with (tmp_path / "changes.csv").open(encoding="utf-8-sig", newline="") as file:
         rows = list(csv.DictReader(file))
@@ -103,4 +103,4 @@ def test_results_that_stay(tmp_path: Path) -> None:
     """The output lists the students without a new submission."""
     marked, kept = about_rest([replace(FULL, absent=True), replace(FULL, student="s02")], tmp_path)
     assert "s01 (chapter 05)" in marked
-    assert kept == f"1 other result in {tmp_path} stayed as it was."
+    assert kept == f"1 other result in {tmp_path} did not change."

@@ -70,7 +70,10 @@ def test_a_class_over_several_runs(tmp_path: Path) -> None:
     ("words", "said"),
     [
         (["--deadline", "2026-11-01T23:59+01:00"], "--deadline needs a policy"),
-        (["--deadline", "2026-11-01T23:59+01:00", "--late-per-day", "10"], "--deadline needs the times"),
+        (
+            ["--deadline", "2026-11-01T23:59+01:00", "--late-per-day", "10"],
+            "--deadline needs the submission times",
+        ),
         (["--time-zone", "Mars/Base"], "not a time zone"),
         (["--grace-minutes", "5"], "--grace-minutes needs a deadline"),
         (["--student", "nobody"], "--student nobody"),

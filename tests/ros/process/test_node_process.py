@@ -23,7 +23,7 @@ pytestmark = pytest.mark.usefixtures("master")
     [
         ("no_such_package", "server", "no package 'no_such_package'"),
         ("course_pkg", "sever", "Did you mean 'server'?"),
-        ("course_pkg", "zzz", "The package has: "),
+        ("course_pkg", "zzz", "The package has these programs: "),
     ],
 )
 def test_missing_program(package: str, program: str, message: str) -> None:

@@ -126,4 +126,4 @@ def _cells(grade: Grade) -> Iterator[str]:
         )
         yield f'<ul class="cells">{"".join(items)}</ul>'
     if len(others) > CELLS:
-        yield paragraph(f"{len(others) - CELLS} more cells gave a different result.", "muted")
+        yield paragraph(f"{len(others) - CELLS} other cells also gave a different result.", "muted")
