@@ -213,8 +213,8 @@ def nbgrader_python() -> Path:
 
 
 # kill: kills the grader by SIGKILL at random moments. Arguments: `[TIMES]`. Six submissions are graded once
-# without a kill. Then a run is killed after a random time and continued, TIMES times (default 20). The grades
-# must be equal after each run, and no process may remain.
+# without a kill. Then the benchmark kills a run after a random time, and continues the run; it does this
+# TIMES times (default 20). The grades must be equal after each run, and no process may remain.
 
 COURSE = Places.of().checkout / "course"
 
@@ -333,7 +333,7 @@ WRITTEN = re.compile(
 
 
 def answers_main() -> int:
-    """Check the answers. Return how many answers have a verdict that differs from their header."""
+    """Check the answers. Return the number of answers whose verdict differs from their header."""
     folder, *wanted = sys.argv[1:]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
     written = [answer for path in paths for answer in _written(path)]

@@ -150,7 +150,7 @@ def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> 
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
-    # This link can exist on some file systems.
+    # Some file systems allow this hard link.
     os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)
     [home] = [each for each in homes_in(homes) if each.student == "ben"]
     files, problems = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)

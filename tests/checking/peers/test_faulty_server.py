@@ -101,7 +101,7 @@ def test_registration_after_a_crash(server: FaultyServer, unregisters: bool, tex
 
 @pytest.mark.parametrize("worked", [True, False])
 def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None:
-    """The plan decides whether the server does the work of a failed call."""
+    """The plan decides whether the server does the work of a call that fails."""
     done: list[float] = []
 
     def work(request: Message) -> dict[str, Json]:
@@ -116,7 +116,7 @@ def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None
 
 
 def test_server_that_has_left_does_not_restart(node: Node) -> None:
-    """A server that was closed does not restart."""
+    """A server that was closed does not start again."""
     with FaultyServer(node, "/f", geometry, lambda _: {}) as server:
         server.plan.append(Fault(Crash(AWAY)))
         with pytest.raises(rospy.ServiceException):

@@ -28,7 +28,7 @@ BERLIN = zone_of("Europe/Berlin")
         ("Sunday, 1 November 2026, 23:59", "2026-11-01T22:59"),
         ("Sunday, 1 November 2026, 12:05\u202fAM", "2026-10-31T23:05"),
         ("1 Nov 2026, 12:05 p.m.", "2026-11-01T11:05"),
-        # The local time 02:30 occurs twice on this day, and the result is the first of the two times.
+        # The local time 02:30 occurs twice on this day; the result is the earlier time.
         ("2026-10-25 02:30", "2026-10-25T00:30"),
     ],
 )
