@@ -140,7 +140,7 @@ def _download_packages(names: Sequence[str], folder: Path) -> None:
 
 
 def _output(command: Sequence[str]) -> str:
-    """Return the output of `command`; raises SetupError, with the end of its messages, if it fails."""
+    """Run `command` and return its output; if it fails, raise SetupError with the end of its messages."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     if done.returncode:
         end = "\n".join(f"  {line}" for line in done.stderr.splitlines()[-8:])

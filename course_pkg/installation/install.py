@@ -91,7 +91,7 @@ def _make(version: Path, edition: Path) -> None:
 def _compile(places: Places) -> None:
     """Compile all modules: users cannot store compiled files there, and would compile at each start."""
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
-    # Some libraries contain files for another version of Python, which cannot be compiled.
+    # Some libraries contain files for a different version of Python, which this version cannot compile.
     subprocess.run([places.python, "-m", "compileall", "-qq", "-j", "0", *folders], check=False)
 
 

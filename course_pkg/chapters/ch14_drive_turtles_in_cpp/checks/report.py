@@ -13,7 +13,7 @@ from course_pkg.checking.peers.service_calls import Service
 THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
-FEW, MANY = 3, 8  # The check uses these numbers of simultaneous clients.
+FEW, MANY = 3, 8  # The numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
     "The handler of /report waits for /battery, but no free thread can execute the handler of "
