@@ -266,7 +266,7 @@ def costs(server: Server, notebook: Path) -> tuple[list[float], list[float], lis
 
 
 def kill(times: int = 25) -> bool:
-    """Kill a process of `course lab` several times, and count what is left.
+    """Kill a process of `course lab` several times, and count the things that remain.
 
     Return whether none of these remains.
     """

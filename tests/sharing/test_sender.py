@@ -52,7 +52,7 @@ def test_results_arrive_and_leave_the_outbox(
 
 
 def test_results_stay_if_they_cannot_be_sent(outbox: Outbox, tmp_path: Path) -> None:
-    """A wrong token, a service that does not run, and an address that is none keep the results."""
+    """With a wrong token, a bad address, or no running service, the results stay in the outbox."""
     outbox.put(REPORT)
     with serving(tmp_path / "class") as url, pytest.raises(NotAccepted, match="403: The token is wrong"):
         Sender(url, "wrong", outbox, print).send()
