@@ -1,4 +1,4 @@
-"""A normalised notebook contains nothing that differs between two runs."""
+"""A normalised notebook contains no data that differ between two runs."""
 
 from __future__ import annotations
 

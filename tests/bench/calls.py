@@ -111,7 +111,7 @@ def panel_compare(calls: int) -> tuple[float, float]:
 
 
 def panel_main() -> int:
-    """Print, for each run, the duration of the panel's call divided by that of the proxy's call.
+    """Print, for each run, the ratio of the panel's call duration to the proxy's call duration.
 
     Return 1 if the median ratio is above the limit.
     """

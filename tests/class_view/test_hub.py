@@ -37,7 +37,7 @@ class Token(RequestHandler):
     """The request handler that exchanges an OAuth code for a token."""
 
     def post(self) -> None:
-        """Send the token of the user whose name is the code."""
+        """Send a token; the code in the request is the name of the token's user."""
         right = self.get_argument("client_secret") == "service"
         self.set_status(200 if right else 400)
         self.finish(json.dumps({"access_token": self.get_argument("code")}))

@@ -45,7 +45,7 @@ def fill(url: str, folder: Path) -> None:
 def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
     """A result appears without a reload.
 
-    A teacher can hide the names with the keyboard, and they stay hidden after a reload.
+    A teacher can hide the names with the keyboard, and the names are still hidden after a reload.
     """
     with serving(tmp_path) as url, opened(browser, url) as (page, words):
         token = tokens_in(tmp_path)["s01"]

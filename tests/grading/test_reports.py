@@ -355,7 +355,7 @@ def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
 
 
 def test_similar_names_have_different_files(tmp_path: Path) -> None:
-    """Students with similar names have different files, even if the file system ignores capitals."""
+    """Students with similar names have different files, even if the file system ignores case."""
     names = ["s01", "S01", "s01 ", "s-01", "../s01", "s01/", "Ś01"]
     write_reports([replace(class_of(1)[0], student=name) for name in names], tmp_path)
     for folder in ("results", "feedback", "gradescope"):

@@ -128,7 +128,7 @@ def test_the_command_line(homes: Path, tmp_path: Path) -> None:
 
 
 def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Path, tmp_path: Path) -> None:
-    """New notebooks and packages replace the old ones, and other chapters do not change."""
+    """New notebooks and packages replace the old notebooks and packages, and other chapters do not change."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1", **packaged()})
     run(homes, tmp_path / "out")
     (home / "ros-course" / "notebooks" / NOTEBOOK).write_bytes(b"2")
@@ -270,7 +270,7 @@ def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.
 
 
 def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path) -> None:
-    """Nothing is written to a folder that contains other files."""
+    """The collection writes no file to a folder that contains other files."""
     (tmp_path / "thesis.txt").write_text("")
     with pytest.raises(HandoutError, match=r"did not create it.*Give a new or an empty folder"):
         run(homes, tmp_path)

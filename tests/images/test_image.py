@@ -1,9 +1,11 @@
 """Tests of the container image.
 
-The test builds the image from nothing, and runs the quick tests of the suite in a container of the image.
+The test builds the image without an existing base, and runs the quick tests of the suite in a container of
+the image.
 
 mmdebstrap creates the base, and buildah runs the Dockerfile in a chroot, so the test needs no registry. All
-files are in a temporary folder, which is removed at the end; this folder (COURSE_IMAGE_FOLDER) needs 4 GB.
+files are in a temporary folder, which needs 4 GB and is removed at the end; COURSE_IMAGE_FOLDER names its
+parent folder.
 """
 
 from __future__ import annotations
