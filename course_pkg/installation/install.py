@@ -26,8 +26,8 @@ from course_pkg.setup.stamps import digest, locked
 def install(path: Path | None, bin_folder: Path | None) -> int:
     """Install this course in the prefix `path`, make it the current version, and return 0.
 
-    Versions that no process uses are removed, except the last one. Raises SetupError if the installation
-    fails; then the current version has not changed.
+    Versions that no process uses are removed, except the previous version. Raises SetupError if the
+    installation fails; then the current version has not changed.
     """
     source = Places.of()
     if source.conda:

@@ -20,7 +20,7 @@ POLL = 0.25  # This is the time in s between two checks whether the camera still
 # If an Eye receives no valid frame for this many s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0
 
-Time: TypeAlias = "float | genpy.Time"  # This is a time of the clock of a Watch.
+Time: TypeAlias = "float | genpy.Time"  # a time on the clock that a Watch uses
 Frame = TypeVar("Frame")
 
 

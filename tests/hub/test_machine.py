@@ -99,7 +99,7 @@ def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:
 def test_a_certificate_is_for_the_name_that_students_type(tmp_path: Path) -> None:
     """The certificate contains the machine's name as a subjectAltName.
 
-    Students reach a hub on all addresses by this name.
+    Students type this name in the address if a hub listens on all addresses.
     """
     assert reached_at("127.0.0.1") == "127.0.0.1"
     assert reached_at("0.0.0.0") == socket.getfqdn()  # noqa: S104 -- no server listens here

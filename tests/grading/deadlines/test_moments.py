@@ -33,7 +33,7 @@ BERLIN = zone_of("Europe/Berlin")
     ],
 )
 def test_the_forms(written: str, utc: str) -> None:
-    """A time without a zone is in the given zone."""
+    """A time without a time zone is read as a time in the given zone."""
     moment = moment_of(written, BERLIN)
     assert moment is not None
     assert moment.astimezone(timezone.utc) == datetime.fromisoformat(utc).replace(tzinfo=timezone.utc)

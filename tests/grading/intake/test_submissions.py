@@ -207,7 +207,7 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
 def test_a_notebook_of_this_edition_under_a_name_of_the_first(
     tmp_path: Path, chapter: RenumberedChapter
 ) -> None:
-    """A notebook with exercises of this edition is graded, even if its file name is from the first one."""
+    """A notebook with this edition's exercises is graded, even if its name is from the first edition."""
     content = raw(handed_out(chapter.now))
     source = folder(tmp_path, {f"s01/{chapter.name}.ipynb": content, "s02/mine.ipynb": content})
     assert _kept(submissions(source)) == [("s01", chapter.now), ("s02", chapter.now)]

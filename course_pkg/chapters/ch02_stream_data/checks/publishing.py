@@ -1,6 +1,6 @@
-"""Checks of two publishers. The first one publishes numbers at a rate and must not lose a number.
+"""Checks of two publishers. The first publisher publishes numbers at a rate and must not lose a number.
 
-The second one publishes each change of a value.
+The second publisher publishes each change of a value.
 """
 
 import threading

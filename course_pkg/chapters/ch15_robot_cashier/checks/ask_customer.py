@@ -150,7 +150,8 @@ class Run:
     def end(self, within: float = ENDING) -> Run:
         """Wait until the program ends.
 
-        If it still runs `within` s after its node was on the graph, stop it; its status is then None.
+        If the program still runs `within` s after its node was on the graph, stop the program; `status` is
+        then None.
         """
         self.is_on_the_graph()
         wait_until(self.has_ended, within, 0.05)
