@@ -29,7 +29,7 @@ from course_pkg.errors import ClassViewError
 from course_pkg.state import locked, state_folder
 
 SECRET = "secret"  # noqa: S105 -- the name of the file with the secret
-LOCK = "service"  # The running service holds the lock of the folder with this name.
+LOCK = "service"  # The running service holds the lock of this folder inside the data folder.
 
 
 def serve_class(options: SimpleNamespace) -> int:

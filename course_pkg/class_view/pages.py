@@ -99,7 +99,7 @@ class Unknown(Handler):
 
 
 class TeacherHandler(Handler):
-    """Refuses requests that are not a teacher's, or that come from another page."""
+    """Refuses requests without a teacher's token, and requests that come from another page."""
 
     async def prepare(self) -> None:
         """Refuse the request, or redirect it to the hub's login."""

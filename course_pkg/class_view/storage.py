@@ -55,7 +55,7 @@ class Storage:
     def add(self, results: Iterable[Result]) -> list[Result]:
         """Store the results; return the results that were not stored before. Raises TooMany.
 
-        Either all results are stored, or none.
+        If one result cannot be stored, none of the results is stored.
         """
         new, received = [], time.time()
         with self._database:

@@ -126,8 +126,8 @@ def _misname(stage: Stage) -> None:
     No other process can connect to this server, so this function does not wait for a response.
     """
     master = MasterClient(stage.uri)
-    # With localhost as the client's own host name, rospy would reject all other host names without trying to
-    # resolve them.
+    # If the client used localhost as its own host name, rospy would reject all other host names without
+    # trying to resolve them.
     stage.visitor_env = {"ROS_HOSTNAME": "127.0.0.1"}
     program = stage.keep(keeper(), {"ROS_HOSTNAME": NO_HOST})
     stage.await_that(lambda: master.lookup_service(stage.door), program)

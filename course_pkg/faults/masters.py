@@ -1,4 +1,4 @@
-"""Faults of the master, and of the connection to it."""
+"""Faults of the master, and of the connection to the master."""
 
 from __future__ import annotations
 

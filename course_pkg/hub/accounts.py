@@ -11,7 +11,7 @@ from pathlib import Path
 
 from course_pkg.errors import HubError
 
-NAME = re.compile(r"[a-z][a-z0-9_-]{0,31}")  # useradd accepts these names, and some other names
+NAME = re.compile(r"[a-z][a-z0-9_-]{0,31}")  # useradd accepts all these names
 FIRST_UID = 1000  # smaller numbers belong to the system's own accounts
 
 

@@ -30,10 +30,7 @@ class Passwords:
         self._file = file
 
     def issue(self, users: Iterable[str], again: bool = False) -> dict[str, str]:
-        """Return whether this is the unused password of `user`.
-
-        If so, the password is never accepted again.
-        """
+        """Return new passwords for the users who never had one, or for all `users` if `again` is true."""
         with self._locked() as known:
             chosen = [user for user in users if again or user not in known]
             issued = {user: _new() for user in chosen}

@@ -34,7 +34,7 @@ class Settings:
     class_port: int  # the port of the class view, or 0 without a class view
     cert: str = ""
     key: str = ""
-    # the environment variables of the students' servers
+    # environment variables that the hub sets in the students' servers
     environment: dict[str, str] = field(default_factory=dict)
 
     def write(self) -> Path:

@@ -101,7 +101,7 @@ def _without_database() -> Iterator[None]:
     try:
         yield
     finally:
-        # An extension of the server may import the real modules.
+        # An extension of the server may import the real modules after the block.
         for name in placeholders:
             sys.modules.pop(name, None)
 

@@ -58,7 +58,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
         return await super().start()
 
     async def stop(self, now: bool = False) -> None:
-        """End the server and everything that the student has started in it."""
+        """End the server, and all processes that the student has started in it."""
         await super().stop(now=now)
         if self._group:
             limits.end_group(self._group)

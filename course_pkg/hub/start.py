@@ -32,7 +32,7 @@ from course_pkg.setup.network import network_problem
 from course_pkg.state import locked
 
 PORTS = (*range(8000, 8020), 0)  # the ports to try; 0 means any free port
-ORDINARY = "nobody"  # an account with the rights of an ordinary user, which each system has
+ORDINARY = "nobody"  # an account that exists on each system, with the rights of an ordinary user
 GRACE = 20.0  # The hub has to end the students' servers within this time in s.
 
 

@@ -30,7 +30,8 @@ CLEAR_TIMEOUT = 5.0  # All processes of a part have to end within this time in s
 MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the memory.
 # These lines of /proc/PID/status and /proc/PID/smaps_rollup contain the memory of a process in KiB, without
 # mapped files (proc(5)).
-QUICK = ("RssAnon:", "RssShmem:")  # A page that processes share counts for each of these processes.
+# If processes share a memory page, the page counts for each of these processes.
+QUICK = ("RssAnon:", "RssShmem:")
 # A shared page counts only once: each process that shares the page gets a part of its size.
 EXACT = ("Pss_Anon:", "Pss_Shmem:")
 OPEN = 4096  # No process of a sandbox has a file descriptor of this number or above.

@@ -51,7 +51,10 @@ def _released(checkout: Path) -> list[str]:
 
 
 def _deliver(places: Places, name: str, delivered: dict[str, str]) -> bool:
-    """Copy the file `name` if the user has no changed copy; return False if this needs a message."""
+    """Copy the file `name` if the user has no changed copy.
+
+    Return False if the user has one, which needs a message.
+    """
     content, own = (places.checkout / name).read_bytes(), places.own / name
     fresh, last = digest([content]), delivered.get(name)
     present = digest([own.read_bytes()]) if own.exists() else None

@@ -50,7 +50,7 @@ class Command:
 
 
 def cmake_messages(output: str) -> Iterator[Message]:
-    """Yield the errors and warnings of CMake in the output of a build, in their order."""
+    """Yield the errors and warnings of CMake in the output of a build, in the order of the output."""
     lines = output.splitlines()
     for number, line in enumerate(lines):
         if head := _HEAD.match(line):

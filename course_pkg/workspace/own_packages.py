@@ -27,8 +27,7 @@ INSTALLED_REMEDY = (
     "Set COURSE_HOME to a folder in which you can write. The path of this folder must not contain a space."
 )
 MANIFEST = "package.xml"
-# These folders for generated modules are used if the course's devel folder has no folder for generated
-# modules.
+# If the course's devel folder has no folder for generated modules, these folders are used.
 MODULES = ("lib/python3/dist-packages",)
 # The pattern matches the MD5 sum in a module that genpy has generated.
 MD5 = re.compile(r"""^  _md5sum *= *["']([0-9a-f]{32})["']""", re.MULTILINE)

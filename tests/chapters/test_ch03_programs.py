@@ -191,7 +191,7 @@ def test_detector_refuses_without_a_camera() -> None:
 )
 @pytest.mark.usefixtures("camera")
 def test_impossible_customers_are_refused(after: list[float], stay: float, words: str) -> None:
-    """The error message contains the name of the wrong field."""
+    """If the student changes a wrong customer, the error message contains the name of the wrong field."""
     with pytest.raises(rospy.ServiceException, match=words):
         let_in(*after, stay=stay)
     assert len(let_in(5.0, 1.0).comes) == 2

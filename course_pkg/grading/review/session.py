@@ -30,7 +30,7 @@ Rows = Mapping[Key, Override | None]
 
 @dataclass(frozen=True)
 class Step:
-    """One change that can be undone: the rows before and after it."""
+    """One change that can be undone: the rows before and after the change."""
 
     before: Rows
     after: Rows

@@ -20,7 +20,7 @@ SHOWN = 5  # A message lists at most this many names.
 
 @dataclass(frozen=True)
 class Release:
-    """The short name of the new commit, or "" if nothing changed."""
+    """The short name of the new commit ("" if nothing changed), and the number of changed files."""
 
     commit: str
     changed: int  # files

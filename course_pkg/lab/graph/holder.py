@@ -5,8 +5,8 @@ usage: holder.py LISTENER SOCKET KIND
 LISTENER is the descriptor of a listening Unix socket, SOCKET is its path, and KIND is "private" or "shared".
 `graph.py` runs this file as a script. Each command that uses the graph has a connection to the socket, until
 the command leaves the graph or ends, even by SIGKILL. When the last connection is closed, the holder ends the
-graph. No process id has to be checked: the operating system closes the connections of a process that has
-ended, and it refuses new connections to a holder that has ended.
+graph. The holder does not have to check process ids: the operating system closes the connections of a process
+that has ended, and it refuses new connections to a holder that has ended.
 
 The holder sends a line of JSON with the open files of the namespaces to each command. The holder sends a
 second line when the master answers, or when the master cannot be started. When a command leaves and other

@@ -2,7 +2,7 @@
 
 Programs in a private network can connect only to each other. Their ports and abstract sockets do not exist
 for other users, or for other networks of the same user. root needs only a network namespace. Other users also
-need a user namespace. In this namespace, a user keeps the own name and file permissions, but cannot become
+need a user namespace. In this namespace, users keep their names and file permissions, but cannot become
 another user, so `sudo` does not work. See network_namespaces(7) and user_namespaces(7).
 """
 
@@ -33,8 +33,8 @@ def create() -> list[int]:
         try:
             return _create(namespaces.NETWORK)
         except OSError:
-            # In a container, root may not be allowed to create only a network namespace, but may be
-            # allowed to create a user namespace, too.
+            # In a container, root may not be allowed to create a network namespace alone, but may be allowed
+            # to create it together with a user namespace.
             pass
     return _create(namespaces.USER | namespaces.NETWORK)
 

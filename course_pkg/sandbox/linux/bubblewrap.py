@@ -1,8 +1,8 @@
 """The outer sandbox: the files of the machine that a submission and its processes can see.
 
-bubblewrap (https://github.com/containers/bubblewrap) creates this view of the file system. If root starts the
-sandbox, the command runs as an unprivileged user. For all other users, the machine must allow unprivileged
-user namespaces.
+bubblewrap (https://github.com/containers/bubblewrap) limits the visible files. If root starts the sandbox,
+the command runs as an unprivileged user. For all other users, the machine must allow unprivileged user
+namespaces.
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ def become(uid: int) -> None:
     os.setresuid(uid, uid, uid)
     namespaces.give_up_privileges()
     namespaces.be_unreadable()
-    # The change of the user has cancelled the effect of the earlier call.
+    # The change of the user has cancelled the earlier call of die_with_parent().
     namespaces.die_with_parent()
 
 

@@ -122,7 +122,7 @@ def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) ->
 
 
 def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
-    """The report says if the message definition differs."""
+    """If the message definitions differ, the report says so."""
     student.run(
         "from course_pkg.types import message_type\n"
         "class Other(Float64): _type, _md5sum = 'std_msgs/UInt32', '0' * 32\n"

@@ -159,7 +159,7 @@ def ask_a_question(context: CheckContext) -> None:
         sides = {"length": length, "width": width, "height": height}
         area, volume = (
             whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
-        )  # These numbers are exact as a float32.
+        )  # A float32 stores these numbers exactly.
         server = context.serve(
             name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v}
         )
@@ -218,7 +218,7 @@ def _other_sides(sides: dict[str, float]) -> Hints:
 
 
 def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
-    """Return hints for a value other than the `volume` of the response.
+    """Return hints for a result that differs from the `volume` of the response.
 
     `area` is the area in the response.
     """

@@ -1,4 +1,4 @@
-"""Names of nodes: the check runs the student's commands and compares the names on the graph."""
+"""Checks of the names of nodes: they run the student's commands and compare the names on the graph."""
 
 from __future__ import annotations
 
@@ -125,7 +125,8 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         seen = context.look()
         service = seen.service(wanted)
         others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
-        new = new or others  # Keep the first result, because a busy server may not answer a later request.
+        # Keep the first result, because a busy server may not respond to a later request.
+        new = new or others
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
         found = new[0].name if new else ""

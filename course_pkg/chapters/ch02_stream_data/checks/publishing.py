@@ -1,6 +1,6 @@
-"""Publishers: one node publishes at a rate and must not lose a message.
+"""Checks of two publishers. The first publisher publishes numbers at a rate and must not lose a number.
 
-Another node publishes each change.
+The second publisher publishes each change of a value.
 """
 
 import threading
@@ -16,11 +16,11 @@ WAITS_FOR_EVER = (
     "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
 )
 # These times in s are for a count without a subscriber. The student's function waits 2 s, and then publishes
-# 11 numbers in 1.1 s. The subscriber connects 2.3 s after the publisher.
+# ALONE (11) numbers in 1.1 s. The subscriber connects COMES (2.3) s after the publisher.
 NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "If there is no subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.
-AT_ONCE = 0.3  # AT_ONCE is the maximum duration in s of the fastest of several calls.
+AT_ONCE = 0.3  # The fastest of several calls may take at most this time in s.
 TOO_SOON = "The wait for a subscriber is too short. If there is no subscriber, wait for the full 2 s."
 TOO_EARLY = (
     "The first number was published before a subscriber was connected. Create the publisher, "
@@ -56,7 +56,7 @@ LATCHED = "Send the last value to every node that subscribes later."
     goals={COUNTS: 3, "Begin to publish after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
-    """Subscribe to two counts with different rates; then start a third count, which has no subscriber."""
+    """Subscribe to two counts with different rates; then start a third count without a subscriber."""
     for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
         topic = f"/{context.random.word()}"
         subscription = context.subscribe(topic, "std_msgs/UInt32")
@@ -224,7 +224,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goals=[LATCHED, "Publish each change once. Do not publish a value again if it has not changed."],
 )
 def a_notice(context: CheckContext) -> None:
-    """Set values without a subscriber, with a subscriber, and before a late subscriber.
+    """Set a value without a subscriber, with a subscriber, and before a late subscriber connects.
 
     One of the values may be 0.
     """
@@ -258,7 +258,8 @@ def a_notice(context: CheckContext) -> None:
     _set(context, topic, second)
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     _set(context, topic, third)
-    subscriber.wait(3, within=SOON)  # In a short queue, the next value would otherwise replace this one.
+    # With a short queue in the publisher, the next value would replace this value.
+    subscriber.wait(3, within=SOON)
     _set(context, topic, second)
     _receives(
         context,
@@ -292,7 +293,7 @@ def _subscribed(context: CheckContext, topic: str) -> Subscription:
 
 
 def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
-    """Assert that these values arrive, and that no other message arrives in the next 0.3 s."""
+    """Assert that these values arrive, and that no further message arrives in the next 0.3 s."""
     subscription.wait(len(values), within=SOON)
     subscription.during(0.3)
     received = [arrival.fields["data"] for arrival in subscription.arrivals]

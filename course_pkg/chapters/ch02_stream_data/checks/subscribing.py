@@ -1,4 +1,4 @@
-"""Subscribers: one publishes the mirror image of every message, and two others need different queues."""
+"""Checks of subscribers: one publishes mirrored messages, and two others need different queues."""
 
 import statistics
 import threading
@@ -50,7 +50,8 @@ def witness(message):
     witnessed.append(message)
 """
 FIELDS = ("name", "position", "velocity")
-DRAWING, PREPARING = 0.25, 0.02  # A drawing takes DRAWING s, and preparing an order takes PREPARING s.
+# A call of draw() takes DRAWING s, and a call of prepare() takes PREPARING s.
+DRAWING, PREPARING = 0.25, 0.02
 # A function must return within this time in s; on an idle machine, a function returns after some ms.
 RETURNS = 1.5
 OLDEST = 0.5  # OLDEST is the maximum age in s of an angle when a drawing begins.
@@ -182,7 +183,10 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 
 
 def _stances(context: CheckContext, count: int) -> list[Fields]:
-    """Return `count` messages. The last ones have fewer joints, so a mirror must not keep earlier numbers."""
+    """Return `count` messages.
+
+    The last states have fewer joints, so a mirror must not keep the values of earlier states.
+    """
     names = [context.random.word() for _ in range(4)]
     counts = [4 if number < count / 2 else 3 for number in range(count)]
     return [
@@ -200,9 +204,9 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
 
 
 def _of_both_signs(context: CheckContext, count: int) -> list[float]:
-    """Return `count` random numbers, two of them positive and the others negative.
+    """Return `count` random numbers: two are positive, and the others are negative.
 
-    Each wrong sign then changes the result.
+    So each wrong sign in the mirror image changes the result.
     """
     return context.random.shuffled(
         [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(count - 2, -3.0, -0.1)]
@@ -239,7 +243,7 @@ def _begun(
 
 
 def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[Arrival]) -> None:
-    """Compare each mirrored message with the original message with the same time stamp."""
+    """Compare each mirrored message with the original message that has the same time stamp."""
     stamps = [message["header"]["stamp"] for message in messages]
     seen = [arrival.fields["header"]["stamp"] for arrival in heard]
     context.require(
@@ -512,7 +516,10 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
 
 
 def _one_at_a_time(context: CheckContext, function: str, at_once: int) -> None:
-    """Assert that calls did not overlap; `at_once` is the maximum number of simultaneous calls."""
+    """Assert that the calls did not overlap.
+
+    `at_once` is the measured maximum number of simultaneous calls.
+    """
     context.expect(
         f"one call of {function} at a time",
         expected=1,

@@ -105,7 +105,7 @@ GREETED = (
 def greet_everyone(context: CheckContext) -> None:
     """Publish five customers quickly, two of them twice.
 
-    After a pause, publish two new customers and a customer that was already published.
+    After a pause, publish two new customers, and one customer that was already published.
     """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)

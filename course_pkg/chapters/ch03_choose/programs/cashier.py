@@ -39,7 +39,8 @@ class Cashier:
         self._informed: deque[rospy.Time] = deque(maxlen=KEPT)
         self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
         self._detect = BoundedProxy("detect_customer", DetectCustomer)
-        rospy.on_shutdown(self._detect.cancel)  # Without this, the shutdown would wait for the end of a call.
+        # Without the cancellation, the shutdown would wait for the end of the current call.
+        rospy.on_shutdown(self._detect.cancel)
 
     def handle_report(self, _: object) -> CashierReportResponse:
         """Return the numbers and times of all greetings."""

@@ -20,7 +20,7 @@ NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
 
 @dataclass(frozen=True)
 class Pair:
-    """Two definitions, an assertion about their difference, and a hint."""
+    """Two definitions, an assertion about the difference between them, and a hint."""
 
     assertion: str
     server: str

@@ -1,4 +1,4 @@
-"""The definition: the check parses it in the same way as ROS, compares each field, and builds it."""
+"""Checks of the definition: they parse it in the same way as ROS, compare each field, and build it."""
 
 from __future__ import annotations
 

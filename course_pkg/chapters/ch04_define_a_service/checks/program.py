@@ -1,4 +1,4 @@
-"""The server as a program of the package: rosrun must find it, and it must serve the new type."""
+"""Checks of the server as a program of the package: rosrun must find it, and it must serve the new type."""
 
 from __future__ import annotations
 

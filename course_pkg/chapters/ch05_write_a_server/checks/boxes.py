@@ -11,7 +11,8 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# A message may contain at most this many numbers. With more numbers, one number may be right by chance.
+# A message may contain at most this many numbers. In a message with more numbers, one of the numbers may be
+# right by chance.
 MANY = 6
 # The pattern matches an error message from the student's handler, but no message of rospy itself.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
@@ -124,7 +125,7 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    # These numbers are exact as a float32.
+    # A float32 stores these numbers exactly.
     depths = [*(-depth / 2 for depth in context.random.integers(2, 3, 99)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})

@@ -6,7 +6,8 @@ from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops
 from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
-# A call for existing or missing services may take this many s; a busy machine connects within this time.
+# The function gets this time limit in s, for existing and for missing services; a busy machine connects
+# within it.
 SAME = 1.5
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
@@ -63,7 +64,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # This call has the same limit as the calls for services that do not exist.
+        ).returned(),  # This call has the same time limit as the calls for services that do not exist.
         hints=[
             (
                 False,

@@ -1,6 +1,6 @@
 """07.7: a README with commands.
 
-The commands tell another person how to build and start the server, and how to call the service.
+With these commands, another person can build the package, start the server, and call the service.
 """
 
 from __future__ import annotations

@@ -115,7 +115,7 @@ class FakeSwitch:
     message: str
 
     def handle_set(self, request: Message) -> Fields:
-        """Move and respond in the way that the case describes."""
+        """Move or do not move, and return the response that the case describes."""
         self.is_open = bool(request.data) if self.case.obeys else self.is_open
         return {"success": self.case.success, "message": self.message}
 
@@ -132,7 +132,7 @@ class FakeSwitch:
     deadline=25.0,
 )
 def move_and_verify(context: CheckContext) -> None:
-    """Try four kinds of switches, and move each of them in both directions."""
+    """Try four kinds of switches, and use each of them to move in both directions."""
     for case in CASES:
         for to_open in context.random.shuffled([True, False]):
             _move(context, case, to_open)

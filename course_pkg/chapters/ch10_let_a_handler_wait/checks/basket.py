@@ -1,4 +1,4 @@
-"""10.3: a handler that waits until another handler has changed something."""
+"""10.3: a handler that waits for a change that another handler makes."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ ERRORS = [
     deadline=45.0,
 )
 def wait_for_another_call(context: CheckContext) -> None:
-    """Take from a filled and an empty basket; put an item into the basket while a client is waiting.
+    """Take an item from a filled basket and from an empty basket; put an item into it while a client waits.
 
     At the end, let many clients call both services at the same time.
     """

@@ -149,7 +149,7 @@ ERRORS = [
 def calls_at_once(context: CheckContext) -> None:
     """Respond only after all clients have called; use two different numbers of clients.
 
-    The calls of the first round are longer, so that a join() with a short limit ends before a call.
+    The calls of the first round take longer, so that a join() with a short timeout ends before a call ends.
     """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")

@@ -21,7 +21,8 @@ LONG = 2.0
 LATER = 0.6  # A customer comes after this many s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this many s, the customers change although no client waits.
-SELDOM = 8  # A handler with fewer calls of watch.next() in LONG s, but no real wait, is too slow.
+# A handler that makes fewer calls of watch.next() in LONG s, but does not really wait, is too slow.
+SELDOM = 8
 LOOKS = 3000  # A loop without a pause makes many more calls of watch.next() in LONG s than this.
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"
@@ -320,7 +321,10 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
 
 
 def _at_once(context: CheckContext, assertion: str, took: float, after: float = 0.0, hint: str = "") -> None:
-    """Assert that the response came at once when the customer came, `after` s after the request."""
+    """Assert that the response came immediately after the customer.
+
+    The customer came `after` s after the request.
+    """
     context.require(
         assertion,
         holds=took < after + SLACK,

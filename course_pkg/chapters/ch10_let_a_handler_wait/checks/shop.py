@@ -24,7 +24,7 @@ from course_pkg.ros.node.proxy import BoundedProxy
 
 CHARGE = "course_pkg/Charge"
 MEETING = 2.0  # A call to the till waits at most this many s for another call.
-ABSENT = 4.0  # Without a till, a sale may take this many s on a busy machine.
+ABSENT = 4.0  # If no till runs, a sale may take this many s on a busy machine.
 CALL_BACK = 2.0  # After this many s, the till continues without a response from the shop.
 LOCKED = (
     "Your handler holds the lock while it calls the till, so /left cannot respond. Release the lock "
@@ -75,7 +75,7 @@ class Till:
         self._changed = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next call wait until there is another call, but only for a limited time."""
+        """Let the next call wait for a second call, but only for a limited time."""
         self._meets = True
 
     def __call__(self, request: Message) -> Act:

@@ -96,7 +96,7 @@ def persistent_client(context: CheckContext) -> None:
 
 
 def _next_act(acts: list[Act]) -> Act:
-    """Return the next act of the script. A refusal is repeated until the check removes it from the script.
+    """Return the next act of the list. A refusal is repeated until the check removes it from the list.
 
     After the last act, close the connection.
     """
@@ -122,7 +122,7 @@ def _measures(context: CheckContext, client: Client, assertion: str, volume: Jso
 
 
 def _sends_the_sides(context: CheckContext, client: Client, server: ScriptedServer, assertion: str) -> None:
-    """Assert that the last request contains the sides that `measure` got."""
+    """Assert that the last request contains the sides with which `measure` was called."""
     context.expect(
         assertion,
         expected=client.sides,
@@ -176,9 +176,9 @@ def _reports_a_refusal(
 
 
 def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer) -> None:
-    """Close the first and the new connection.
+    """Close the client's first connection, and then its new connection.
 
-    The client must send another request, and then raise an error.
+    The client must send the request again, and then raise an error.
     """
     before = len(server.requests)
     result = client.measure(ERRORS)

@@ -44,7 +44,7 @@ ERRORS = [
 WITHIN = 3.0  # WITHIN is the time limit in s for one call.
 # Wait this many s before sending the next part to a client that peeks at the bytes without reading them.
 PEEKING = 0.4
-PAUSE = 0.5  # The pieces of one message may be this many s apart.
+PAUSE = 0.5  # Two consecutive pieces of a message are sent with this pause in s.
 CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 
 
@@ -281,8 +281,8 @@ class OtherEnd:
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False, pause: float = 0.0) -> None:
-        # The socket is in Linux's abstract namespace. The socket needs no file, and only this network
-        # namespace can use the socket.
+        # The name of the socket is in Linux's abstract namespace. The socket needs no file, and can be used
+        # only in this network namespace.
         self.name = f"course-{secrets.token_hex(8)}"
         self._pieces, self._closes, self._pause = pieces, closes, pause
         self._listener = socket.socket(socket.AF_UNIX)
@@ -353,7 +353,7 @@ def _receives(
 
 
 def _not_received(count: int) -> Hints:
-    """Return hints for a function that did not return the next `count` bytes."""
+    """Return hints for a function that did not return exactly the next `count` bytes."""
     return [
         (None, NO_RETURN),
         (

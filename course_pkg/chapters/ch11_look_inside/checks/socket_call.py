@@ -22,7 +22,7 @@ from course_pkg.waiting import wait_until
 # A float32 stores this fraction exactly, and the fraction has many decimals.
 BINARY = 65 / 512
 # On Linux, every address of 127.0.0.0/8 belongs to this computer. A client that always connects to localhost
-# does not reach a server at this address.
+# does not reach a server at OTHER_HOST.
 OTHER_HOST = "127.0.0.2"
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
 NO_PROXY = (

@@ -8,11 +8,11 @@ from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
 TRY = 0.5  # TRY is the time limit in s for one attempt.
 PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
-# In the fastest payment, the first pause and a new connection may take at most this many s.
+# In the fastest payment, the first pause together with a new connection may take at most this many s.
 FIRST = 1.8 * PAUSE
 PAYMENTS = 5  # The check makes at most this many payments; the fastest payment counts.
-# The deadline comes after this many s. At this time, the client is in its fourth pause, which would end after
-# 1.5 s.
+# The deadline comes after this many s. At the deadline, the client is in its fourth pause, which would end
+# after 1.5 s.
 AT_END = 0.9
 ENDED = 1.3  # The fastest of these payments may take at most this many s.
 AT_WORK = 0.5  # A client must make attempts for at least this many s.

@@ -76,7 +76,7 @@ def pays_after(
 ) -> int:
     """Assert that a payment succeeds; return the number of requests.
 
-    `words` is a text about the state of the till.
+    `words` is a text that describes the state of the till.
     """
     before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
     result = pay(context, name, context.random.integer(100, 900), deadline)

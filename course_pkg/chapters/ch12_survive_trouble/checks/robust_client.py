@@ -29,7 +29,7 @@ TRY = 0.5  # TRY is the time limit in s for one attempt, as in the exercise.
 # The pause before the second attempt takes this many s; each further pause is twice as long as the previous
 # pause.
 PAUSE = 0.1
-SHORT = 1.0  # In the case where the client must give up, the deadline comes after this many s.
+SHORT = 1.0  # In the case in which the client must stop its attempts, the deadline comes after this many s.
 SLACK = 1.5  # On a busy machine, a payment may take this many s longer.
 AWAY = 0.5  # A killed till starts again after this many s, so the second attempt finds no server.
 A_LITTLE = 0.2  # This time in s is shorter than one attempt.
@@ -202,7 +202,7 @@ def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, boo
 
 
 def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the handler do its work and return None; the error message is similar to that of a refusal."""
+    """Let the handler do its work and return None; the client gets an error message similar to a refusal."""
     till.plan.append(Fault(Refuse("service handler returned None"), worked=True))
     result = pay(context, name, context.random.integer(100, 900), DEADLINE)
     context.require(
@@ -218,7 +218,7 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
 
 
 def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
-    """Assert that there were several attempts at a slow till.
+    """At a slow till, assert that the client made several attempts.
 
     At a till that responds in time, the client must make only one attempt.
     """

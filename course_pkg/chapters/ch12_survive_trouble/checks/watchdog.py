@@ -15,12 +15,13 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
 EVERY = 0.1  # EVERY is the time in s between two polls of the watchdog.
-SELDOM = 0.5  # Even on a busy machine, at least one of several pauses is shorter than this many s.
+SELDOM = 0.5  # Even on a busy machine, the shortest of several pauses takes less than this many s.
 CALLS = 4  # CALLS is the maximum number of calls to the master in one poll.
 SOON = 5.0  # SOON is the time limit in s for a few polls on a busy machine.
-AWAY = 3.0  # If the check cannot see the polls of a watchdog, the check stops the master for this many s.
+# If the check cannot observe the polls of a watchdog, the check stops the master for this many s instead.
+AWAY = 3.0
 LEFT_ALONE = 0.8  # A wrong watchdog would register the name again within this many s.
-LATE = 0.5  # LATE is the time in s for which the check waits for a wrong registration after stop().
+LATE = 0.5  # After stop(), the check waits this many s for a wrong registration.
 READY = 15.0  # READY is the time limit in s for the start of a master.
 
 ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread that you start in __init__."

@@ -12,7 +12,7 @@ from course_pkg.waiting import wait_until
 
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
-THINKING, COUNTING = 0.4, 0.05  # The times in s are the same as in the file that the exercise gives.
+THINKING, COUNTING = 0.4, 0.05  # These times in s are the same as in the file that the exercise provides.
 # The time between two responses may be at most this many s. If all calls overlap, this time is shorter. If a
 # call has to wait for a thread, this time is longer.
 APART = 0.15
@@ -119,7 +119,7 @@ def number_server(context: CheckContext) -> None:
 def _still_thinks(context: CheckContext, code: str, took: float) -> None:
     """Assert that the code of think() and count() is unchanged.
 
-    The duration `took` of a call (s) must also be unchanged.
+    A call must also take as long as in the given file; `took` is its duration in s.
     """
     context.require(
         "think() and count() take as long as before",

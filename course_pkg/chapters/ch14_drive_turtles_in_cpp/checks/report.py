@@ -14,7 +14,7 @@ THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
 GROUPS = 3  # The check calls this many times with all clients at the same time.
-FEW, MANY = 3, 8  # The check uses these numbers of simultaneous clients.
+FEW, MANY = 3, 8  # The numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
     "The handler of /report waits for /battery, but no free thread can execute the handler of "

@@ -137,7 +137,7 @@ class Run:
         return self._running.status is not None
 
     def is_on_the_graph(self) -> None:
-        """Wait until the node is on the graph or the program has ended."""
+        """Wait until the node is on the graph, or until the program has ended."""
         wait_until(
             lambda: (
                 self.has_ended()
@@ -150,7 +150,8 @@ class Run:
     def end(self, within: float = ENDING) -> Run:
         """Wait until the program ends.
 
-        Stop the program `within` s after its node was on the graph; in this case, the status is None.
+        If the program still runs `within` s after its node was on the graph, stop the program; `status` is
+        then None.
         """
         self.is_on_the_graph()
         wait_until(self.has_ended, within, 0.05)
@@ -176,7 +177,10 @@ class Run:
 
 
 class _Detector:
-    """Returns a customer only if `patience` equals `wait`; refuses a call with the `patience` REFUSED."""
+    """A detector that finds a customer only if `patience` is equal to `wait`.
+
+    It refuses the `patience` REFUSED.
+    """
 
     def __init__(self, wait: float) -> None:
         self.wait = wait

@@ -220,7 +220,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     goals={SILENT_CAMERA: 3, "During a call, notice when the camera stops or starts to send messages.": 1},
 )
 def the_silent_camera(context: CheckContext) -> None:
-    """Call before the first message, shortly and long after the last message, and during new messages."""
+    """Call before the first message, shortly and long after the last message, and while messages arrive."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -261,7 +261,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
 
 
 def _counts_before_the_call(context: CheckContext, name: str, vision: SeenCustomers) -> None:
-    """Call once after the last message, which is still valid and contains no customer."""
+    """Make one call after the last message, which is still recent and says that no customer is there."""
     if vision.silent_for() > 0.5:
         return  # The machine is too busy for this assertion.
     detect = context.service(name, AWAIT, timeout=LONG, hints=[(matches("camera"), BEFORE), *FAILED[1:]])

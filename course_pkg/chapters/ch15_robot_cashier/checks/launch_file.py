@@ -18,8 +18,7 @@ START = f"%%writefile {FILE}\n..."
 HARDWARE = ("counter_camera", "robot", "receipt_printer")
 READING = 20.0  # READING is the time limit in s for roslaunch to read the file on a busy machine.
 OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
-# This code prints the nodes and the parameters that roslaunch reads from a launch file with the given
-# arguments.
+# This code reads a launch file with the given arguments, and prints its nodes and parameters.
 READER = """
 import re, sys
 from roslaunch.config import load_config_default

@@ -1,4 +1,4 @@
-"""15.5: a node that publishes the mirror image of each valid joint state, and ignores invalid ones."""
+"""15.5: a node that publishes the mirror image of each valid joint state, and ignores invalid states."""
 
 from __future__ import annotations
 

@@ -370,7 +370,10 @@ LEFT = (
     },
 )
 def the_reset(context: CheckContext) -> None:
-    """Reset a till with items, without items, with a free item, and during the printing of a line."""
+    """Reset a till with items, a till without items, and a till with a free item.
+
+    Then reset during the printing of a line.
+    """
     with running_till(context, TOTAL, RESET) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         reset = till.service(context, RESET, TRIGGER, [(ANYTHING, SUCCEEDS)])

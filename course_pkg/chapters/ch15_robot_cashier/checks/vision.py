@@ -69,7 +69,7 @@ SHOWN = "For each valid frame, publish whether the frame shows a customer."
     goals={SHOWN: 3, "Publish nothing for malformed frames.": 1},
 )
 def the_vision(context: CheckContext) -> None:
-    """Send frames with about as many dark points as the limit, frames with padding, and malformed frames."""
+    """Send frames with about as many dark points as the limit, padded frames, and malformed frames."""
     with student_node(context, NAME, INTERFACE) as space:
         seen = context.subscribe(f"{space}/{SEEN}", BOOL)
         seen.published()
@@ -95,7 +95,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Style:
-    """The brightness of dark points, the number of padding bytes in a row, and their value."""
+    """The brightness of dark points, the number of padding bytes in a row, and the value of these bytes."""
 
     dark: tuple[int, int] = field(default=(0, DARK - 1))
     padding: int = 0
@@ -109,7 +109,7 @@ class Camera:
         self._publisher = rospy.Publisher(topic, Image, queue_size=10, tcp_nodelay=True)
 
     def is_heard(self, context: CheckContext) -> None:
-        """Assert that the node receives the frames."""
+        """Assert that the student's node receives the frames."""
         context.require(
             "the node subscribes to the frames with the type sensor_msgs/Image",
             holds=bool(wait_until(self._publisher.get_num_connections, 5.0)),
@@ -128,7 +128,7 @@ class Camera:
 
 
 def image_of(context: CheckContext, width: int, height: int, dark: int, style: Style | None = None) -> Image:
-    """Return a frame with `dark` dark points at random places; all other points are very bright."""
+    """Return a frame with `dark` dark points at random positions; all other points are very bright."""
     style = style or Style()
     points = [context.random.integer(*style.dark) for _ in range(dark)]
     points += [context.random.integer(230, 255) for _ in range(width * height - dark)]
@@ -263,7 +263,7 @@ def _leaves_out(
 
 
 def _once(context: CheckContext, seen: Subscription, before: int) -> None:
-    """Assert that there is exactly one message after the first `before` messages."""
+    """Assert that exactly one message arrives after the first `before` messages."""
     seen.until(lambda arrivals: len(arrivals) > before + 1, AGAIN)
     context.require(
         "the node publishes one message for each frame",

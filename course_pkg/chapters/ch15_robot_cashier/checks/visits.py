@@ -64,7 +64,7 @@ STEPS = (
     Step(True, Late(0.3, found(False)), "False"),
 )
 # These calls of detect_customer end a visit; the first call has the number 1. A call of till/reset follows
-# each of them.
+# each of these calls.
 VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits and step.name == "False"]
 NO_CALL = (
     "No call arrived. In the main thread, call detect_customer in a loop until rospy.is_shutdown() "
@@ -191,7 +191,7 @@ def the_visits(context: CheckContext) -> None:
 
 
 class Alone:
-    """Serves a node without a till: a customer comes, and leaves after one call."""
+    """Tests a node without a till: a customer comes, and leaves after one call."""
 
     def __init__(self) -> None:
         self.patiences: list[float] = []
@@ -244,7 +244,7 @@ class Till:
 
 
 def _called(detector: Detector, times: int) -> bool:
-    """Wait for the call number `times` of the detector; return whether it came in time."""
+    """Wait for call number `times` of the detector; return whether this call came in time."""
     return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
 
 

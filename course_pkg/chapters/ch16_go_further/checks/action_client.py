@@ -20,9 +20,9 @@ from course_pkg.ros.node.action_server import ActionServer
 
 WAIT = 2.0  # The client waits this many s for an action server.
 LONG = 6.0  # A robot needs this many s for a goal, and the client cancels this goal.
-PROMPT = 4.0  # If the robot needs 0.3 s, a client may take this many s on a busy machine.
-ENOUGH = 5.0  # For a robot that finishes in time, the client has this limit in s.
-BRIEF = 0.2  # For a robot that ignores the cancellation, the client has this limit in s.
+PROMPT = 4.0  # If the robot needs 0.3 s for a goal, the client may take this many s on a busy machine.
+ENOUGH = 5.0  # The client has this time limit in s with a robot that finishes in time.
+BRIEF = 0.2  # The client has this time limit in s with a robot that ignores the cancellation.
 LATE = 0.6  # A late robot starts this many s after the call.
 SECONDS = 0.8  # The client must cancel the goal after this many s; the time is not a whole number.
 SLACK = 3.0  # On a busy machine, a call may take this many s longer.
@@ -60,7 +60,7 @@ class Robot:
         self._fetched, self._seconds, self._stubborn = fetched, seconds, stubborn
 
     def receive_cancel(self, cancelled: GoalID) -> None:
-        """Note a message on the topic `cancel`; an empty id means all goals."""
+        """Record a message on the topic `cancel`; an empty id means all goals."""
         self.cancelled_all = self.cancelled_all or not cancelled.id
 
     def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
@@ -249,7 +249,7 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
 
 
 def _goes_on(context: CheckContext) -> None:
-    """Serve a robot that ignores the cancellation; the function must end, with any value or error."""
+    """Serve a robot that ignores the cancellation; the function must return any value, or raise any error."""
     name = f"/{context.random.word()}"
     robot = Robot(0, LONG, stubborn=True)
     with _serving(name, robot):
@@ -291,7 +291,7 @@ def _comes(context: CheckContext) -> None:
                 "a server that starts within 2 s gets the goal",
                 expected=str(fetched),
                 actual=str(result.returned()),
-                # If the client was waiting for a result, it sent the goal before the robot started.
+                # If the client waited for a result, then it sent the goal before the robot started.
                 hint=UNSENT if result.took > ENOUGH else too_short,
             )
 

@@ -27,7 +27,7 @@ kept = []
 def begin(kind, name):
     kept.append(kind(name))
 """
-# The ranges contain the time in s for one thing in two goals. The times differ, so no fixed time is right for
+# The ranges differ, so no fixed time is right for both goals. The times differ, so no fixed time is right for
 # both goals.
 QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
 TIMEOUT = 6.0  # TIMEOUT is the time limit in s for a goal that needs less than 1 s.
@@ -133,7 +133,7 @@ def _wrong_feedback(things: int) -> Hints:
 
 
 def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
-    """Send a quick goal; if it was too slow, send another goal, because the machine may be busy."""
+    """Send a quick goal; if it was too slow, the machine may be busy, so send the goal again."""
     things = context.random.integer(3, 4)
     each = context.random.number(*QUICK, digits=3)
     limit = Deadline(BUSY)
@@ -181,7 +181,7 @@ def _sends_feedback(context: CheckContext, feedback: Subscription, before: int, 
 
 
 def _is_on_time(context: CheckContext, at: list[float], began: float, each: float) -> None:
-    """Assert that each feedback message comes when a thing has been fetched, neither earlier nor later."""
+    """Assert that each feedback message comes at the time when a thing has been fetched."""
     context.require(
         "the feedback arrives while the goal is executed",
         holds=at[-1] - at[0] > 0.4 * (len(at) - 1) * each,

@@ -34,7 +34,7 @@ PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
 LONG = 2.5  # In the last goal with too many parcels, each parcel would take this many s.
 ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
 SETTLING = 1.0  # After a delivery, the charge of the battery is right within this many s.
-NOT_AT_ONCE = 0.9  # A goal that took this fraction of its full time was not aborted at once.
+NOT_AT_ONCE = 0.9  # A goal that took at least this fraction of its full time was not aborted immediately.
 
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -265,7 +265,7 @@ def _cancels(
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
     """Assert that the charge did not change because of the impossible goal before the last goal."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
-    battery.during(3 * PERIOD)  # The charge may have this value only for a short time.
+    battery.during(3 * PERIOD)  # A wrong charge may be published only for a short time.
     context.expect(
         "an impossible delivery delivers nothing",
         expected=f"a charge of {charge:g}",
@@ -312,7 +312,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
 def _aborts_at_once(
     context: CheckContext, client: actionlib.SimpleActionClient, capacity: int, each: float
 ) -> None:
-    """Send a goal with one parcel too many; a delivery of one of its parcels would take `each` s."""
+    """Send a goal with one parcel too many; the delivery of one parcel would take `each` s."""
     began = time.monotonic()
     client.send_goal(FetchGoal(things=capacity + 1, seconds=each))
     _ends_as(

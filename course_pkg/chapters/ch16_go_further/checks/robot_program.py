@@ -1,4 +1,7 @@
-"""Functions that start the student's parcel robot, and find out what each of its names is."""
+"""Functions that start the student's parcel robot.
+
+They also find out whether each name is a topic, a service or an action.
+"""
 
 from __future__ import annotations
 
@@ -102,7 +105,7 @@ def offers_what_fits(context: CheckContext, robot: Robot) -> None:
 
 
 def kind_of(seen: Snapshot, robot: Robot, name: str) -> str:
-    """Return "topic", "service" or "action"; return "" if the robot has nothing with this name."""
+    """Return "topic", "service" or "action"; return "" if the robot has registered nothing with this name."""
     return _kind(seen, robot, robot.name(name))
 
 
