@@ -152,8 +152,8 @@ class CheckContext:
         if probe is None:
             alike = difflib.get_close_matches(name, self._node.services(), n=1)
             hint = (
-                "The service does not exist. Run the cell that creates the rospy.Service, and "
-                "run this cell again after each restart of the kernel."
+                "The service does not exist. Run the cell that creates the rospy.Service, and run "
+                "it again after each restart of the kernel."
             )
             hint = (
                 (
@@ -358,7 +358,10 @@ class CheckContext:
                 self._node.forget_topics(self.random.made)
         if isinstance(error, Exception) and not isinstance(error, KNOWN):
             text = f"{type(error).__name__}: {error}"
-            raise CheckError(f"The check itself has a bug ({text}). Your answer is not the cause.") from error
+            raise CheckError(
+                f"The check itself has a bug ({text}). Your answer is not the cause: please tell "
+                "your instructor."
+            ) from error
 
 
 @dataclass(frozen=True)

@@ -77,10 +77,10 @@ replace("""ros::ServiceServer server = node.advertiseService("box", measure);
   spinner.start();
   ros::waitForShutdown();
   return 0;""")
-# %% 13.2 wrong: starts a server in Python | hint: The program can start another program.
+# %% 13.2 wrong: starts a server in Python | hint: The program contains a call that can start another program
 replace("#include <ros/ros.h>", "#include <ros/ros.h>\n#include <unistd.h>")
 replace("ros::spin();", "execlp(\"python3\", \"python3\", \"box_server.py\", nullptr);")
-# %% 13.2 wrong: a system call of its own | hint: The program can start another program.
+# %% 13.2 wrong: a system call of its own | hint: The program contains a call that can start another program
 replace("ros::spin();", """ros::spin();
 #ifdef __x86_64__
   __asm__ volatile("syscall");
