@@ -176,7 +176,7 @@ CALLING: tuple[Fault, ...] = (
         story="A client waits for the door's service and calls it.",
         play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door")', "import std_srvs.srv"),
-        diagnosis="The client waits without a limit for a server that was never started.",
+        diagnosis="The client waits without a time limit for a server that was never started.",
         remedy="Start the server, and give wait_for_service() a timeout.",
         reason=(
             "`rosservice list` does not show the service, and `rosnode list` does not show the "

@@ -97,7 +97,7 @@ MASTERS: tuple[Fault, ...] = (
         name="hung_master",
         look="wait call",
         play=_hang_master,
-        diagnosis="The master accepts connections and does not answer.",
+        diagnosis="The master accepts connections, but does not answer.",
         remedy=(
             "Resume the master's process with `kill -CONT`, or end this process and restart the "
             "master and all nodes."

@@ -310,7 +310,7 @@ replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.
         rospy.sleep(0.1)""")
 # %% 15.5 wrong: publishes later | hint: The mirror images arrive late
 replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
-# %% 15.5 wrong: publishes nothing | hint: No mirror image arrived
+# %% 15.5 wrong: publishes nothing | hint: No mirror image arrived. In the callback, publish
 replace("    if is_valid(joints):", "    if joints is None:")
 # %% 15.5 wrong: another type | hint: The node does not subscribe to joint_states with the right type
 replace('''"joint_states", JointState, handle''', '''"joint_states", JointTrajectory, handle''')
@@ -611,7 +611,7 @@ replace('        print_line(f"{request.item} {request.cents}")\n', '''        tr
 # %% 15.8 wrong: the reason is lost | hint: The error message does not contain the printer's message
 based_on("acquire and release, and the error is caught")
 replace('"not printed: " + str(e)', '"not printed"')
-# %% 15.8 wrong: counts first | hint: The line was not printed, but the till counts the item
+# %% 15.8 wrong: counts first | hint: The line was not printed, but the till stored the price of the item
 based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
 # %% 15.8 wrong: waits for a printer | hint: Do not wait for this service without a time limit

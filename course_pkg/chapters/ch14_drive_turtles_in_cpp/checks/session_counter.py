@@ -92,7 +92,7 @@ def _counts(
                 ANYTHING,
                 (
                     "The response does not contain the number of calls in the session. Read the session "
-                    "from the connection header, and count its calls."
+                    "from the connection header, and count the calls of this session."
                 ),
             ),
         ],

@@ -85,7 +85,7 @@ NOT_PASSED = (
     "The parameter always has the same value, even if the user passes another value. Write "
     'value="$(arg wait)".'
 )
-LISTED = "Start all nodes, but start the nodes of the hardware only with hardware:=true."
+LISTED = "Start the nodes of the hardware only with hardware:=true. Always start all other nodes."
 
 
 @part(

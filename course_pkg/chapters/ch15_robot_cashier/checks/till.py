@@ -189,7 +189,8 @@ REASONLESS = (
     "The error message does not contain the printer's message. Use the text of the exception that you caught."
 )
 COUNTED = (
-    "The line was not printed, but the till counts the item. Store the price only after print_line has "
+    "The line was not printed, but the till stored the price of the item. Store the price only "
+    "after print_line has "
     "returned."
 )
 NO_PRINTER = (
