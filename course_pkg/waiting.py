@@ -82,7 +82,7 @@ def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 
 
     If `repeat` is not 0, the error is raised again every `repeat` s, for code that may catch the first error.
     This function uses an alarm signal (SIGALRM), so the block has to run in the main thread, and such blocks
-    may not be nested. Raises ValueError in another thread.
+    may not be nested. In any other thread, it raises ValueError.
     """
 
     def alarm(*_: object) -> None:

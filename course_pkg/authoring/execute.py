@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import os
-import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager
@@ -22,6 +21,7 @@ from course_pkg.authoring.notebook_store import NotebookStore, read, text_of
 from course_pkg.authoring.pictures import add_pictures
 from course_pkg.checking.parts import chapters, parts_of
 from course_pkg.errors import AuthoringError
+from course_pkg.ros.process.supervised import temporary_folder
 from course_pkg.setup.progress import Progress
 
 CELL_TIMEOUT = 120  # A cell may run for this many s, because a reader should not wait longer.
@@ -60,7 +60,7 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 
 
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
-    """Run several of `notebooks` at the same time; the keys are their names.
+    """Run all `notebooks`, several at the same time; the keys of the mapping are the notebooks' names.
 
     Calls `finished` with the name and the outputs of each notebook that ran to its last cell. Returns the
     errors of all other notebooks, by name. A KeyboardInterrupt ends all kernels.
@@ -147,15 +147,15 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
     run at the same time. The environment names no master, because the first cell of a notebook starts a
     private master.
     """
-    with tempfile.TemporaryDirectory(prefix="course-notebook-", ignore_cleanup_errors=True) as folder:
-        work, temporary = Path(folder, "work"), Path(folder, "tmp")
+    with temporary_folder("course-notebook-") as folder:
+        work, temporary = folder / "work", folder / "tmp"
         work.mkdir()
         temporary.mkdir()
         private = {
             "TMPDIR": temporary,
-            "COURSE_STATE": Path(folder, "state"),
-            "COURSE_WORKSPACE": Path(folder, "workspace"),  # The chapters use the path ../workspace.
-            "ROS_LOG_DIR": Path(folder, "log"),
+            "COURSE_STATE": folder / "state",
+            "COURSE_WORKSPACE": folder / "workspace",  # The chapters use the path ../workspace.
+            "ROS_LOG_DIR": folder / "log",
         }
         environment = {**os.environ, **{name: str(path) for name, path in private.items()}}
         environment.pop("ROS_MASTER_URI", None)

@@ -6,11 +6,11 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
 from course_pkg.authoring.execute import CELL_TIMEOUT, workers_here
+from course_pkg.ros.process.supervised import temporary_folder
 
 SANITIZE = Path(__file__).with_name("nbval_sanitize.cfg")
 PLUGINS = (
@@ -31,8 +31,8 @@ def validate(
     compare outputs; a notebook then passes if all cells run. Raises subprocess.TimeoutExpired after `timeout`
     s.
     """
-    with tempfile.TemporaryDirectory(prefix="course-nbval-", ignore_cleanup_errors=True) as folder:
-        copies = [_copied(path, Path(folder)) for path in notebooks]
+    with temporary_folder("course-nbval-") as folder:
+        copies = [_copied(path, folder) for path in notebooks]
         return subprocess.run(
             command(copies, workers=workers or workers_here(len(copies)), compare=compare),
             cwd=folder,

@@ -184,7 +184,8 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
 def _short_folder() -> str | None:
     """Return a folder for temporary files whose name is short enough for the names of a kernel's sockets.
 
-    The name of such a socket has 80 more bytes, and may have at most 107. None means the usual folder.
+    The path of a socket is 80 bytes longer than the path of this folder, and Linux allows at most 107 bytes.
+    None means the usual folder.
     """
     return None if len(os.fsencode(tempfile.gettempdir())) <= 27 else "/tmp"  # noqa: S108 -- a folder of mode 700 in it
 

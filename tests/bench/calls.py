@@ -326,7 +326,7 @@ class Till:
 
 
 def serve(folder: Path) -> None:
-    """Run the node of the till until it is shut down."""
+    """Run the cash register's node (the till) until a signal ends it."""
     rospy.init_node("till")
     prepare_node()
     rospy.Service("/till", Charge, Till(folder).charge)

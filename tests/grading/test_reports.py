@@ -74,7 +74,7 @@ def _files(out: Path) -> Iterator[Path]:
 def _two() -> list[Grade]:
     """Return the grades of two students.
 
-    One student is late with all points, and one has each verdict once.
+    The first student submits late and earns all points. The second student has a part with each verdict.
     """
     verdicts = (Verdict.PASSED, Verdict.FAILED, Verdict.NOT_ATTEMPTED, Verdict.UNDECIDED, Verdict.PASSED)
     mixed = tuple(report(f"05.{number}", verdict) for number, verdict in enumerate(verdicts, 1))

@@ -15,7 +15,7 @@ from tests.installation.installations import asked, make_version
 
 @pytest.fixture
 def places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Places:
-    """Return the places of an installation with two notebooks; the user's own folder does not exist yet."""
+    """Return the folders of an installation with two notebooks; the user's own folder does not exist yet."""
     notebooks = tmp_path / "version" / "course" / "notebooks"
     notebooks.mkdir(parents=True)
     (tmp_path / "version" / RECORD).write_text("{}")

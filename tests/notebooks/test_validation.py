@@ -16,7 +16,7 @@ NAMES = sorted(path.name for path in (ROOT / "solutions").glob("*.ipynb"))
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("folder", ["solutions", pytest.param("notebooks", marks=pytest.mark.when_changed)])
 def test_a_notebook_runs_to_its_end(folder: str, name: str) -> None:
-    """A solution gives its stored outputs again.
+    """When a solution runs, its outputs are equal to the stored outputs.
 
     In a student's notebook, only cells with the tag raises-exception fail.
     """

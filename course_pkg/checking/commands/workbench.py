@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import IO
 
 from course_pkg.checking.plain_values import Reply
-from course_pkg.ros.process.supervised import SupervisedProcess
+from course_pkg.ros.process.supervised import SupervisedProcess, temporary_folder
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.setup import Places, environment
 
@@ -39,7 +39,7 @@ class CommandFolders:
 
     def folder(self, files: Sequence[str], texts: Mapping[str, str]) -> Reply:
         """Make a folder with copies of the student's files and folders, and with the check's `texts`."""
-        folder = Path(self._open.enter_context(tempfile.TemporaryDirectory(prefix="course-run-")))
+        folder = self._open.enter_context(temporary_folder("course-run-"))
         for name in files:
             _copy(self._find(name), folder / _place(name))
         for name, text in texts.items():

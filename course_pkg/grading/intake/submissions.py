@@ -112,7 +112,7 @@ def _beside(path: Path) -> Iterator[Found]:
 
 @dataclass(frozen=True)
 class _File:
-    """A file with its student, and its path in the folder of all students' folders."""
+    """A file, its student, and the file's path relative to the folder with all submissions."""
 
     entry: Entry
     path: tuple[str, ...]

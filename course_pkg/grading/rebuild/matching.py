@@ -163,7 +163,7 @@ class _Above:
     def goes_on(self, cell: StudentCell, wanted: Wanted) -> bool:
         """Return whether a cell of the same exercise continues this answer.
 
-        A copy of the answer does not continue it.
+        A cell that only repeats the answer is not a continuation.
         """
         if cell.kind != self._last.kind or cell.source == self._last.source or wanted.is_blank(cell.source):
             return False

@@ -35,9 +35,10 @@ class Which(Enum):
 class Graph:
     """A graph, as long as this object is open.
 
-    `uri` is the address of the master. `files` are the open files of the private network; without them, the
-    graph uses the network of this machine, and `reason` says why, unless the user asked for it. `outgoing`
-    tells, after wait_for_master(), whether programs in a private network can connect to other computers.
+    `uri` is the address of the master. `files` are the open files of the private network. If `files` is
+    empty, the graph uses the network of this machine. Then `reason` says why, or is empty if the user asked
+    for the network of this machine. `outgoing` tells, after wait_for_master(), whether programs in a private
+    network can connect to other computers.
     """
 
     def __init__(

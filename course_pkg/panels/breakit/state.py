@@ -45,7 +45,7 @@ class CaseState(TypedDict, total=False):
 
 
 class Listed(TypedDict):
-    """A case in the list."""
+    """One case in the list of cases that the panel shows."""
 
     number: int
     state: str

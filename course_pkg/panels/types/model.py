@@ -45,7 +45,7 @@ NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH. Therefore, the pane
 
 
 class FieldNode(TypedDict):
-    """A field; `fields` contains the inner fields of a nested message, a time, or an element of an array."""
+    """A field. `fields` contains its inner fields if it is a message, a time, or an array of these."""
 
     name: str
     type: str

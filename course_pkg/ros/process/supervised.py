@@ -7,11 +7,13 @@ even after SIGKILL, the supervisor ends the command and cleans up.
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
@@ -105,6 +107,18 @@ class SupervisedProcess:
         if self.pid == self._process.pid or not self.wait(grace):
             self._process.send_signal(signal.SIGUSR1)
             self._process.wait()
+
+
+@contextmanager
+def temporary_folder(prefix: str) -> Iterator[Path]:
+    """Yield a new folder. It is deleted after the block, or when this process ends, even after SIGKILL."""
+    folder = Path(tempfile.mkdtemp(prefix=prefix))
+    guard = SupervisedProcess([], remove=folder)
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+        guard.end()
 
 
 def listening_ports(pid: int) -> frozenset[int]:

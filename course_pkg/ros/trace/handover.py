@@ -41,7 +41,7 @@ def hand_over_at_exit() -> None:
 
 @contextmanager
 def handovers(node: str, uri: str, master: MasterClient) -> Iterator[None]:
-    """During the block, each node sends its record to the node at `uri` when it ends."""
+    """Let each node that ends during the block send its record to the node at `uri`."""
     parameter = f"{PARAMETER}{node}_{next(recorder().numbers)}"
     own, announced = recorder(), False
     own.recordings += 1

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -108,6 +110,19 @@ def test_a_command_that_ended_by_itself_has_a_status(bench: CommandFolders) -> N
     process = bench.start(["bash", "-c", "echo no; exit 3"], folder)["process"]
     eventually(lambda: bench.poll(process)["status"] is not None)
     assert bench.stop(process)["status"] == 3
+
+
+def test_sigkill_leaves_no_folder(tmp_path: Path) -> None:
+    """If the process that made a folder is killed, the folder is deleted."""
+    code = (
+        "import os, signal\nfrom course_pkg.checking.commands.workbench import CommandFolders\n"
+        "bench = CommandFolders(lambda name: name)\nbench.folder([], {'arm.py': ''})\n"
+        "os.kill(os.getpid(), signal.SIGKILL)"
+    )
+    subprocess.run(
+        [sys.executable, "-c", code], env={**os.environ, "TMPDIR": str(tmp_path)}, check=False, timeout=30
+    )
+    eventually(lambda: not list(tmp_path.iterdir()))
 
 
 def test_close_leaves_no_folder_and_no_process(tmp_path: Path) -> None:

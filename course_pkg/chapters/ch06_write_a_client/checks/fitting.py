@@ -187,7 +187,7 @@ def _cases(context: CheckContext) -> list[Case]:
 class Started:
     """One run of the program; the program has to call the service in `namespace`.
 
-    The program either runs in this namespace, or getGeometry is remapped to it.
+    Either the program runs in this namespace, or getGeometry is remapped to a name in this namespace.
     """
 
     def __init__(self, context: CheckContext, folder: Folder, case: Case, namespace: str) -> None:

@@ -107,7 +107,7 @@ ERRORS = [
 def wait_for_another_call(context: CheckContext) -> None:
     """Take from a filled and an empty basket; put an item into the basket while a client is waiting.
 
-    After that, use many clients.
+    At the end, let many clients call both services at the same time.
     """
     *names, another = [f"/{context.random.word()}" for _ in range(3)]
     context.prepare(KERNEL_CODE)

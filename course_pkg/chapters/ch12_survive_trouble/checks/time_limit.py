@@ -35,7 +35,7 @@ class CheckedCall:
 
 checked_call = CheckedCall()
 """
-BUSY = 0.2  # A thread that waits without a pause uses more than this CPU time (s) within LONG s.
+BUSY = 0.2  # A loop without a sleep uses more than this CPU time (s) within LONG s.
 ERRORS = [
     (
         matches("TimesUp"),

@@ -269,7 +269,8 @@ def _lines(out: str) -> list[str]:
 def _volumes(out: str, shapes: set[str]) -> list[str]:
     """Return the lines with a volume.
 
-    A line with a volume is a number alone, "volume" and a number, or matches a text in `shapes`.
+    A line contains a volume if it is only a number, if it is "volume" and a number, or if it matches a text
+    in `shapes`.
 
     Numbers in all other lines, such as a number of attempts or seconds, are not volumes.
     """
