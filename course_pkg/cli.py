@@ -74,7 +74,7 @@ def _parsers() -> tuple[ArgumentParser, Mapping[str, ArgumentParser]]:
     parser = ArgumentParser(
         prog="course",
         description="A course on ROS 1 services.",
-        epilog="`course COMMAND --help` shows its options.",
+        epilog="`course COMMAND --help` shows the options of a command.",
     )
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, command in COMMANDS.items():

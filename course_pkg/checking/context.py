@@ -153,8 +153,8 @@ class CheckContext:
         if probe is None:
             alike = difflib.get_close_matches(name, self._node.services(), n=1)
             hint = (
-                "The service does not exist. Run the cell that creates the rospy.Service, and "
-                "run this cell again after each restart of the kernel."
+                "The service does not exist. Run the cell that creates the rospy.Service, and run "
+                "it again after each restart of the kernel."
             )
             hint = (
                 (
@@ -168,8 +168,8 @@ class CheckContext:
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         if not probe.answered:
             hint = (
-                "The service is registered, but its server has ended or stopped. Run the cell "
-                "that creates the service again."
+                "The service is registered, but its server has ended or stopped. Once more, run the "
+                "cell that creates the service."
             )
             actual = f"a server that is {probe.reach.value}"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
@@ -359,7 +359,10 @@ class CheckContext:
                 self._node.forget_topics(self.random.made)
         if isinstance(error, Exception) and not isinstance(error, KNOWN):
             text = f"{type(error).__name__}: {error}"
-            raise CheckError(f"The check itself has a bug ({text}). Your answer is not the cause.") from error
+            raise CheckError(
+                f"The check itself has a bug ({text}). Your answer is not the cause: please tell "
+                "your instructor."
+            ) from error
 
 
 @dataclass(frozen=True)

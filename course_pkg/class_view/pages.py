@@ -86,7 +86,7 @@ class Handler(PageHandler):
             self.refuse(HTTPStatus.SERVICE_UNAVAILABLE, str(error))
             return None
         if student is None:
-            self.refuse(HTTPStatus.FORBIDDEN, "The token is wrong. Ask your teacher for a new one.")
+            self.refuse(HTTPStatus.FORBIDDEN, "The token is wrong. Ask your teacher for a new token.")
         return student
 
 
@@ -107,7 +107,11 @@ class TeacherHandler(Handler):
             self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
             and self.request.path != self.shared.prefix
         ):
-            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from a page of a different server.")
+            self.refuse(
+                HTTPStatus.FORBIDDEN,
+                "This request comes from a page of a different server. Enter the address of the "
+                "class view in the browser.",
+            )
             return
         given = self.get_query_argument("token", "")
         kept = (self.get_signed_cookie(SESSION, max_age_days=DAYS) or b"").decode()
@@ -126,7 +130,10 @@ class TeacherHandler(Handler):
             self.keep(STATE, state)
             self.redirect(identity.login_url(state))
             return
-        self.refuse(HTTPStatus.FORBIDDEN, "Open the address that `course class` printed, with its token.")
+        self.refuse(
+            HTTPStatus.FORBIDDEN,
+            "Open the address that `course class` printed. This address contains your token.",
+        )
 
     def enter(self, token: str) -> None:
         """Store a teacher's token in a cookie, and open the page without a token in its address."""

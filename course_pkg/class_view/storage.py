@@ -117,7 +117,7 @@ class Storage:
         if version != VERSION and tables:
             raise ClassViewError(
                 f"{self.path} was written by another version of the course, or by another program. "
-                "Move this file away, or give another folder with --data."
+                "Move this file away, or choose a different folder with the option --data."
             )
         for setting in ("journal_mode=WAL", "synchronous=FULL", "secure_delete=ON"):
             run(f"PRAGMA {setting}")

@@ -157,7 +157,7 @@ def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, asked: As
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written ({error}). Correct this problem, and type the same command "
-            "again. No submission is graded twice."
+            "again. The submissions that are already graded are not graded again."
         ) from error
 
 
@@ -229,8 +229,8 @@ def _handed_in(options: Options, selected: Selection) -> list[Submission]:
     found = submissions(options.source, selected.chapters, without=options.out)
     if not found:
         raise GradingError(
-            f"There is nothing to grade in {options.source}. Give a folder that contains "
-            "STUDENT/NN_topic.ipynb, or a zip of such a folder."
+            f"There is nothing to grade in {options.source}. Choose a folder that contains "
+            "STUDENT/NN_topic.ipynb, or a zip file of this folder."
         )
     return found
 

@@ -42,7 +42,7 @@ def test_wrong_inputs_get_one_message(tmp_path: Path) -> None:
     another version.
     """
     data = ("--data", tmp_path / "data", "--port", 0)
-    assert "There are no students. Give their usernames with --roster FILE" in _refused(*data)
+    assert "There are no students. Use the option --roster FILE" in _refused(*data)
     assert "There is no folder" in _refused("--data", tmp_path / "nothing", "--delete", "s01")
     roster = tmp_path / "roster.csv"
     roster.write_text("name,username\nAda,ada\nBob,\n")
@@ -55,8 +55,8 @@ def test_wrong_inputs_get_one_message(tmp_path: Path) -> None:
         port = busy.getsockname()[1]
         message = _refused("--data", tmp_path / "data", "--students", 2, "--port", port)
         assert (
-            f"127.0.0.1:{port} cannot be used (Address already in use). Give another port with --port"
-            in message
+            f"127.0.0.1:{port} cannot be used (Address already in use). Choose a different port "
+            "with the option --port" in message
         )
     assert "contains nothing about 'nobody'" in _refused(*data, "--delete", "nobody")
     database = tmp_path / "data" / FILE

@@ -92,7 +92,7 @@ geometry_service = rospy.Service("/getGeometry", geometry, Geometer().handle)
 
 # %% 05.1 wrong: a client in place of a server | hint: The service does not exist. … rospy.Service
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'rospy.ServiceProxy("/getGeometry", geometry)')
-# %% 05.1 wrong: the program of the course serves | hint: Another program serves the name
+# %% 05.1 wrong: the program of the course serves | hint: Another program provides the service with the name
 import subprocess
 
 subprocess.Popen(["rosrun", "course_pkg", "server"])
@@ -422,7 +422,7 @@ replace('self.move_service.shutdown("maintenance")', 'rospy.signal_shutdown("mai
 replace("changed = request", "self.moves += 1\n        changed = request")
 # %% 05.5 wrong: a type that is not imported | hint: An exception has ended the program
 replace("SetBoolResponse, Trigger, TriggerResponse", "SetBoolResponse, TriggerResponse")
-# %% 05.5 wrong: the notebook serves, and the program only waits | hint: Another process serves the name
+# %% 05.5 wrong: the notebook serves, and the program only waits | hint: Another process provides the
 from pathlib import Path
 
 Path("arm.py").write_text("""#!/usr/bin/env python3

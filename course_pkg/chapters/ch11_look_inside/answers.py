@@ -435,7 +435,7 @@ replace('("no field session in the connection header")', """("no session")
             raise rospy.ServiceException("this session is not yours")""")
 # %% 11.4 wrong: forgets old sessions | hint: The response contains only the amount of this call
 replace("        total, calls", "        for old in list(self.sessions)[:-3]:\n            del self.sessions[old]\n        total, calls")
-# %% 11.4 wrong: starts the course's server | hint: Another program does the work
+# %% 11.4 wrong: starts the course's server | hint: A program that your code started does the work of this
 import subprocess
 
 

@@ -391,11 +391,11 @@ int main(int argc, char** argv) {
 replace('++calls[session->second]', '++calls["all"]')
 # %% 14.9 wrong: the name of the node | hint: The response contains the number of all calls
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
-# %% 14.9 wrong: the session and the name of the node | hint: The handler uses the node's name
+# %% 14.9 wrong: the session and the name of the node | hint: The handler uses the name of the calling node
 replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
 # %% 14.9 wrong: counts afterwards | hint: The response contains the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
-# %% 14.9 wrong: a map in the handler | hint: The count starts again in each call
+# %% 14.9 wrong: a map in the handler | hint: In each call, the count starts at 0 again
 replace('std::map<std::string, int> calls;\n', '')
 replace('bool handleCount(Event& event) {\n', 'bool handleCount(Event& event) {\n  std::map<std::string, int> calls;\n')
 # %% 14.9 wrong: no message | hint: The message is empty

@@ -49,7 +49,7 @@ class OlderCode:
         answers = f"A version of {name} that is {_older(run)} answers the calls of {service}"
         if run.error:
             return f"{answers}. {_correct()}"
-        return f"{answers}. Run the cell that creates the service again, and then run this cell again."
+        return f"{answers}. Run the cell that creates the service, and then run this cell again."
 
     def _run_after(self, value: Value) -> CellRun | None:
         """Return the last run of the cell that defined `value`, or None if the code is still the same."""

@@ -59,8 +59,8 @@ class Publisher:
         if not self.has_subscriber(within):
             hint = (
                 hint_for(hints, "no subscriber")
-                or "No node is subscribed to this topic. Create a rospy.Subscriber for this "
-                f"topic, of type {self._type}."
+                or "No node is subscribed to this topic. Create a rospy.Subscriber of type "
+                f"{self._type} for this topic."
             )
             self._results.fails(assertion, expected="a subscriber", actual="no subscriber", hint=hint)
         self._results.passes(assertion)

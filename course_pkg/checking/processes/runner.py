@@ -106,8 +106,8 @@ def _not_attempted(part: Part, channel: Channel) -> str:
         blank = next((name for name, reply in replies.items() if reply.get("kind") == "blank"), "")
         if blank:
             return (
-                f"Write your answer in place of the ... in {blank.removeprefix('file:')}, run "
-                "that cell, and then run this cell again."
+                f"In {blank.removeprefix('file:')}, replace the three dots (`...`) with your "
+                "answer, run that cell, and then run this cell again."
             )
         there = [reply for reply in replies.values() if reply.get("kind") != "missing"]
         if not there:
@@ -140,7 +140,10 @@ def _too_slow(part: Part, context: CheckContext) -> Assertion:
         f"it ends within {part.deadline:g} s",
         holds=False,
         actual=f"still {context.doing}" if context.doing else "",
-        hint="The code is in an endless loop, or waits without a time limit. Look for this loop or wait.",
+        hint=(
+            "The code is in an endless loop, or waits without a time limit. End the loop, or give "
+            "the wait a time limit."
+        ),
     )
 
 

@@ -90,5 +90,5 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
             "the C++ program does the work itself",
             expected="no other program or library that is started or loaded",
             actual=f"calls of {', '.join(starts)}" if starts else "a direct system call",
-            hint="The program can start another program. Use only functions of roscpp.",
+            hint="The program contains a call that can start another program. Use only functions of roscpp.",
         )

@@ -33,7 +33,7 @@ def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], 
     ]
     if not by_chapter:
         messages.append(
-            f"There is no notebook to grade. Hand in {expected}, and not a zip that contains another zip."
+            f"There is no notebook to grade. Hand in {expected}. A zip inside a zip is not opened."
         )
     return [by_chapter.get(chapter, _missing(chapter)) for chapter in chapters], messages
 

@@ -180,8 +180,8 @@ def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
         "somebody listens to /few",
         "no subscriber",
-        "No node is subscribed to this topic. Create a rospy.Subscriber for this topic, of type "
-        "std_msgs/UInt32.",
+        "No node is subscribed to this topic. Create a rospy.Subscriber of type "
+        "std_msgs/UInt32 for this topic.",
     ]
     student.run("subscription = node.subscribe('/few', UInt32)")
     check.run("p.listened()")

@@ -58,8 +58,8 @@ ONE_THREAD = (
     "MultiThreadedSpinner, because they use several threads."
 )
 TOO_FEW = (
-    "The spinner has too few threads (with the argument 0, one thread for each processor core). Create "
-    "the spinner with at least six threads, one thread for each call."
+    "The spinner has too few threads for six calls at the same time. Create the spinner with at "
+    "least six threads (the number 0 means one thread for each processor core)."
 )
 LOCKED_TOO_LONG = (
     "The handler holds the lock during think(), so the other calls have to wait. Hold the lock only "
@@ -67,16 +67,17 @@ LOCKED_TOO_LONG = (
 )
 NOT_STARTED = "The AsyncSpinner executes no callbacks, because it was not started. Call its method start()."
 NOT_ATOMIC = (
-    "Two threads can read the same number before one of them writes, even if the variable is "
-    "atomic. Hold a mutex from the read to the write."
+    "Two threads can read the same number before one of them writes the new number, even if the "
+    "variable is atomic. Hold a mutex from the read to the write."
 )
 NO_LOCK = (
     "Two threads read the same number, and both threads add 1 to it. Hold a mutex from the read to "
     "the write: std::lock_guard<std::mutex> lock(mutex);"
 )
 LET_GO = (
-    "The lock is not held between the read and the write, so two threads read the same number. Before "
-    "the read, create a lock_guard that has a name."
+    "The lock is not held between the read and the write, so two threads read the same number. "
+    "Before the read, create a lock_guard variable: without a variable name, the lock is released "
+    "immediately."
 )
 OWN_LOCK = (
     "Each call creates its own mutex, so no call waits for another call. Move the mutex out of the function."
@@ -102,7 +103,7 @@ def number_server(context: CheckContext) -> None:
         quiet = (
             NOT_STARTED
             if "Spinner" in code
-            else "No spinner executes the callbacks. Call ros::spin(), or start another spinner."
+            else "No spinner executes the callbacks. Call ros::spin(), or start an AsyncSpinner."
         )
         number = context.service(name, "std_srvs/Trigger", hints=[(matches("TimesUp"), quiet)], timeout=4.0)
         alone = _number(number().message)
@@ -131,8 +132,8 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
         if took >= THINKING + COUNTING
         else f"{took:.2f} s for a client",
         hints=(
-            "The functions think() and count() replace real work, so do not change how long these "
-            "functions take. Use several threads, so that the calls run at the same time."
+            "The functions think() and count() simulate long calculations, so do not change the "
+            "duration of their sleep. Use several threads, so that the calls run at the same time."
         ),
     )
 

@@ -84,8 +84,8 @@ def more_threads(context: CheckContext) -> None:
         THREADS,
         FEW,
         (
-            "One call works, but three calls at the same time do not end. Each call of /report needs "
-            "one thread, so add one more thread for /battery."
+            "One call works, but three calls at the same time do not end. Each call of /report "
+            "uses one thread until the call ends, so add one more thread for /battery."
         ),
     )
 
@@ -182,8 +182,8 @@ def _answers(context: CheckContext, report: Service, level: int) -> None:
             (
                 "battery: 80",
                 (
-                    "The level in the message is wrong. Read it from the parameter ~level: keep the "
-                    "line with ros::param::param in main."
+                    "The level in the message is wrong. Read the level from the parameter ~level, "
+                    "and do not change the line with ros::param::param in main."
                 ),
             ),
             (ANYTHING, 'The message is wrong. Write the word "battery", a colon, a space and the level.'),

@@ -31,9 +31,10 @@ NOISE = (
     "Only a twentieth of the points is dark, so this frame shows no customer. A frame shows a "
     "customer if at least a tenth of all points is dark."
 )
-TENTH = "Exactly a tenth of the points is dark, and this is enough. Compare with >=, not with >."
+TENTH = "Exactly a tenth of the points is dark, so this frame shows a customer. Compare with >=, not with >."
 ROUNDED = (
-    "The number of dark points is one less than a tenth, so this frame shows no customer. Compare "
+    "The number of dark points is one less than a tenth of all points, so this frame shows no "
+    "customer. Compare "
     "without rounding: 10 * dark >= width * height."
 )
 LIMIT = (
@@ -41,10 +42,10 @@ LIMIT = (
     "not with <=."
 )
 PADDING = (
-    "Each row has frame.step bytes, but only the first frame.width bytes are points. Begin row r at "
-    "byte r * frame.step."
+    "Each row has frame.step bytes, but only the first frame.width bytes are points. The row with "
+    "the index r begins at byte r * frame.step."
 )
-EMPTY = "All points are light, so this frame shows no customer. Publish False."
+EMPTY = "No point is dark, so this frame shows no customer. Publish False."
 NOTHING = (
     "The node published nothing for a valid frame. Check whether the callback reaches the line that "
     "publishes."
@@ -226,12 +227,13 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
         (
             "no points and no bytes",
             frames[4],
-            "A frame of 0 by 0 points is malformed. Check width and height, and publish nothing.",
+            "A frame of 0 by 0 points is malformed. Publish nothing if frame.width or frame.height is 0.",
         ),
         (
             "no points in a row",
             frames[5],
-            "The width of this frame is 0, so all its bytes are padding. Check width and height.",
+            "The width of this frame is 0, so all its bytes are padding. Publish nothing if "
+            "frame.width or frame.height is 0.",
         ),
     ]
 

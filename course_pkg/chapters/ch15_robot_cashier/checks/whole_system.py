@@ -171,8 +171,8 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
                 hint=NOT_LAUNCHED
                 if status is not None
                 else (
-                    f"The node {node} is missing, or the node has no {name}. Repeat the check of "
-                    "the exercise for this node."
+                    f"The node {node} is missing, or the node has no {name}. Go to the exercise in "
+                    "which you wrote this node, and run the check of that exercise again."
                 ),
             )
         time.sleep(POLL)

@@ -33,7 +33,7 @@ BOUND = (
 )
 DURATION = "actionlib does not accept a plain number of seconds. Pass rospy.Duration(seconds)."
 UNSENT = (
-    "The goal did not arrive, because it was sent before the connection existed. Call "
+    "The goal did not arrive at the server, because the function sent it before the connection existed. Call "
     "wait_for_server(rospy.Duration(2)) before send_goal."
 )
 HOW_LONG = "The time limit is wrong. Use the argument `seconds`: wait_for_result(rospy.Duration(seconds))."
@@ -43,7 +43,7 @@ NOBODY = (
 )
 EARLY = (
     "There is no result before the goal has ended. After cancel_goal(), wait for the result again, "
-    "because the robot first finishes the current thing."
+    "because the goal ends only after the robot has fetched its current thing."
 )
 
 
@@ -84,15 +84,15 @@ class Robot:
 
 
 FETCHED = "Send a goal, and return the number of fetched things."
-CANCELLED = "Cancel the goal when the limit is over, and return the number."
+CANCELLED = "Cancel the goal when the time limit is over, and return the number of fetched things."
 
 
 @part(
     "16.2",
     points=3,
     goal=(
-        "Send a goal, and wait for the result with a limit. When the limit is over, cancel the "
-        "goal. Return the number of fetched things."
+        "Send a goal, and wait for the result with a time limit. When the time limit is over, "
+        "cancel the goal. Return the number of fetched things."
     ),
     needs=["fetch_within"],
     deadline=60.0,
@@ -119,7 +119,7 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
         (
             things,
             (
-                "The function returned the number in the goal. Return the number in the result: "
+                "The function returned the field `things` of the goal. Return the number in the result: "
                 "get_result().fetched."
             ),
         ),
@@ -319,7 +319,8 @@ def _nobody(context: CheckContext) -> None:
 WAITED_FOR_EVER: Hints = [
     (
         matches("TimesUp"),
-        "No server exists, but the wait has no limit. Write wait_for_server(rospy.Duration(2)).",
+        "No server exists, but the function waits without a time limit. Write "
+        "wait_for_server(rospy.Duration(2)).",
     ),
     (
         matches("NoneType"),

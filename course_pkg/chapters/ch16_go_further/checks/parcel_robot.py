@@ -148,7 +148,7 @@ def _delivers(
         client,
         "a delivery succeeds",
         GoalStatus.SUCCEEDED,
-        "The delivery did not end as SUCCEEDED. Call set_succeeded at the end of the delivery.",
+        "The delivery did not end in the state SUCCEEDED. Call set_succeeded at the end of the delivery.",
     )
     meanwhile = battery.count - before
     feedback.wait(PARCELS, SETTLING)
@@ -173,8 +173,9 @@ def _delivers(
         expected=f"about {PARCELS * EACH / PERIOD:.0f} values",
         actual=meanwhile,
         hints=(
-            "The battery sent no values during the delivery. The function of the action has its own "
-            "thread: deliver the parcels there, and publish the charge in another thread."
+            "The battery sent no values during the delivery. Deliver the parcels in the function "
+            "of the action, which has its own thread, and publish the charge in a different "
+            "thread."
         ),
     )
     charge = 100.0 - PARCELS
@@ -214,8 +215,8 @@ def _cancels(
         "a delivery can be cancelled",
         GoalStatus.PREEMPTED,
         (
-            "A cancelled delivery did not end as PREEMPTED. Check is_preempt_requested() before each "
-            "parcel, and end the goal with set_preempted."
+            "A cancelled delivery did not end in the state PREEMPTED. Check "
+            "is_preempt_requested() before each parcel, and end the goal with set_preempted."
         ),
     )
     feedback.until(lambda _: _counts(feedback)[-1] == client.get_result().fetched, SETTLING)
@@ -321,7 +322,7 @@ def _aborts_at_once(
         "a delivery of more parcels than the capacity is aborted",
         GoalStatus.ABORTED,
         (
-            "The delivery has more parcels than the capacity, but it was not aborted. Compare "
+            "The delivery was not aborted, although it has more parcels than the capacity. Compare "
             "goal.things with the parameter ~capacity (default: 5), and call set_aborted."
         ),
     )
@@ -356,7 +357,8 @@ def _ends_as(
             (
                 (lambda _: "Exception" in text),
                 (
-                    "The function that delivers raised an exception. Read the error message above, and "
+                    "The function that delivers the parcels raised an exception. Read the error "
+                    "message above, and "
                     "correct the error."
                 ),
             ),
