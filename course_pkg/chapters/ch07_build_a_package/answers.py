@@ -405,7 +405,7 @@ replace("catkin_make\nsource devel/setup.bash\n", "source devel/setup.bash\ncatk
 solution()
 # %% 07.8 right: with comments
 replace("int32 number\n---\nstring state", "# 0 or 1; anything else is refused.\nint32  number\n---\nstring state  # OFF or ON")
-# %% 07.8 wrong: a bool | hint: has the type bool. Use the type
+# %% 07.8 wrong: a bool | hint: has the type bool. Copy the type
 replace("int32", "bool")
 # %% 07.8 wrong: in one half | hint: state is on the wrong side
 replace("---\nstring state", "string state\n---")
