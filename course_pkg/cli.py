@@ -1,8 +1,8 @@
 """Run the commands of `course`.
 
 Each package declares its commands in its module `commands.py`. This module imports only the standard library
-and the modules `commands.py`, so any Python interpreter can run this module before the set-up. Each command
-imports other modules when it runs.
+and the modules `commands.py`, so any Python interpreter can run it before the set-up. The function of each
+command imports all other modules when the command runs.
 """
 
 from __future__ import annotations
@@ -68,13 +68,13 @@ def parse(arguments: Sequence[str]) -> SimpleNamespace:
 
 def _parsers() -> tuple[ArgumentParser, Mapping[str, ArgumentParser]]:
     """Return the parser of `course`, and the parser of each subcommand."""
-    # The import takes 10 ms, and the command `run` does not need it.
+    # The import takes 10 ms, and the command `run` does not need argparse.
     from argparse import ArgumentParser
 
     parser = ArgumentParser(
         prog="course",
         description="A course on ROS 1 services.",
-        epilog="`course COMMAND --help` shows its options.",
+        epilog="`course COMMAND --help` shows the options of a command.",
     )
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, command in COMMANDS.items():
@@ -107,7 +107,7 @@ def _dispatch(arguments: Sequence[str]) -> int:
 
 
 def _enter_environment(command: Command, arguments: Sequence[str]) -> None:
-    """Set up the missing parts of the environment, and set its environment variables.
+    """Create the missing parts of the environment, and set the environment's variables.
 
     For a command that imports libraries, the Python interpreter of the environment replaces this process.
     """

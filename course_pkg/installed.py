@@ -1,7 +1,7 @@
-"""The only place that decides whether this package is in a checkout or in a shared installation.
+"""Only this module decides whether the package is in a checkout or in a shared installation.
 
-In a checkout, the notebooks are beside the package, and one user owns all files. A shared installation
-(`course install`) is read-only, and each user has an own folder with notebooks, workspace and results.
+In a checkout, the notebooks are next to the package, and one user owns all files. A shared installation
+(`course install`) is read-only, and each user has a separate folder with notebooks, workspace and results.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ import os
 from pathlib import Path
 
 RECORD = "installation.json"  # a file in the folder of each complete version of a shared installation
-DATA = ".course"  # in a user's own folder: results, settings of JupyterLab, logs
+# a folder in the user's own folder: it contains the results, the settings of JupyterLab, and logs
+DATA = ".course"
 
 
 def version_folder(checkout: Path) -> Path | None:

@@ -1,7 +1,7 @@
 """The folder for a student's results and own packages.
 
 Each checkout has its own folder outside the checkout. With a shared installation, the folder is in the user's
-own folder, so that it stays the same after an upgrade.
+own folder, so that an upgrade does not change it.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 Value = TypeVar("Value")
-INTERVAL = 0.01  # This is the time in s between two evaluations of a condition.
+INTERVAL = 0.01  # time in s between two evaluations of a condition
 MOST = 4.0  # On a busy machine, a time limit grows by at most this factor.
 
 

@@ -27,7 +27,7 @@ class Shown:
     ename: str = ""
     evalue: str = ""
     traceback: list[str] = field(default_factory=list)
-    others: str = ""  # The text that other cells printed at the same time.
+    others: str = ""  # The text that other cells printed while this cell ran.
 
     @property
     def error_lines(self) -> list[str]:
@@ -39,7 +39,7 @@ class NotebookKernel:
     """An IPython kernel process with its client."""
 
     def __init__(self, env: Mapping[str, str] | None = None) -> None:
-        # With TCP, another program could take the chosen port before the kernel opens it.
+        # With TCP, another program could use the chosen port before the kernel listens on this port.
         self._folder = tempfile.TemporaryDirectory(prefix="kernel-")
         sockets = str(Path(self._folder.name) / "kernel.json")
         self.manager = KernelManager(kernel_name="python3", transport="ipc", connection_file=sockets)

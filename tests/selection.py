@@ -46,7 +46,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 class Selection:
-    """The passed groups, and for each group the digest of its files."""
+    """The groups that passed; for each group, the object stores the digest of the group's files."""
 
     def __init__(self, file: Path) -> None:
         self._file = file

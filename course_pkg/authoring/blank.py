@@ -48,7 +48,10 @@ def handed_out(exercise: str, source: str) -> str:
 
 
 def blank(source: str) -> str:
-    """Return the source of an exercise cell without the answer. Raises AuthoringError if no rule fits it."""
+    """Return the source of an exercise cell without the answer.
+
+    Raises AuthoringError if no rule fits the cell.
+    """
     first, newline, rest = source.partition("\n")
     if not first.startswith("%%"):
         return _blank_python(source)
@@ -203,7 +206,7 @@ def _parsed(source: str) -> tuple[str, ast.Module]:
     try:
         return masked, ast.parse(masked)
     except SyntaxError as error:
-        raise AuthoringError(f"Line {error.lineno} is not Python: {error.msg}.") from error
+        raise AuthoringError(f"Line {error.lineno} is not valid Python: {error.msg}.") from error
 
 
 def _masked(line: str) -> str:

@@ -103,7 +103,7 @@ def _about_check(name: str, check: str, report: str) -> str:
 def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
     """Return the names sorted by estimated time, with the longest time first.
 
-    Otherwise, a long notebook could start last.
+    With another order, a long notebook could start last.
 
     The estimate grows with the number of a notebook's cells and with the deadlines of its checks.
     """
@@ -165,7 +165,7 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
 def _by_files(folder: Path) -> Config:
     """Return settings for a kernel that uses sockets in `folder`.
 
-    With TCP, another program could take the chosen port before the kernel opens it.
+    With TCP, another program could take the chosen port before the kernel opens the port.
     """
     return Config(KernelManager={"transport": "ipc", "connection_file": str(folder / "kernel.json")})
 

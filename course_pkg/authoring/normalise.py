@@ -101,7 +101,7 @@ def _output(output: Output) -> Output:
 
 
 def _merged(outputs: list[Output]) -> list[Output]:
-    """Join successive outputs of the same stream, because their number can differ between runs."""
+    """Join successive outputs of the same stream, because the number of outputs can differ between runs."""
     merged: list[Output] = []
     for output in outputs:
         last = merged[-1] if merged else Output()

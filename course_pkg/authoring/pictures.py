@@ -32,9 +32,9 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
     """Add a still picture to each panel of `executed`; `executed` itself is changed.
 
     The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
-    show a recording, contain measured times, so they differ in each run. The function uses such a picture of
-    the notebook `stored` if nothing has changed in the code of the cells up to this cell, in the drawing
-    code, and in the output's data in other MIME types.
+    show a recording, contain measured times, so they differ in each run. The function uses the picture in the
+    notebook `stored` instead if three things have not changed: the code of the cells up to this cell, the
+    drawing code, and the output's data in other MIME types.
     """
     panels = SavedPanels(executed)
     before = {cell["id"]: cell for cell in code_cells(stored)}

@@ -13,9 +13,9 @@ from course_pkg.checking.report import Assertion
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.types import Plain
 
-# A wrong value, a pattern made by `matches`, or a function that returns whether the actual value matches. If
-# such a function raises an exception, for example because the value has another type, the value does not
-# match.
+# A condition is a wrong value, a pattern made by `matches`, or a function that returns whether the actual
+# value matches. If such a function raises an exception, for example because the value has another type, the
+# value does not match.
 Condition: TypeAlias = "Plain | bytes | re.Pattern[str] | Callable[[Any], object]"
 ANYTHING: Condition = re.compile("")  # This condition matches every value, for the last hint of a list.
 # One hint for every wrong value, or pairs (condition, hint): the first condition that matches selects the
@@ -82,10 +82,10 @@ def _fits(condition: Condition, actual: Json, near: float) -> bool:
 
 
 class Results:
-    """The assertions that were checked, and the last call of the check."""
+    """The assertions that were checked, and the last call that the check made."""
 
     def __init__(self) -> None:
-        # The function returns the text of the call; a report needs this text only if a check fails.
+        # This function returns the last call as text; a report needs this text only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
         self.marked: set[str] = set()  # The check has marked these goals.

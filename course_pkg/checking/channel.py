@@ -1,4 +1,4 @@
-"""The connection between the check client in a kernel, which is not trusted, and the check runner.
+"""The connection between the check runner and the check client, which runs in a kernel that is not trusted.
 
 The client and the runner use a stream socket, with one JSON object of at most `LIMIT` bytes in each line. The
 runner never unpickles or evaluates received data.

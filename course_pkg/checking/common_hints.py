@@ -8,7 +8,7 @@ NO_RETURN = "The function ended without a return line, so it returned None. Add 
 # After a ServiceException, the error message is from the handler. After a wrong return value, the error
 # message is from rospy.
 REFUSED_BY_HANDLER = matches("cannot process request: (?!(service )?handler returned)")
-# rospy sends this error message to the client if a handler raises another exception than ServiceException.
+# rospy sends this error message to the client if a handler raises an exception other than ServiceException.
 HANDLER_RAISED: Hints = [
     (
         matches(r"error processing request: .*takes 1 positional argument but 2 were given"),
@@ -27,8 +27,8 @@ HANDLER_RAISED: Hints = [
     ),
     (
         matches(r"error processing request: '\w+Request' object has no attribute"),
-        "The request has no field with this name. Compare the name with the output of rossrv "
-        "show for the type.",
+        "The request has no field with this name. Compare the name with the fields that `rossrv "
+        "show` prints for the service type.",
     ),
     (
         matches(r"error processing request: (local variable .* referenced|cannot access local variable)"),
@@ -37,6 +37,9 @@ HANDLER_RAISED: Hints = [
     ),
     (
         matches(r"error processing request: name '\w+' is not defined"),
-        ("The handler uses a name that does not exist. Compare the name with the line that defines it."),
+        (
+            "The handler uses a name that does not exist. Compare the spelling of the name with "
+            "the line that defines this name."
+        ),
     ),
 ]

@@ -61,11 +61,11 @@ class CheckContext:
     # -- the goals of a part, for partial credit
 
     def fulfilled(self, goal: str) -> None:
-        """Mark a goal of the part as fulfilled: it earns its points even if a later assertion fails.
+        """Mark a goal of the part as fulfilled: the goal earns its points even if a later assertion fails.
 
         A goal earns points only if all assertions before this call hold. Put the part's main goal first, so
         that a program that does nothing, or refuses everything, earns no points for a later goal. If the goal
-        was also examined with `goal`, it must not have failed there.
+        was also examined with `goal`, none of its assertions may have failed.
         """
         self._results.marked.add(goal)
 
@@ -127,7 +127,8 @@ class CheckContext:
         """Return the service `name` of type `kind`, ready to be called; each call takes at most `timeout` s.
 
         `kind` is a type's name, or a class. Asserts that a server of this type is registered and responds.
-        `hints` are for the error message of a failed call; error messages of ROS are explained without hints.
+        `hints` are for the error message of a failed call; ROS's own error messages are explained even
+        without hints.
         """
         self.doing = f"waiting for {name}"
         label = "the service" if self.random.made(name) else name
@@ -152,8 +153,8 @@ class CheckContext:
         if probe is None:
             alike = difflib.get_close_matches(name, self._node.services(), n=1)
             hint = (
-                "The service does not exist. Run the cell that creates the rospy.Service, and "
-                "run this cell again after each restart of the kernel."
+                "The service does not exist. Run the cell that creates the rospy.Service, and run "
+                "it again after each restart of the kernel."
             )
             hint = (
                 (
@@ -167,8 +168,8 @@ class CheckContext:
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         if not probe.answered:
             hint = (
-                "The service is registered, but its server has ended or stopped. Run the cell "
-                "that creates the service again."
+                "The service is registered, but its server has ended or stopped. Once more, run the "
+                "cell that creates the service."
             )
             actual = f"a server that is {probe.reach.value}"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
@@ -233,7 +234,7 @@ class CheckContext:
     def fake_node(
         self, name: str, topic: str, kind: str, *, alive: bool = True, reused: bool = False
     ) -> FakeNode:
-        """Register the node `name` as a publisher of `topic`, running or killed; see peers/node.py."""
+        """Register a fake node `name` as a publisher of `topic`; it looks like a running or a killed node."""
         return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive, reused=reused))
 
     # -- the student's topics
@@ -247,7 +248,7 @@ class CheckContext:
         return self._open.enter_context(Subscription(self._results, self._node, topic, cls, label))
 
     def _label(self, topic: str) -> str:
-        """Return the text of the topic for assertions, which is the same in every run."""
+        """Return the text that assertions show for the topic; the text is the same in every run."""
         return "the topic" if self.random.made(topic) else topic
 
     # -- what the student wrote, in the kernel
@@ -284,9 +285,9 @@ class CheckContext:
     def prepare(self, code: str, within: float = 5.0) -> None:
         """Run the check's own `code` in the kernel, separately from the student's names.
 
-        The names that it defines can be arguments of the student's function: `context.run("close",
-        Its("service"))`. The student's code can modify these objects, so keep each record in an object of
-        `place` instead. Raises CheckError if the code fails.
+        The names that `code` defines can be arguments of the student's function: `context.run("close",
+        Its("service"))`. The student's code can modify these objects, so store the data of the check in an
+        object of `place` instead. Raises CheckError if the code fails.
         """
         error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:
@@ -297,8 +298,8 @@ class CheckContext:
         """Define `name` in the kernel as a proxy for `item`, which is in this process; see checking/placed.
 
         The proxy has the methods and attributes that the class of `item` declares with `@remote`. The proxy
-        can be an argument of the student's function, `context.run("move", Its("shelf"))`, and code of
-        `prepare` can use the proxy. Keep all data that the check relies on in `item`, not in code of
+        can be an argument of the student's function, such as in `context.run("move", Its("shelf"))`. The code
+        of `prepare` can also use the proxy. Keep all data that the check relies on in `item`, not in code of
         `prepare`.
         """
         if self._placed is None:
@@ -358,7 +359,10 @@ class CheckContext:
                 self._node.forget_topics(self.random.made)
         if isinstance(error, Exception) and not isinstance(error, KNOWN):
             text = f"{type(error).__name__}: {error}"
-            raise CheckError(f"The check itself has a bug ({text}). Your answer is not the cause.") from error
+            raise CheckError(
+                f"The check itself has a bug ({text}). Your answer is not the cause: please tell "
+                "your instructor."
+            ) from error
 
 
 @dataclass(frozen=True)

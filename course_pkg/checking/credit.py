@@ -23,8 +23,8 @@ class Goal:
 def goals_of(check: str, points: int, given: Sequence[str] | Mapping[str, float]) -> tuple[Goal, ...]:
     """Return the goals that an author declares for the part `check`.
 
-    A sequence divides the points equally; a mapping contains the weight of each goal. Raises ValueError if
-    `given` does not contain several goals with positive weights.
+    A sequence divides the points equally; a mapping contains the weight of each goal. Raises ValueError for a
+    single goal, for two equal goals, or for a weight that is not positive.
     """
     weights = dict(given) if isinstance(given, Mapping) else dict.fromkeys(given, 1.0)
     if given and (len(weights) < 2 or len(weights) < len(given) or min(weights.values()) <= 0):
@@ -59,6 +59,6 @@ def earned(goals: Iterable[Goal]) -> float:
 
 
 def with_fulfilled(goals: Iterable[Goal], fulfilled: Iterable[str]) -> tuple[Goal, ...]:
-    """Return the goals; only the goals with their texts in `fulfilled` are fulfilled."""
+    """Return copies of the goals; a goal is fulfilled if its text is in `fulfilled`."""
     texts = set(fulfilled)
     return tuple(replace(goal, fulfilled=goal.text in texts) for goal in goals)

@@ -52,5 +52,5 @@ class RandomInputs:
         return self._words[-1]
 
     def made(self, text: str) -> bool:
-        """Return whether `text` contains a random word; such a text cannot be the title of an assertion."""
+        """Return whether `text` contains a random word; the title of an assertion must not contain one."""
         return any(word in text for word in self._words)

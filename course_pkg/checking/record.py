@@ -25,7 +25,7 @@ PASSED = "passed"
 
 @dataclass(frozen=True)
 class PartRecord:
-    """The results of the checks of one part. A time is ISO 8601 in UTC, or "" if it is unknown."""
+    """The results of the checks of one part. A time is ISO 8601 in UTC, or "" if the time is unknown."""
 
     check: str
     verdict: str
@@ -48,8 +48,8 @@ class StudentRecord:
     def store(self, check: str, result: Mapping[str, Json]) -> str:
         """Store the result of a check; return a message if there was a problem, or "".
 
-        A damaged file is renamed, not deleted. If the file cannot be written, it does not change. This method
-        raises no error, because the report of a check must not depend on the record.
+        A damaged file is renamed, not deleted. If the file cannot be written, the old file does not change.
+        This method raises no error, because the report of a check must not depend on the record.
         """
         path = self._path(check)
         try:

@@ -60,7 +60,8 @@ class Review:
     """An instructor's decision about an answer after the check."""
 
     comment: str = ""  # This comment is for the student.
-    computed: float | None = None  # These are the points of the check, if the instructor has changed them.
+    # The check gave these points; the value is set only if the instructor has changed the points.
+    computed: float | None = None
     outdated: bool = False  # The value is true if the answer has changed since the review.
 
 

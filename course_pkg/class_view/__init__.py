@@ -5,7 +5,7 @@
 - results: one result, and the validation of what was received
 - storage: the SQLite database
 - model: what the page shows, computed from the results
-- identity: whose token it is, without a hub and with a JupyterHub
+- identity: the owner of a token, without a hub or with a JupyterHub
 - tokens: the file with one token for each student
 - service, pages: the HTTP interface
 """

@@ -29,7 +29,7 @@ from course_pkg.errors import ClassViewError
 from course_pkg.state import locked, state_folder
 
 SECRET = "secret"  # noqa: S105 -- the name of the file with the secret
-LOCK = "service"  # the folder whose lock the running service holds
+LOCK = "service"  # The running service holds the lock of this folder inside the data folder.
 
 
 def serve_class(options: SimpleNamespace) -> int:
@@ -50,12 +50,12 @@ def serve_class(options: SimpleNamespace) -> int:
                 storage.close()
     except TimeoutError as error:
         raise ClassViewError(
-            f"Another `course class` command uses {data}. End that command, or give another folder "
-            "with --data."
+            f"Another `course class` command uses {data}. End that command, or choose a different "
+            "folder with the option --data."
         ) from error
     except OSError as error:
         raise ClassViewError(
-            f"{data} cannot be used ({error.strerror}). Give another folder with --data."
+            f"{data} cannot be used ({error.strerror}). Choose a different folder with the option --data."
         ) from error
     return 0
 
@@ -64,7 +64,9 @@ def delete_student(data: Path | None, student: str) -> int:
     """Delete the results and the token of a student; return the exit status."""
     folder = data or state_folder() / "class"
     if not folder.is_dir():
-        raise ClassViewError(f"There is no folder {folder}. Give the folder of the class view with --data.")
+        raise ClassViewError(
+            f"There is no folder {folder}. Set the folder of the class view with the option --data."
+        )
     storage = Storage(folder)
     try:
         deleted = storage.delete(student)
@@ -93,8 +95,8 @@ async def _serve(
         tokens.complete(names)
         if not tokens.names:
             raise ClassViewError(
-                "There are no students. Give their usernames with --roster FILE, or the number of "
-                "students with --students N."
+                "There are no students. Use the option --roster FILE for a file with their "
+                "usernames, or --students N for N students."
             )
         names = dict(tokens.names)
     identity = HubIdentity(hub) if hub else LocalIdentity(tokens, teacher_token)
@@ -107,8 +109,8 @@ async def _serve(
     except (OSError, OverflowError) as error:
         reason = getattr(error, "strerror", None) or error
         raise ClassViewError(
-            f"{ip}:{port} cannot be used ({reason}). Give another port with --port, or another "
-            "address with --ip."
+            f"{ip}:{port} cannot be used ({reason}). Choose a different port with the option "
+            "--port, or a different address with the option --ip."
         ) from error
     server = HTTPServer(application(service, prefix, secret, every_chapter()), max_body_size=2 * LARGEST)
     server.add_sockets(listening)
@@ -127,7 +129,7 @@ async def _serve(
 
 
 def _address(options: SimpleNamespace) -> tuple[str, int]:
-    """Return the address and the port: those that the hub has chosen, or those of the options."""
+    """Return the address and port that the hub has chosen, or the address and port in the options."""
     if url := os.environ.get("JUPYTERHUB_SERVICE_URL", ""):
         parts = urlsplit(url)
         return parts.hostname or options.ip, parts.port or options.port
@@ -149,7 +151,7 @@ def _instructions(url: str, teacher_token: str, tokens: Tokens, ip: str) -> str:
 
 
 def _secret(data: Path) -> str:
-    """Return the secret in `data`, which signs cookies; it stays the same after a restart."""
+    """Return the secret in `data`; the secret signs cookies, and does not change after a restart."""
     path = data / SECRET
     if not path.exists():
         write_privately(path, secrets.token_hex(32))

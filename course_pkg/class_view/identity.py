@@ -1,4 +1,4 @@
-"""Whose token it is: the student who sends results, and the teacher who opens the page."""
+"""Find the owner of a token: a student who sends results, or the teacher who opens the page."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from course_pkg.class_view.tokens import Tokens
 from course_pkg.types.fields import Plain
 
 TIMEOUT = 10.0  # s
-KEPT = 60.0  # s for which the answer of the hub is used again
-MOST = 1_000  # answers of the hub that are kept
+KEPT = 60.0  # An answer of the hub is used again for this time in s.
+MOST = 1_000  # At most this number of the hub's answers is stored.
 
 
 class HubUnreachable(Exception):
@@ -25,13 +25,13 @@ class HubUnreachable(Exception):
 
 
 class Identity(Protocol):
-    """Decides whose token a token is."""
+    """Decides who owns a token."""
 
     async def student(self, token: str) -> str | None:
         """Return the student who owns a token, or None. Raises HubUnreachable."""
 
     async def is_teacher(self, token: str) -> bool:
-        """Return whether a token allows the page. Raises HubUnreachable."""
+        """Return whether the owner of a token may open the page. Raises HubUnreachable."""
 
 
 class LocalIdentity:
@@ -45,13 +45,13 @@ class LocalIdentity:
         return self._tokens.student_of(token)
 
     async def is_teacher(self, token: str) -> bool:
-        """Return whether it is the teacher's token."""
+        """Return whether `token` is the teacher's token."""
         return hmac.compare_digest(token.encode(), self._teacher.encode())
 
 
 @dataclass(frozen=True)
 class HubService:
-    """What JupyterHub tells a service by environment variables."""
+    """The data that JupyterHub passes to a service in environment variables."""
 
     api: str  # the address of the hub's API
     token: str  # the service's own token
@@ -76,7 +76,7 @@ class HubService:
 
 
 class HubIdentity:
-    """Asks a JupyterHub. An answer is kept for 60 s."""
+    """Asks a JupyterHub. Each answer of the hub is stored for 60 s."""
 
     def __init__(self, service: HubService) -> None:
         self.service = service
@@ -95,12 +95,12 @@ class HubIdentity:
         return user.get("kind") == "user" and bool(held & {*self.service.scopes, "access:services"})
 
     def login_url(self, state: str) -> str:
-        """Return the hub's address at which a user logs in and comes back to the page."""
+        """Return the hub's address for a login; after the login, the hub leads the user back to the page."""
         query = {"client_id": self.service.client, "redirect_uri": self._redirect, "response_type": "code"}
         return f"{self.service.base}hub/api/oauth2/authorize?{urlencode({**query, 'state': state})}"
 
     async def token_for(self, code: str) -> str:
-        """Return the token for the code with which the hub has sent a user back; "" if it is not valid."""
+        """Return the token for the code that the hub has sent with the user, or "" for an invalid code."""
         form = {
             "client_id": self.service.client,
             "client_secret": self.service.token,
@@ -116,7 +116,7 @@ class HubIdentity:
         return f"{self.service.prefix}oauth_callback"
 
     async def _user(self, token: str) -> dict[str, Plain]:
-        """Return what the hub knows about a token; nothing if it does not know the token."""
+        """Return the hub's data about the owner of a token, or {} if the hub does not know the token."""
         now = time.monotonic()
         kept = self._users.get(token)
         if kept and now - kept[0] < KEPT:
@@ -128,7 +128,7 @@ class HubIdentity:
         return user
 
     async def _ask(self, path: str, token: str = "", body: str | None = None) -> dict[str, Plain]:
-        """Return the JSON that the hub answers; nothing if it refuses the request."""
+        """Return the JSON object in the hub's response, or an empty dict if the hub refuses the request."""
         request = HTTPRequest(
             self.service.api + path,
             method="GET" if body is None else "POST",

@@ -14,9 +14,9 @@ from course_pkg.types.fields import Plain
 
 @dataclass
 class Cell:
-    """One part of one student. Times are in s since 1970; 0 means that there is none."""
+    """One part of one student. Times are in s since 1970; 0 means that there was no such check."""
 
-    tries: int = 0  # checks until the first pass, without those of blank answers
+    tries: int = 0  # the number of checks until the first pass, without the checks of blank answers
     passed: float = 0.0  # the time of the first pass
     stuck: float = 0.0  # the time of the first check that did not pass
     last: float = 0.0  # the time of the last check
@@ -67,7 +67,7 @@ class ClassModel:
             cell.stuck = result.time
 
     def changes(self, epoch: str, since: int) -> dict[str, Plain]:
-        """Return what has changed since the version `since`; everything if `epoch` is not the present one.
+        """Return the changes since the version `since`, or everything if `epoch` is not the current epoch.
 
         A cell is [student, part, tries, passed, stuck, last]. A hint is [part, hint, count, students].
         """
@@ -93,6 +93,6 @@ class ClassModel:
     def _shuffled(self) -> list[tuple[str, str]]:
         """Return the students in an order that does not follow from their names.
 
-        A number on the page then does not reveal a place in the alphabet.
+        A student's number on the page then does not show the student's position in the alphabet.
         """
         return sorted(self._names.items(), key=lambda each: hashlib.sha256(each[0].encode()).digest())

@@ -20,8 +20,8 @@ from course_pkg.class_view.storage import MOST, TooMany
 from course_pkg.web_pages.handler import ASSETS, PageHandler, templates_in
 
 HERE = Path(__file__).parent
-LARGEST = 500_000  # bytes of a request
-WAIT = 20.0  # s for which a request for changes waits
+LARGEST = 500_000  # A request has at most this number of bytes.
+WAIT = 20.0  # A request for changes waits at most this time in s.
 SESSION, STATE = "course-class", "course-class-state"  # cookies
 DAYS = 1.0  # a teacher's session ends after this number of days
 
@@ -37,7 +37,7 @@ class Chapter:
 
 @dataclass(frozen=True)
 class Shared:
-    """What all handlers share."""
+    """The objects that all handlers use."""
 
     service: ClassService
     prefix: str  # the path of the service, with a slash at both ends
@@ -60,28 +60,33 @@ def application(service: ClassService, prefix: str, secret: str, chapters: Seque
         default_handler_class=Unknown,
         default_handler_args=shared,
         cookie_secret=secret,
-        log_function=lambda _handler: None,  # the page and the sender show what is refused
+        # Requests are not logged, because the page and the sender show an error if a request is refused.
+        log_function=lambda _handler: None,
     )
 
 
 class Handler(PageHandler):
-    """Knows the service, and finds the student whose token a request has."""
+    """A handler with access to the service; it finds the student who owns the token of a request."""
 
     def initialize(self, shared: Shared) -> None:
-        """Keep what all handlers share."""
+        """Store the objects that all handlers use."""
         self.shared, self.service = shared, shared.service
 
     async def student(self) -> str | None:
-        """Return the student whose token the request has; else refuse the request and return None."""
+        """Return the student who owns the request's token.
+
+        If there is none, refuse the request and return None.
+        """
         token = self.request.headers.get("Authorization", "").removeprefix("token ")
         try:
-            # No page of a browser sends results.
+            # Results are sent by programs; a request with the header Origin comes from a page in a browser
+            # and is refused.
             student = None if "Origin" in self.request.headers else await self.service.identity.student(token)
         except HubUnreachable as error:
             self.refuse(HTTPStatus.SERVICE_UNAVAILABLE, str(error))
             return None
         if student is None:
-            self.refuse(HTTPStatus.FORBIDDEN, "The token is wrong. Ask your teacher for a new one.")
+            self.refuse(HTTPStatus.FORBIDDEN, "The token is wrong. Ask your teacher for a new token.")
         return student
 
 
@@ -94,15 +99,19 @@ class Unknown(Handler):
 
 
 class TeacherHandler(Handler):
-    """Refuses requests that are not a teacher's, or that come from another page."""
+    """Refuses requests without a teacher's token, and requests that come from another page."""
 
     async def prepare(self) -> None:
-        """Refuse the request, or lead to the login of the hub."""
+        """Refuse the request, or redirect it to the hub's login."""
         if (
             self.request.headers.get("Sec-Fetch-Site", "none") == "cross-site"
             and self.request.path != self.shared.prefix
         ):
-            self.refuse(HTTPStatus.FORBIDDEN, "This request comes from a page of a different server.")
+            self.refuse(
+                HTTPStatus.FORBIDDEN,
+                "This request comes from a page of a different server. Enter the address of the "
+                "class view in the browser.",
+            )
             return
         given = self.get_query_argument("token", "")
         kept = (self.get_signed_cookie(SESSION, max_age_days=DAYS) or b"").decode()
@@ -121,10 +130,13 @@ class TeacherHandler(Handler):
             self.keep(STATE, state)
             self.redirect(identity.login_url(state))
             return
-        self.refuse(HTTPStatus.FORBIDDEN, "Open the address that `course class` printed, with its token.")
+        self.refuse(
+            HTTPStatus.FORBIDDEN,
+            "Open the address that `course class` printed. This address contains your token.",
+        )
 
     def enter(self, token: str) -> None:
-        """Keep a teacher's token in a cookie, and open the page without a token in its address."""
+        """Store a teacher's token in a cookie, and open the page without a token in its address."""
         self.keep(SESSION, token)
         self.redirect(self.shared.prefix)
 
@@ -174,7 +186,7 @@ class Callback(TeacherHandler):
     """The end of a login at the hub."""
 
     async def prepare(self) -> None:
-        """Refuse nothing: the code in the request is the proof."""
+        """Accept each request, because get() examines the code in it."""
 
     async def get(self) -> None:
         """Exchange the code for a token, and open the page."""
@@ -209,7 +221,7 @@ class Results(Handler):
     """Receives the results of a student."""
 
     async def post(self) -> None:
-        """Store results; answer with the ids that need not be sent again."""
+        """Store results; respond with the ids of the results that need not be sent again."""
         if len(self.request.body) > LARGEST:
             self.refuse(
                 HTTPStatus.REQUEST_ENTITY_TOO_LARGE,

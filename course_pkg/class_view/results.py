@@ -14,7 +14,7 @@ CHECK = re.compile(r"\d\d(?:\.\d{1,2}){1,2}")
 VERDICTS = ("passed", "not yet", "not attempted", "not examined")
 PASSED, NOT_ATTEMPTED = VERDICTS[0], VERDICTS[2]
 LONGEST_HINT = 500  # characters
-MOST = 100  # results in one request
+MOST = 100  # A request contains at most this number of results.
 
 
 @dataclass(frozen=True)
@@ -30,11 +30,11 @@ class Result:
 
 
 def received(student: str, data: object, now: float, oldest: float) -> tuple[list[Result], list[str]]:
-    """Return the results in `data`, the JSON of a request of `student`, and the ids of all of them.
+    """Return the results in `data`, the JSON of a request of `student`, and the ids of all items in `data`.
 
-    Something that is not a result is left out, but its id is returned, so that it is not sent again. A time
-    in the future becomes `now`, and a time before `oldest` becomes `oldest`. Raises ValueError if `data` is
-    not a list of at most MOST results.
+    An item that is not a result is left out, but its id is returned, so that the item is not sent again. A
+    time in the future becomes `now`, and a time before `oldest` becomes `oldest`. Raises ValueError if `data`
+    is not a list of at most MOST results.
     """
     sent = data.get("results") if isinstance(data, dict) else None
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST:

@@ -14,22 +14,23 @@ from course_pkg.class_view.results import received
 from course_pkg.class_view.storage import DAY, Storage
 from course_pkg.types.fields import Plain
 
-LOOK = 0.5  # s between two looks for changes by `course class --delete`
-CLEANING = 3600.0  # s between two deletions of old results
-GATHER = 0.1  # s; results that arrive within this time reach the page together
+# This is the time in s between two checks whether `course class --delete` has changed the database.
+LOOK = 0.5
+CLEANING = 3600.0  # This is the time in s between two deletions of old results.
+GATHER = 0.1  # Results that arrive within this time in s are sent to the page together.
 
 
 @dataclass(frozen=True)
 class Settings:
-    """What a teacher has chosen."""
+    """The settings that a teacher has chosen."""
 
     teacher: str  # the name that students see
-    days: float  # the results of a student are deleted this many days after the last one
+    days: float  # the results of a student are deleted this many days after the student's last result
     names: Mapping[str, str]  # the students' names by their usernames
 
 
 class ClassService:
-    """Stores results, and tells pages when there are new ones."""
+    """Stores results, and notifies open pages of new results."""
 
     def __init__(self, storage: Storage, identity: Identity, settings: Settings) -> None:
         self.identity, self.settings = identity, settings
@@ -43,7 +44,7 @@ class ClassService:
     async def store(self, student: str, data: object) -> list[str]:
         """Store the results in `data`; return the ids of the results that need not be sent again.
 
-        Raises ValueError, TooMany, or sqlite3.Error if they cannot be stored.
+        Raises ValueError, TooMany, or sqlite3.Error if the results cannot be stored.
         """
         now = time.time()
         results, ids = received(student, data, now, now - self.settings.days * DAY)
@@ -68,7 +69,7 @@ class ClassService:
             try:
                 await self._refresh()
             except sqlite3.Error:
-                continue  # the database is busy, or the disk is full; the next look tries again
+                continue  # the database is busy, or the disk is full; the loop tries again after LOOK s
 
     async def _refresh(self) -> None:
         deleted = 0

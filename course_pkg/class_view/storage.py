@@ -12,7 +12,7 @@ from course_pkg.errors import ClassViewError
 
 FILE = "results.sqlite"
 VERSION = 1
-MOST = 10_000  # results of one student
+MOST = 10_000  # The database stores at most this number of results for one student.
 DAY = 86_400.0  # s
 TABLE = """
 CREATE TABLE results (
@@ -25,13 +25,14 @@ CREATE TABLE results (
 
 
 class TooMany(Exception):
-    """A student has sent more results than the database keeps for one student."""
+    """A student has sent more results than the database stores for one student."""
 
 
 class Storage:
     """The database in `folder`, which is created if it does not exist.
 
-    Raises ClassViewError if it cannot be used. The methods raise sqlite3.Error if the disk cannot be written.
+    Raises ClassViewError if the database cannot be used. The methods raise sqlite3.Error if the disk cannot
+    be written.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -52,9 +53,9 @@ class Storage:
         self._database.close()
 
     def add(self, results: Iterable[Result]) -> list[Result]:
-        """Store the results; return those that were not stored before. Raises TooMany.
+        """Store the results; return the results that were not stored before. Raises TooMany.
 
-        Either all results are stored, or none.
+        If one result cannot be stored, none of the results is stored.
         """
         new, received = [], time.time()
         with self._database:
@@ -116,7 +117,7 @@ class Storage:
         if version != VERSION and tables:
             raise ClassViewError(
                 f"{self.path} was written by another version of the course, or by another program. "
-                "Move this file away, or give another folder with --data."
+                "Move this file away, or choose a different folder with the option --data."
             )
         for setting in ("journal_mode=WAL", "synchronous=FULL", "secure_delete=ON"):
             run(f"PRAGMA {setting}")

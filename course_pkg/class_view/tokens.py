@@ -18,7 +18,7 @@ COLUMNS = ("username", "name", "token")
 
 
 def names_from(roster: Path | None, students: int) -> dict[str, str]:
-    """Return the name of each student by the username, from a roster, or generated for `students` students.
+    """Return a dict from usernames to names: the students in a roster, or `students` generated students.
 
     Raises ClassViewError if a student has no username.
     """
@@ -106,7 +106,7 @@ class Tokens:
 
 
 def write_privately(path: Path, text: str) -> None:
-    """Write a file in a folder that only this user can read. Raises OSError."""
+    """Write a file that only this user can read, and protect its folder in the same way. Raises OSError."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.parent.chmod(0o700)
     write_atomically(path, text)

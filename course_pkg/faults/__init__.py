@@ -1,6 +1,6 @@
 """Faults of services, nodes and masters.
 
-A fault is not simulated: it is caused on the graph, and then undone.
+A fault is not simulated: a stage causes the fault on the running graph, and then undoes it.
 
     with caused("stale") as stage:
         seen = stage.symptom()

@@ -24,7 +24,9 @@ NO_HOST = "robot-2"  # The machine cannot resolve this host name.
 
 _well = partial(Fault, group="calling", chapter="06", play=serving('return SetBoolResponse(True, "open")'))
 _python = partial(
-    _well, look="python", story="A client calls the door's service, and its program ends with an error."
+    _well,
+    look="python",
+    story="A client calls the door's service, and the client's program ends with an error.",
 )
 _broken = partial(
     Fault,
@@ -126,8 +128,8 @@ def _misname(stage: Stage) -> None:
     No other process can connect to this server, so this function does not wait for a response.
     """
     master = MasterClient(stage.uri)
-    # With localhost as the client's own host name, rospy would reject all other host names without trying to
-    # resolve them.
+    # If the client used localhost as its own host name, rospy would reject all other host names without
+    # trying to resolve them.
     stage.visitor_env = {"ROS_HOSTNAME": "127.0.0.1"}
     program = stage.keep(keeper(), {"ROS_HOSTNAME": NO_HOST})
     stage.await_that(lambda: master.lookup_service(stage.door), program)
@@ -146,7 +148,7 @@ CALLING: tuple[Fault, ...] = (
         story="A client calls the door's service.",
         visitor=VISITOR.replace("/lab/door", "/lab/dor"),
         diagnosis="No node provides this service: client and server spell its name differently.",
-        remedy="Compare the name in the client with `rosservice list`.",
+        remedy="Compare the name in the client with the names that `rosservice list` prints.",
         reason=(
             "`unavailable` means that no node provides a service of this name. The server runs, but the "
             "name of its service has one letter more than the name in the client."
@@ -174,7 +176,7 @@ CALLING: tuple[Fault, ...] = (
         story="A client waits for the door's service and calls it.",
         play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door")', "import std_srvs.srv"),
-        diagnosis="The client waits without a limit for a server that was never started.",
+        diagnosis="The client waits without a time limit for a server that was never started.",
         remedy="Start the server, and give wait_for_service() a timeout.",
         reason=(
             "`rosservice list` does not show the service, and `rosnode list` does not show the "
@@ -187,14 +189,17 @@ CALLING: tuple[Fault, ...] = (
         play=nothing,
         visitor=asking('rospy.wait_for_service("/lab/door", timeout=0)', "import std_srvs.srv"),
         diagnosis="wait_for_service() gets a timeout of 0, which it does not accept.",
-        remedy="Use a timeout of some seconds, or do not wait, and catch the exception of the call.",
+        remedy=(
+            "Use a timeout of some seconds. Or call the service without waiting, and catch the "
+            "exception of the call."
+        ),
         reason="`timeout must be non-zero` is a ValueError in the client. No request was sent.",
     ),
     _python(
         name="too_few",
         visitor=calling('print(move_door(True, "slowly"))'),
         diagnosis="The call has more or fewer positional values than the request has fields.",
-        remedy="Give one value for each field, or name the fields.",
+        remedy="Pass one value for each field, or pass the values by field name.",
         reason=(
             "The client could not create the request, so it sent nothing. The exception is a TypeError, "
             "which `except rospy.ServiceException` does not catch."
@@ -204,7 +209,7 @@ CALLING: tuple[Fault, ...] = (
         name="mixed",
         visitor=calling("print(move_door(True, data=True))"),
         diagnosis="The call mixes positional values and keywords.",
-        remedy="Give all values by position, or all by keyword.",
+        remedy="Pass all values by position, or pass all values by keyword.",
         reason=(
             "The message mentions publish(), because services and topics create their messages with the"
             " same code."
@@ -214,7 +219,7 @@ CALLING: tuple[Fault, ...] = (
         name="misspelt",
         visitor=calling("print(move_door(dat=True))"),
         diagnosis="The call names a field that the request does not have.",
-        remedy="Compare the name with the request in `rossrv show`.",
+        remedy="Compare the name with the fields of the request that `rossrv show` prints.",
         reason=(
             "`dat is not an attribute of SetBoolRequest` is an AttributeError in the client, before "
             "anything was sent."
@@ -223,11 +228,11 @@ CALLING: tuple[Fault, ...] = (
     _well(
         name="left_out",
         look="quiet call",
-        story="A client calls the door's service, and the response is not the expected one.",
+        story="A client calls the door's service, and gets an unexpected response.",
         play=running(keeper()),
         visitor=calling("print(move_door())"),
         diagnosis="The call omits a field, which therefore has the value False or 0. No error reports this.",
-        remedy="Give each field a value, by name.",
+        remedy="In the call, pass a value for each field by its name.",
         reason=(
             "An omitted field has the value False, 0 or an empty string. The server cannot know "
             "whether the client intended this value."
@@ -239,7 +244,7 @@ CALLING: tuple[Fault, ...] = (
         diagnosis="The type of a value in the call differs from the type of its field.",
         remedy="Convert the value to the type of its field before the call.",
         reason=(
-            "The client created the request, but could not pack it for sending. The exception is a "
+            "The client created the request, but could not convert the request to bytes. The exception is a "
             "SerializationError in the client, and not a ServiceException."
         ),
     ),
@@ -251,7 +256,10 @@ CALLING: tuple[Fault, ...] = (
         play=serving('return SetBoolResponse(True, "open")'),
         visitor=VISITOR.replace("SetBool", "Trigger").replace("(True)", "()"),
         diagnosis="Client and server use different service types.",
-        remedy="Compare `rosservice type` and `rossrv md5`, and use the same type in client and server.",
+        remedy=(
+            "Compare the output of `rosservice type` and `rossrv md5` with the type in the "
+            "client, and use the same type in client and server."
+        ),
         reason=(
             "`md5sums do not match`: the server compares a checksum of the definition before it reads a"
             " request. Here the client uses Trigger, and the server uses SetBool."
@@ -301,7 +309,10 @@ CALLING: tuple[Fault, ...] = (
         look="wait call",
         play=_hog,
         diagnosis="Another client has connected, but sends nothing. This blocks all other clients.",
-        remedy="End that client. To prevent it, let the server read each header on a separate thread.",
+        remedy=(
+            "End the client that sends nothing. To prevent this problem, let the server read each "
+            "header on a separate thread."
+        ),
         reason=(
             "rospy has one thread that accepts connections, and this thread also reads the header "
             "of each connection. `rosnode ping` uses another thread and gets an answer, but a probe "
@@ -323,19 +334,20 @@ CALLING: tuple[Fault, ...] = (
         remedy="Close the persistent proxy and create a new one, or call without persistent=True.",
         reason=(
             "A persistent proxy looks the service up only once, so it never calls the new server. "
-            "After the restart, each call fails with a different message: the first is about the "
-            "transport, the next is about a broken pipe, and the next contains 'tell'."
+            "After the restart, each call fails with a different message: the first message is "
+            "about the transport, the second is about a broken pipe, and the third contains "
+            "'tell'."
         ),
     ),
     _broken(
         name="hostname",
         look="gone connection",
         play=_misname,
-        diagnosis="The server is registered under a host name that cannot be resolved here.",
+        diagnosis="The server is registered with a host name that the client's machine cannot resolve.",
         remedy="Start the server with ROS_HOSTNAME=localhost, or with a name that all machines know.",
         reason=(
             "The server runs and is registered, but its address cannot be used: `rosservice uri` "
-            "shows this address. The node takes the name from ROS_HOSTNAME and does not test it."
+            "shows this address. The node takes the host name from ROS_HOSTNAME and does not test this name."
         ),
     ),
     _well(

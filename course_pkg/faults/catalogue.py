@@ -66,5 +66,5 @@ def _found(name: str) -> tuple[Fault, ...]:
 
 def _only(found: tuple[Fault, ...], name: str) -> Fault:
     if len(found) != 1:
-        raise UnknownFault(f"{name!r} is a group of {len(found)} faults. Name one of them.")
+        raise UnknownFault(f"{name!r} is a group of {len(found)} faults. Choose one of these faults.")
     return found[0]

@@ -20,9 +20,9 @@ class Fault:
     causes the fault on a stage (see the module `stage`). `visitor` shows the symptom: it is the text of a
     Python program, or "$ " and a command line.
 
-    `look` names the kind of symptom with one or two words: a group, and optionally a smaller group of very
-    similar symptoms. The wrong diagnoses for students come from faults with a similar `look`. The diagnoses
-    of the faults in `unlike` are never offered as wrong choices, because they would also be correct.
+    `look` names the kind of symptom in one or two words: a group, and optionally a subgroup of very similar
+    symptoms. The wrong diagnoses for students come from faults with a similar `look`. The diagnoses of the
+    faults in `unlike` are never offered as wrong choices, because they would also be correct.
     """
 
     name: str

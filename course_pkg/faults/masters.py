@@ -1,4 +1,4 @@
-"""Faults of the master, and of the connection to it."""
+"""Faults of the master, and of the connection to the master."""
 
 from __future__ import annotations
 
@@ -50,8 +50,8 @@ MASTERS: tuple[Fault, ...] = (
         diagnosis="No master runs, and init_node() keeps trying to reach one.",
         remedy="Start a master, or correct ROS_MASTER_URI.",
         reason=(
-            "The program prints `Unable to register with master node … Will keep trying` only once. It has "
-            "not reached its call yet."
+            "The program prints `Unable to register with master node … Will keep trying` only "
+            "once. The program has not reached its call yet."
         ),
         hangs=True,
     ),
@@ -64,7 +64,7 @@ MASTERS: tuple[Fault, ...] = (
         remedy="Start a master, or correct ROS_MASTER_URI.",
         reason=(
             "`unable to contact master`: without init_node(), the call is the first step that needs the"
-            " master, and it fails at once. The tools print the same message."
+            " master, and this call fails at once. The command-line tools print the same message."
         ),
     ),
     _asked(
@@ -88,7 +88,7 @@ MASTERS: tuple[Fault, ...] = (
         diagnosis="The master was restarted and does not know the server, which still runs.",
         remedy="Start the server again, because rospy does not register it with the new master.",
         reason=(
-            "The server's process works, but the new master has an empty list. rospy registers a "
+            "The server's process works, but the new master's list of services is empty. rospy registers a "
             "service once, when it is created."
         ),
         unlike=("no_service", "wait_in_vain"),
@@ -97,9 +97,10 @@ MASTERS: tuple[Fault, ...] = (
         name="hung_master",
         look="wait call",
         play=_hang_master,
-        diagnosis="The master accepts connections and does not answer.",
+        diagnosis="The master accepts connections, but does not answer.",
         remedy=(
-            "Resume the master's process with `kill -CONT`, or end it and restart the master and all nodes."
+            "Resume the master's process with `kill -CONT`, or end this process and restart the "
+            "master and all nodes."
         ),
         reason=(
             "All tools hang, too, because each of them calls the master first. The operating system "
@@ -127,7 +128,10 @@ MASTERS: tuple[Fault, ...] = (
         play=_own_master,
         visitor="$ rosmaster --core -p MASTER_PORT",
         diagnosis="Another program uses the port, and the new master's process runs without doing anything.",
-        remedy="End this process, and find out which program uses the port before you start another master.",
+        remedy=(
+            "End the new master's process, and find out which program uses the port before you "
+            "start a master again."
+        ),
         reason=(
             "rosmaster prints `[Errno 98] Address already in use` and never ends. So a running process "
             "does not prove that the master answers."

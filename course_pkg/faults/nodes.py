@@ -154,8 +154,8 @@ NODES: tuple[Fault, ...] = (
         story="A student changes a cell of a notebook and runs it again.",
         play=nothing,
         visitor=TWO_NAMES,
-        diagnosis="One program tries to be two nodes.",
-        remedy="Keep the name, or restart the kernel to use another one.",
+        diagnosis="One program calls init_node() with two different node names.",
+        remedy="Use the first name again, or restart the kernel to use a different name.",
         reason=(
             "A second init_node() with the same arguments does nothing, and with other arguments it "
             "raises an error. A process can be only one node."
@@ -179,7 +179,8 @@ NODES: tuple[Fault, ...] = (
         name="spun",
         look="gone unavailable",
         story=(
-            "The output of a notebook reports that it provides the door's service. A client calls this "
+            "The output of a notebook reports that the notebook provides the door's service. A "
+            "client calls this "
             "service."
         ),
         play=_spin_and_interrupt,
@@ -245,7 +246,7 @@ NODES: tuple[Fault, ...] = (
         remedy="Compare the types with `rostopic info`, and use the same type in both nodes.",
         reason=(
             "The publisher refuses the connection, and the subscriber gets no error. Only the "
-            "publisher's log may contain a line about it."
+            "publisher's log may contain a line about this refusal."
         ),
         unlike=("first_message",),
     ),
@@ -253,7 +254,10 @@ NODES: tuple[Fault, ...] = (
         name="print_in_callback",
         look="quiet topic",
         chapter="02",
-        story=("The first cell of a notebook subscribes to the bell. The second cell only adds two numbers."),
+        story=(
+            "The first cell of a notebook subscribes to the bell's topic. The second cell only "
+            "adds two numbers."
+        ),
         play=_ring,
         visitor=NOTEBOOK,
         diagnosis="A callback prints, and its output appears below the cell that runs at that time.",

@@ -6,8 +6,8 @@ usage: player.py READY GO NAME CODE [ARGUMENT …]
 
 READY and GO are file descriptors. When the interpreter and rospy are loaded, this program writes a byte to
 READY, reads a byte from GO, and runs the code. After the code has ended, this program writes the exit status
-to READY as one byte. A case can therefore start the interpreter early, and measure only the running time of
-the code.
+to READY as one byte. So a case can start the interpreter early, and then measure only the running time of the
+code.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def main(argv: list[str]) -> int:
     sys.stdout.flush()
     sys.stderr.flush()
     os.write(ready, bytes([status & 255]))
-    # The case kills this process here, which is faster than rospy's own shutdown (0.6 s or more).
+    # The case kills this process at this point, which is faster than rospy's own shutdown (0.6 s or more).
     os.read(go, 1)
     return status
 

@@ -20,7 +20,7 @@ from course_pkg.waiting import wait_until
 
 PLAYER = Path(__file__).with_name("player.py")
 READY = 15.0  # An interpreter has to start and import rospy within this time in s; the usual time is 0.3 s.
-LONGEST = 8000  # If an output is longer (in bytes), only its last bytes are shown.
+LONGEST = 8000  # If an output has more bytes, only the last LONGEST bytes are shown.
 INTERVAL = 0.01  # This is the time in s between two polls.
 # The pattern matches a terminal's escape codes for colours and for the window title.
 _FOR_A_TERMINAL = re.compile(r"\x1b\[[0-9;]*m|\x1b\][^\a]*\a")
@@ -54,7 +54,9 @@ class Seen:
 
 
 class Program:
-    """A Python program or a command in a separate process, which ends at the latest when this process ends.
+    """A Python program or a command in a separate process.
+
+    The process ends when this process ends, or earlier.
 
     A Python program waits for begin(); a command begins at once.
     """

@@ -3,7 +3,7 @@
 usage: reaper.py MASTER NAMESPACE FOLDER
 
 The processes of a case end with the kernel. If the case has killed a process, the registrations of this
-process remain at the master. After SIGTERM, which means that the kernel has ended, this program removes these
+process remain at the master. After SIGTERM, which means that the kernel has ended, this program removes the
 registrations. This program runs for every case, so it imports other modules only after SIGTERM.
 """
 

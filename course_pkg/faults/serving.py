@@ -87,7 +87,7 @@ SERVING: tuple[Fault, ...] = (
     _replied(
         name="returns_none",
         play=serving('message = "open" if request.data else "shut"\nSetBoolResponse(True, message)'),
-        diagnosis="The handler creates its response and does not return it.",
+        diagnosis="The handler creates its response, but does not return this response.",
         remedy="Write `return` before the response.",
         reason=(
             "A function without `return` returns None, and the error message shows this value. A "
@@ -98,7 +98,10 @@ SERVING: tuple[Fault, ...] = (
         name="raises",
         play=serving('angle = {"open": 90}["closed"]\nreturn SetBoolResponse(True, str(angle))'),
         diagnosis="The handler raises an unexpected exception.",
-        remedy="Read the traceback in the server's output, and correct the line that it names.",
+        remedy=(
+            "Read the traceback in the server's output, and correct the line of code that the "
+            "traceback shows."
+        ),
         reason=(
             "After `error processing request`, the client receives the message of the exception. The "
             "traceback is only in the server's output. This is so for all exceptions except "
@@ -109,7 +112,7 @@ SERVING: tuple[Fault, ...] = (
         name="refuses",
         play=serving('raise rospy.ServiceException("a person stands in the doorway")'),
         diagnosis="The handler refuses this request on purpose, and gives the reason.",
-        remedy="Remove the cause that the message names, and call again.",
+        remedy="Remove the cause that the message describes, and call the service again.",
         reason=(
             "The server works. If a handler raises ServiceException, the client receives "
             "`service cannot process request` and the reason."
@@ -119,7 +122,7 @@ SERVING: tuple[Fault, ...] = (
         name="returns_number",
         play=serving("return 90"),
         diagnosis="The handler returns a single value, but the response has several fields.",
-        remedy="Return one value for each field: a response, a tuple, a list or a dict.",
+        remedy="Return one value for each field, in a response, a tuple, a list or a dict.",
         reason=(
             "A single value is allowed only for a response with one field. Here the response has two fields."
         ),
@@ -129,7 +132,7 @@ SERVING: tuple[Fault, ...] = (
         name="wrong_length",
         play=serving('return [True, "open", 90]'),
         diagnosis="The handler returns a list or a tuple that is too long or too short.",
-        remedy="Return as many values as the response has fields, in their order.",
+        remedy="Return one value for each field of the response, in the order of the fields.",
         reason=(
             "`wrong number of values`: the handler returned three values, but SetBool's response has only "
             "the fields success and message."
@@ -145,7 +148,7 @@ SERVING: tuple[Fault, ...] = (
             "The response has only one field, which is a list. The handler returns this list, but "
             "not inside another list."
         ),
-        remedy="Put the list into a list, [[…]], or name the field in a dict.",
+        remedy="Put the list into a second list, [[…]], or return a dict with the name of the field.",
         reason=(
             "rospy uses the elements of a returned list as the values of the fields. Three values are "
             "too many for one field. The value of this field must be the whole list."
@@ -156,7 +159,7 @@ SERVING: tuple[Fault, ...] = (
         name="dict_slip",
         play=serving('return {"sucess": True, "message": "open"}'),
         diagnosis="The handler returns a dict with a key that is not a field of the response.",
-        remedy="Compare the keys with `rossrv show`, and correct the spelling.",
+        remedy="Compare the keys with the fields that `rossrv show` prints, and correct the spelling.",
         reason=(
             "The error message contains the key `sucess` and the name of the response class. This class "
             "has no field with that name."
@@ -168,8 +171,8 @@ SERVING: tuple[Fault, ...] = (
         diagnosis="A field of the response gets a value of the wrong type.",
         remedy="Convert the value to the type of its field before you return it.",
         reason=(
-            "`field success is not a bool`: the handler creates the response without an error. rospy finds "
-            "the error later, when it packs the response for sending."
+            "`field success is not a bool`: the handler creates the response without an error. "
+            "rospy finds the error later, when it converts the response to bytes."
         ),
     ),
     _replied(
@@ -202,7 +205,7 @@ SERVING: tuple[Fault, ...] = (
         name="exits",
         look="wait call",
         play=serving('print("there is no door: leaving")\nsys.exit(1)', "import sys\n"),
-        diagnosis="The handler calls sys.exit(), which ends its thread, so that no response is sent.",
+        diagnosis="The handler calls sys.exit(). This ends the handler's thread, so no response is sent.",
         remedy="Raise ServiceException to refuse a request, and never call sys.exit() in a handler.",
         reason=(
             "sys.exit() raises SystemExit, which rospy does not print and does not send to the client. The "
@@ -228,7 +231,7 @@ SERVING: tuple[Fault, ...] = (
         story="A student corrects the handler and runs its cell again. The door still does not open.",
         play=running(TWICE),
         diagnosis="The service was created a second time in one program, and the old handler still answers.",
-        remedy="Call shutdown() on the first service before you create it again.",
+        remedy="Call shutdown() of the first service before you create the service again.",
         reason=(
             "The server's output contains `already registered`: rospy refused the second service, and "
             "the first handler still answers."
@@ -239,11 +242,11 @@ SERVING: tuple[Fault, ...] = (
         look="quiet call",
         story="The door's node works, but the door does not open.",
         play=_two_providers,
-        diagnosis="Another node now provides a service of the same name, and receives all calls.",
-        remedy="End that node, or rename one of the two services and start the other again.",
+        diagnosis="A second node now provides a service with the same name, and receives all calls.",
+        remedy="End the second node, or rename its service. Then start the door's node again.",
         reason=(
             "Only one node can provide a service name: the node that registered last. No node gets an error. "
-            "`rosservice info` names a node that is not the door's node."
+            "`rosservice info` shows a node that is not the door's node."
         ),
     ),
     _silent(

@@ -32,7 +32,7 @@ from course_pkg.waiting import wait_until
 REAPER = Path(__file__).with_name("reaper.py")
 # In these environment variables, the stage sets folders for log files and other files.
 FOLDERS = ("ROS_LOG_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")
-READY = 10.0  # A program has to be on the graph within this time in s; the usual time is 0.4 s.
+READY = 10.0  # A program has to be on the graph within this time in s; usually, this takes 0.4 s.
 NAMESPACES = ("/lab", *(f"/lab{number}" for number in range(2, 10)))
 
 
@@ -106,7 +106,7 @@ class Stage:
         return seen
 
     def undo(self) -> None:
-        """End the fault, and wait until the graph is in its earlier state; a second call has no effect."""
+        """End the fault, and wait until the graph is as before the fault; a second call has no effect."""
         self._end()
 
     def expect_visitor(self) -> None:
@@ -160,7 +160,7 @@ class Stage:
         return master
 
     def hang(self, master: PrivateMaster) -> None:
-        """Suspend this fault's own master with SIGSTOP; undo() resumes the master and ends it."""
+        """Suspend this fault's own master with SIGSTOP; undo() lets the master continue, and then ends it."""
         pid = master.pid
         self.later(partial(os.kill, pid, signal.SIGCONT))
         os.kill(pid, signal.SIGSTOP)
@@ -173,7 +173,7 @@ class Stage:
         """Wait until `condition` is true; raises NodeFailed if `program` ends first, or after 10 s."""
 
         def settled() -> str:
-            # The order is important: the program may fulfil the condition and then end.
+            # The order is important, because the program may fulfil the condition and then end.
             over = program.over
             return "met" if condition() else "over" if over else ""
 
@@ -245,7 +245,7 @@ class _Resources:
 
 
 def _free_namespace(uri: str) -> str:
-    """Return a namespace that no node uses, because another notebook may have a stage on this graph."""
+    """Return a namespace that no node uses; another notebook may have a stage on this graph."""
     taken = [node for node in MasterClient(uri).system_state().nodes if node.startswith("/lab")]
     free = (name for name in NAMESPACES if not any(node.startswith(f"{name}/") for node in taken))
     return next(free, f"/lab_{os.getpid()}")

@@ -38,11 +38,12 @@ UNSEEN = re.compile(
 # The pattern matches halves of surrogate pairs, and codes that are not characters.
 ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-# A formula begins with one of these characters; some spreadsheets also accept their wide forms.
+# A formula begins with one of these characters; the last four are full-width characters, which some
+# spreadsheets also accept.
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
-MARKED = re.compile(r"-[0-9a-f]{10}")  # file_name() adds such a suffix to a changed name.
+MARKED = re.compile(r"-[0-9a-f]{10}")  # file_name() adds a suffix of this form to a changed name.
 
 
 def text(value: object, limit: int = LONG) -> str:
@@ -74,7 +75,7 @@ def html(value: object, limit: int = LONG) -> str:
 
 
 def cell(value: object, limit: int = SHORT) -> str:
-    """Return one line for a cell of a table; a spreadsheet does not read it as a formula."""
+    """Return one line for a cell of a table, in a form that a spreadsheet does not read as a formula."""
     kept = line(value, limit)
     return f"'{kept}" if kept.startswith(tuple(FORMULA)) else kept
 

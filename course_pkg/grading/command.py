@@ -112,8 +112,8 @@ def grade(options: Options) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped. Type the same command again to continue.\n")
         sys.stderr.flush()
-        # The threads would wait until their notebooks have ended. The exit of this process also ends the
-        # processes that the threads run.
+        # Without this call, the threads would wait until their notebooks have ended. The exit of this process
+        # also ends the processes that the threads run.
         os._exit(130)
     graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
@@ -157,7 +157,7 @@ def _report(grades: Sequence[Grade], out: Path, class_list: ClassList, asked: As
     except OSError as error:
         raise GradingError(
             f"The reports cannot be written ({error}). Correct this problem, and type the same command "
-            "again. No submission is graded twice."
+            "again. The submissions that are already graded are not graded again."
         ) from error
 
 
@@ -189,7 +189,7 @@ def grade_one(
 
 
 def _is_class(source: Path) -> bool:
-    """Return whether the source contains all students' submissions; a single notebook does not."""
+    """Return whether the source contains all students' submissions, not only one notebook."""
     return not (source.is_file() and NOTEBOOK.fullmatch(source.name))
 
 
@@ -214,7 +214,7 @@ def _dated(
     """Return the submissions to grade, with their days late."""
     zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
-    asked = bool(options.deadlines or options.times)  # Without a deadline, a wrong times.csv does no harm.
+    asked = bool(options.deadlines or options.times)  # Without a deadline, times.csv is not read.
     lateness = Lateness(due, times_of(str(times), options.source, zone) if asked else lambda _: None)
     if table and (strangers := table.strangers(found)):
         sys.stderr.write(
@@ -229,8 +229,8 @@ def _handed_in(options: Options, selected: Selection) -> list[Submission]:
     found = submissions(options.source, selected.chapters, without=options.out)
     if not found:
         raise GradingError(
-            f"There is nothing to grade in {options.source}. Give a folder that contains "
-            "STUDENT/NN_topic.ipynb, or a zip of such a folder."
+            f"There is nothing to grade in {options.source}. Choose a folder that contains "
+            "STUDENT/NN_topic.ipynb, or a zip file of this folder."
         )
     return found
 

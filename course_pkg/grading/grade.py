@@ -44,7 +44,7 @@ class Submission:
 
     student: str
     chapter: str  # An example is "05"; the chapter is empty if it is unknown.
-    content: bytes = field(repr=False)  # The notebook contains only the data for grading.
+    content: bytes = field(repr=False)  # `content` is the notebook, with only the data for grading.
     origin: str  # `origin` is the path of the file in the submitted folder or archive.
     late: float = 0.0  # `late` is the number of days after the deadline.
     problem: str = ""

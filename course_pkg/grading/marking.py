@@ -141,7 +141,7 @@ def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Repor
 
 
 def _run(job: PartJob, run: Run) -> PartResult:
-    """Run a part. Run it again if there was no verdict, unless the answer took very long."""
+    """Run a part. Run the part again if there was no verdict, unless the answer took very long."""
     for _ in range(TRIES):
         try:
             result = run(job)

@@ -139,7 +139,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _worth(part: Part, given: Any, path: Path | None) -> Worth:  # noqa: ANN401 -- any JSON value
-    """Return the points of `part` for its value in the file."""
+    """Return the points of `part` and of its goals, from the part's value in the file."""
     if given == ALL_OR_NOTHING:
         return _all_or_nothing(part, part.points)
     if isinstance(given, dict):

@@ -127,4 +127,4 @@ def _declare(_pid: int, private: str) -> None:
 def _plan(chapter: str) -> Plan:
     return (
         plan(chapter) if chapter in chapters() else Plan(chapter, Rebuilder({"cells": []}), ())
-    )  # A submission with a problem has nothing to examine.
+    )  # A submission with a problem has no parts to examine.

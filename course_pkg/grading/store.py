@@ -1,4 +1,4 @@
-"""The files that a grading run stores in its folder; a killed run can continue with them."""
+"""The files that a grading run stores in its folder; after a killed run, the next run can use them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The Linux accounts of the students: their names, and the creation of those that are missing."""
+"""The Linux accounts of the students: check their names, and create the missing accounts."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from pathlib import Path
 
 from course_pkg.errors import HubError
 
-NAME = re.compile(r"[a-z][a-z0-9_-]{0,31}")  # a subset of what useradd accepts
+NAME = re.compile(r"[a-z][a-z0-9_-]{0,31}")  # useradd accepts all these names
 FIRST_UID = 1000  # smaller numbers belong to the system's own accounts
 
 
 def check_names(names: Iterable[str]) -> None:
-    """Raise HubError, which lists the wrong names, unless each name can be that of an account."""
+    """Raise HubError, with a list of the wrong names, if a name cannot be the name of an account."""
     wrong = [name for name in names if not NAME.fullmatch(name)]
     if wrong:
         raise HubError(
@@ -29,7 +29,7 @@ def check_names(names: Iterable[str]) -> None:
 def make_accounts(names: Iterable[str]) -> list[str]:
     """Create the accounts that are missing, each with a home folder, and return their names.
 
-    The new accounts have no password for the login at the machine. Raises HubError before it creates an
+    The new accounts have no password for a login to the machine itself. Raises HubError before it creates an
     account if a name belongs to the system, or if this process is not root.
     """
     missing = []
@@ -59,7 +59,7 @@ def make_accounts(names: Iterable[str]) -> list[str]:
 
 
 def home_problems(names: Iterable[str]) -> Iterator[str]:
-    """Yield a line for each of the existing accounts `names` whose home folder cannot be used."""
+    """Yield a line for each account in `names` that exists and whose home folder cannot be used."""
     for account in map(pwd.getpwnam, names):
         if problem := home_problem(Path(account.pw_dir), account.pw_uid):
             yield f"The student {account.pw_name} cannot use the hub: {problem}"

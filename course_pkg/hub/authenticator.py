@@ -17,7 +17,7 @@ class OneTimeAuthenticator(Authenticator):  # type: ignore[misc]  # The base cla
     passwords = Unicode(help="the file with the hashes of the passwords").tag(config=True)
 
     async def authenticate(self, handler: object, data: dict[str, str]) -> str | None:  # noqa: ARG002 -- of the base class
-        """Return the name of the user, or None if the password is wrong or was used before."""
+        """Return the user's name, or None if the password is wrong or was used before."""
         name, password = data["username"], data["password"]
         record = Passwords(Path(self.passwords))
         return name if await asyncio.to_thread(record.use, name, password) else None

@@ -1,4 +1,4 @@
-"""The limits of one student's processes: a control group (cgroup v2) if possible, otherwise rlimits."""
+"""Limits for all processes of one student: a control group (cgroup v2) if possible, otherwise rlimits."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ MIB = 1 << 20
 
 
 class Limits(NamedTuple):
-    """What one student may use: `memory` in MiB, and `processes` and threads."""
+    """What one student may use: `memory` is in MiB; `processes` is the number of processes and threads."""
 
     memory: int
     processes: int
 
 
 def group_of_hub(root: Path = CGROUPS) -> Path | None:
-    """Return the control group below which each student gets one; None if this process cannot make it."""
+    """Return the group that contains the groups of all students; None if this process cannot create it."""
     try:
         available = (root / "cgroup.controllers").read_text().split()
         if not set(CONTROLLERS) <= set(available):
@@ -38,7 +38,7 @@ def group_of_hub(root: Path = CGROUPS) -> Path | None:
 
 
 def make_group(hub: Path, student: str, limits: Limits) -> Path:
-    """Return the student's control group with its limits; raises OSError if the system refuses it."""
+    """Return the student's control group with its limits; raises OSError if the system refuses this."""
     group = hub / student
     group.mkdir(exist_ok=True)
     (group / "memory.max").write_text(str(limits.memory * MIB))
@@ -49,7 +49,10 @@ def make_group(hub: Path, student: str, limits: Limits) -> Path:
 
 
 def enter_group(group: Path) -> None:
-    """Move this process into a control group. The processes that it starts belong to it, too."""
+    """Move this process into a control group.
+
+    Processes that this process starts later belong to the control group, too.
+    """
     (group / "cgroup.procs").write_text("0")
 
 
@@ -67,9 +70,10 @@ def _deleted(group: Path) -> bool:
 
 
 def set_rlimits(limits: Limits, own_account: bool) -> None:
-    """Limit this process and its children: the data of each process, and the processes of its account.
+    """Limit the data memory of this process and of each child, and the number of the account's processes.
 
-    The system counts all processes of an account, so the second limit is only set if `own_account` is true.
+    The system counts all processes of an account, so the number of processes is limited only if `own_account`
+    is true.
     """
     _lower(resource.RLIMIT_DATA, limits.memory * MIB)
     if own_account:
@@ -83,7 +87,7 @@ def _lower(kind: int, value: int) -> None:
 
 
 def describe(limits: Limits, group: Path | None, own_account: bool) -> str:
-    """Return a sentence for the teacher: which limits hold, and by which mechanism."""
+    """Return a sentence for the teacher: which limits apply, and which mechanism enforces them."""
     if group:
         return (
             f"Limits for each student: {limits.memory} MiB, {limits.processes} processes and threads, and a "

@@ -1,4 +1,7 @@
-"""One-time passwords: each is accepted once; afterwards the browser's cookie identifies the student."""
+"""One-time passwords: each password is accepted once.
+
+After that, a cookie in the browser identifies the student.
+"""
 
 from __future__ import annotations
 
@@ -51,7 +54,10 @@ class Passwords:
 
 
 class _Record:
-    """A block that reads the file, and writes it at the end; other processes wait meanwhile."""
+    """A `with` block: reads the file first, and writes it at the end.
+
+    Other processes wait during the block.
+    """
 
     def __init__(self, file: Path) -> None:
         self._file = file
@@ -81,7 +87,7 @@ def write_private(path: Path, text: str) -> None:
 
 
 def add_to_table(path: Path, issued: dict[str, str]) -> None:
-    """Write a CSV file with the columns username and password, for the owner only; keep its other rows."""
+    """Add rows to a CSV file with the columns username and password, which only its owner can read."""
     rows: dict[str, str] = {}
     if path.exists():
         with path.open(newline="") as file:

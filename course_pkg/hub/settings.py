@@ -1,4 +1,4 @@
-"""What `course hub` tells the hub's configuration and the students' servers: one file of JSON."""
+"""The JSON file in which `course hub` gives settings to the hub's configuration and the students' servers."""
 
 from __future__ import annotations
 
@@ -9,14 +9,16 @@ from pathlib import Path
 
 from course_pkg.hub.passwords import write_private
 
-VARIABLE = "COURSE_HUB_SETTINGS"  # the path of the file
-SCRATCH = "COURSE_HUB_SCRATCH"  # the folder in which each student's server creates one for temporary files
+VARIABLE = "COURSE_HUB_SETTINGS"  # This environment variable contains the path of the settings file.
+# This variable contains the path of the folder in which each student's server creates a folder for temporary
+# files.
+SCRATCH = "COURSE_HUB_SCRATCH"
 FOLDER = "ros-course"  # the course's folder in each home folder
 
 
 @dataclass(frozen=True)
 class Settings:
-    """The settings of one hub; `url` is where browsers find it. Paths are absolute."""
+    """The settings of one hub; `url` is the hub's address for browsers. Paths are absolute."""
 
     state: str  # the folder of the hub's data, readable only by the hub
     released: str  # the git repository with the released notebooks
@@ -26,13 +28,14 @@ class Settings:
     proxy_port: int
     students: tuple[str, ...]
     teacher: str
-    homes: str  # the folder of the home folders if the students have no accounts, otherwise ""
+    homes: str  # the folder that contains the home folders if the students have no accounts, otherwise ""
     memory: int  # MiB
     processes: int
-    class_port: int  # of the class view; 0 without it
+    class_port: int  # the port of the class view, or 0 without a class view
     cert: str = ""
     key: str = ""
-    environment: dict[str, str] = field(default_factory=dict)  # of the students' servers
+    # environment variables that the hub sets in the students' servers
+    environment: dict[str, str] = field(default_factory=dict)
 
     def write(self) -> Path:
         """Write the file, and return its path."""

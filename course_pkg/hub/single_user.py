@@ -1,6 +1,7 @@
 """A student's server: `python -m course_pkg.hub.single_user`, which the spawner runs as the student.
 
-It gets the released notebooks, starts the student's master, and becomes the JupyterLab of the hub.
+The program gets the released notebooks, starts the student's master, and then runs JupyterLab as a server of
+the hub.
 """
 
 from __future__ import annotations
@@ -23,13 +24,13 @@ from course_pkg.lab.jupyterlab import server_settings
 from course_pkg.workspace import make_own_workspace
 
 PULL_TIMEOUT = 60.0  # s
-# Modules that jupyterhub imports in a student's server, but uses only in the hub.
+# jupyterhub imports these modules in a student's server, but uses them only in the hub.
 ONLY_IN_HUB = ("jupyterhub.orm", "jupyterhub.roles", "sqlalchemy")
 NAMES_ONLY_IN_HUB = {"jupyterhub.handlers.pages": "HealthCheckHandler", "sqlalchemy.exc": "SQLAlchemyError"}
 
 
 def main() -> None:
-    """Prepare the student's folder and graph, and run the server until the hub ends it."""
+    """Prepare the student's folder and graph, and run the server until the hub ends the server."""
     folder = Path.home() / FOLDER
     pull(os.environ["COURSE_RELEASED"], folder)
     os.environ["COURSE_WORKSPACE"] = str(folder / "workspace")
@@ -52,9 +53,11 @@ def main() -> None:
 
 
 def pull(repository: str, folder: Path) -> None:
-    """Copy the released notebooks to `folder`; if it exists, merge the changes and keep the student's work.
+    """Copy the released notebooks to `folder`.
 
-    If that fails, the server starts with the notebooks that are already there.
+    If `folder` exists, merge the changes and keep the student's work.
+
+    If git fails, the server starts with the notebooks that are already in the folder.
     """
     # The repository belongs to another user. git then requires this setting outside of the repository.
     environment = {**os.environ, "GIT_CONFIG_SYSTEM": str(Path(repository).parent / GIT_SETTINGS)}
@@ -87,8 +90,9 @@ def _serve() -> None:
 def _without_database() -> Iterator[None]:
     """Import jupyterhub during the block without SQLAlchemy and the pages of the hub.
 
-    The server of a student uses neither, and they need 30 MiB of memory in each server. jupyterhub imports
-    them only for names that the hub uses. For example, its log has a special case for one page of the hub.
+    A student's server uses neither SQLAlchemy nor these pages, but they need 30 MiB of memory in each server.
+    jupyterhub imports them only for names that the hub uses. For example, the log of jupyterhub has a special
+    case for one page of the hub.
     """
     placeholders = {name: ModuleType(name) for name in (*ONLY_IN_HUB, *NAMES_ONLY_IN_HUB)}
     for name, defined in NAMES_ONLY_IN_HUB.items():
@@ -97,7 +101,7 @@ def _without_database() -> Iterator[None]:
     try:
         yield
     finally:
-        # An extension of the server may import the real modules.
+        # An extension of the server may import the real modules after the block.
         for name in placeholders:
             sys.modules.pop(name, None)
 

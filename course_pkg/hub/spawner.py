@@ -1,4 +1,4 @@
-"""JupyterHub's spawner for the course: a student's server with limits, which ends with the hub."""
+"""JupyterHub's spawner for the course: a student's server has limits, and ends when the hub ends."""
 
 from __future__ import annotations
 
@@ -17,11 +17,12 @@ from course_pkg.hub import limits
 from course_pkg.hub.accounts import home_problem
 from course_pkg.ros.process.supervised import PROGRAM
 
-LEAST_SPACE = 50 << 20  # bytes; a server with less space on the disk of the home folder does not start
+# A server does not start if the disk of the home folder has less free space than this number of bytes.
+LEAST_SPACE = 50 << 20
 
 
 class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base class has no types.
-    """Starts `single_user.py` as the student, below a supervisor that ends it after the hub has ended."""
+    """Starts `single_user.py` as the student; a supervisor ends this program after the hub has ended."""
 
     homes = Unicode(help="the folder of the home folders if the students have no accounts").tag(config=True)
     memory = Integer(1024, help="MiB for each student").tag(config=True)
@@ -45,7 +46,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
         return {**env, "USER": self.user.name, "HOME": str(self.home), "SHELL": "/bin/bash"}
 
     async def start(self) -> object:
-        """Start the server; raises HubError, which the student's page shows, if it cannot work."""
+        """Start the server; if it cannot work, raise HubError, whose message the student's page shows."""
         try:
             self._refuse()
             hub = limits.group_of_hub()
@@ -57,7 +58,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
         return await super().start()
 
     async def stop(self, now: bool = False) -> None:
-        """End the server and everything that the student has started in it."""
+        """End the server, and all processes that the student has started in it."""
         await super().stop(now=now)
         if self._group:
             limits.end_group(self._group)

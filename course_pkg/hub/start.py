@@ -32,8 +32,8 @@ from course_pkg.setup.network import network_problem
 from course_pkg.state import locked
 
 PORTS = (*range(8000, 8020), 0)  # the ports to try; 0 means any free port
-ORDINARY = "nobody"  # an account with the rights of an ordinary user, which each system has
-GRACE = 20.0  # s for the hub to end the students' servers
+ORDINARY = "nobody"  # an account that exists on each system, with the rights of an ordinary user
+GRACE = 20.0  # The hub has to end the students' servers within this time in s.
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,8 @@ class Options:
 def serve_hub(options: Options) -> int:
     """Prepare the hub, print its address, and run it until Ctrl-C; return 0 or the hub's exit status.
 
-    Raises HubError or HandoutError, before anything is started, if an option or the machine does not fit.
+    Raises HubError or HandoutError, before anything is started, if an option is wrong or if this machine
+    cannot run the hub.
     """
     places = Places.of()
     base = data_folder(places, options.data)
@@ -128,7 +129,8 @@ def renew_password(user: str, data: Path | None) -> int:
 def data_folder(places: Places, given: Path | None) -> Path:
     """Return the folder of the hub's data. Students can read it, except for `private`.
 
-    In a shared installation, an upgrade keeps it: it is beside the versions.
+    In a shared installation, this folder is next to the folders of the versions, so an upgrade does not
+    delete it.
     """
     version = version_folder(places.checkout)
     return (given or (version.parents[1] if version else places.cache) / "hub").absolute()
@@ -227,9 +229,11 @@ def _student_environment(places: Places, repository: Path) -> dict[str, str]:
     """Return the variables of the course for the students' servers."""
     variables = environment.merged(places, {"PATH": os.defpath})
     variables.pop("ROS_LOG_DIR")
-    # A short name, because the names of the kernels' sockets are in it. The hub's supervisor deletes it.
+    # The name is short, because it is part of the paths of the kernels' sockets, which Linux limits to 107
+    # bytes. The hub's supervisor deletes this folder.
     scratch = Path(tempfile.mkdtemp(prefix="course-hub-", dir="/tmp"))
-    scratch.chmod(0o1777)  # as /tmp: each student can create a folder, and only its owner can delete it
+    # These are the permissions of /tmp: each student can create a folder, and only its owner can delete it.
+    scratch.chmod(0o1777)
     return {**variables, "COURSE_RELEASED": str(repository), SCRATCH: str(scratch)}
 
 

@@ -11,7 +11,7 @@ from course_pkg.errors import HubError
 from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
-DEPLOY = Path("deploy", "jupyterhub")  # contains package.json and its lock
+DEPLOY = Path("deploy", "jupyterhub")  # This folder contains package.json and its lock file.
 NPM = ("npm", "ci", "--no-audit", "--no-fund", "--loglevel=error")
 CERTIFICATE_DAYS = 30
 
@@ -19,7 +19,7 @@ CERTIFICATE_DAYS = 30
 def installed_proxy(places: Places) -> Path:
     """Return the program of configurable-http-proxy; if it is missing, npm installs it first.
 
-    Raises HubError if there is no npm, or if it fails.
+    Raises HubError if npm is missing or fails.
     """
     sources = [places.checkout / DEPLOY / name for name in ("package.json", "package-lock.json")]
     folder = places.tools / f"proxy-{digest(path.read_bytes() for path in sources)}"

@@ -1,4 +1,4 @@
-"""A shared installation of the course for all users of a machine, and an installer without internet.
+"""A shared installation for all users of a machine, and an installer for machines without internet.
 
 A prefix, such as /opt/ros-services-course, contains:
 

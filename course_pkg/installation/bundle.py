@@ -120,7 +120,7 @@ def _download_wheels(folder: Path) -> None:
 
 
 def _download_packages(names: Sequence[str], folder: Path) -> None:
-    """Download `names` and all that they need on a system without any package."""
+    """Download `names` and all packages that they need on a system without any package."""
     (folder / "partial").mkdir(parents=True)
     with tempfile.NamedTemporaryFile(prefix="course-status-") as empty:
         options = {
@@ -140,7 +140,7 @@ def _download_packages(names: Sequence[str], folder: Path) -> None:
 
 
 def _output(command: Sequence[str]) -> str:
-    """Return the output of `command`; raises SetupError, with the end of its messages, if it fails."""
+    """Run `command` and return its output; if it fails, raise SetupError with the end of its messages."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
     if done.returncode:
         end = "\n".join(f"  {line}" for line in done.stderr.splitlines()[-8:])

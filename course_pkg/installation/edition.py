@@ -33,5 +33,5 @@ def students_edition(checkout: Path) -> Iterator[Path]:
 
 
 def edition_files(edition: Path) -> list[str]:
-    """Return the files of the students' edition in `edition`, relative to it."""
+    """Return the paths of all files of the students' edition, relative to the folder `edition`."""
     return [str(name) for name in json.loads((edition / RECORD).read_text("utf-8"))["files"]]

@@ -26,8 +26,8 @@ from course_pkg.setup.stamps import digest, locked
 def install(path: Path | None, bin_folder: Path | None) -> int:
     """Install this course in the prefix `path`, make it the current version, and return 0.
 
-    Versions that no process uses are removed, except the last one. Raises SetupError if the installation
-    fails; then the current version has not changed.
+    Versions that no process uses are removed, except the previous version. Raises SetupError if the
+    installation fails; then the current version has not changed.
     """
     source = Places.of()
     if source.conda:
@@ -92,9 +92,12 @@ def _make(version: Path, edition: Path) -> None:
 
 
 def _compile(places: Places) -> None:
-    """Compile all modules: users cannot store compiled files there, and would compile at each start."""
+    """Compile all modules.
+
+    Users cannot store compiled files there, so Python would compile the modules at each start.
+    """
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
-    # Some libraries contain files for another version of Python, which cannot be compiled.
+    # Some libraries contain files for a different version of Python, which this version cannot compile.
     subprocess.run([places.python, "-m", "compileall", "-qq", "-j", "0", *folders], check=False)
 
 

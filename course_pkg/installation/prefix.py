@@ -20,7 +20,8 @@ COMPLETION = "completion.bash"
 class Prefix:
     """The folder `path`, and the links in `bin` and in bash-completion's folder beside it.
 
-    Without `bin`, it is the folder of the last installation or, for the first one, the usual folder.
+    If `bin` is not given, it is the folder of the last installation or, for a first installation, the usual
+    folder.
     """
 
     def __init__(self, path: Path | None, bin_folder: Path | None = None) -> None:
@@ -37,7 +38,10 @@ class Prefix:
         }
 
     def claim(self) -> None:
-        """Create the folder and mark it; raises SetupError, and changes nothing, if it cannot be used."""
+        """Create the folder and mark it.
+
+        If the folder cannot be used, raise SetupError and change nothing.
+        """
         if any(letter.isspace() for letter in str(self.path)):
             raise SetupError(
                 f"catkin cannot build in {self.path}, because the name of this folder contains "
@@ -66,7 +70,7 @@ class Prefix:
         return sorted(path.parent for path in self.versions.glob(f"*/{RECORD}"))
 
     def switch(self, version: Path) -> None:
-        """Make `version` the current one for all new starts, and create the links that are missing."""
+        """Start all later commands from `version`, and create missing links."""
         _link(self.current, version.relative_to(self.path))
         for link, target in self._links.items():
             link.parent.mkdir(parents=True, exist_ok=True)
@@ -77,12 +81,13 @@ class Prefix:
         others = [path for path in self.versions.iterdir() if path not in kept]
         busy = [path for path in others if any(users_of(path))]
         for path in set(others) - set(busy):
-            (path / RECORD).unlink(missing_ok=True)  # first, so that a half-removed version is not complete
+            # delete this file first, so that a half-removed version is not complete
+            (path / RECORD).unlink(missing_ok=True)
             shutil.rmtree(path)
         return busy
 
     def remove(self) -> None:
-        """Remove the links and the installation, but no file that `course install` did not make."""
+        """Remove the links and the installation, but only the files that `course install` has made."""
         for link, target in self._links.items():
             if _leads_to(link, target):
                 link.unlink()
@@ -101,10 +106,10 @@ class Prefix:
 
 
 def users_of(folder: Path) -> Iterator[int]:
-    """Yield the ids of the processes that use `folder`: it is in their command line or environment.
+    """Yield the ids of the processes that have `folder` in their command line or environment.
 
-    The environment of every program of the course contains the folder. Only root sees the environments of
-    other users.
+    The environment of every program of the course contains the folder. Only root can read the environments of
+    other users' processes.
     """
     name = os.fsencode(folder) + b"/"
     for process in Path("/proc").glob("[0-9]*"):

@@ -11,7 +11,7 @@ from course_pkg.setup import Places
 
 
 def uninstall(path: Path | None, *, force: bool) -> int:
-    """Remove the installation in the prefix `path`, or the one that contains this module; return 0.
+    """Remove the installation in the prefix `path`, or the installation that contains this module; return 0.
 
     Raises SetupError, and changes nothing, if `path` contains no installation, or if users work with it and
     `force` is False.

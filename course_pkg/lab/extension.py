@@ -1,7 +1,8 @@
 """The course's additions to the Jupyter server: an extension, and classes for checkpoints and files.
 
-The set-up enables the extension in the course's environment. So a server that a user starts there by hand,
-such as `jupyter lab` or `jupyter notebook`, has the same settings as the server of `course lab`.
+The set-up enables the extension in the course's environment. If a user starts `jupyter lab` or `jupyter
+notebook` in this environment by hand, the server therefore has the same settings as the server of `course
+lab`.
 """
 
 from __future__ import annotations
@@ -91,7 +92,7 @@ def course_settings() -> Config:
 
 
 def _load_jupyter_server_extension(server: Server) -> None:
-    """Prepare the server for kernels, terminals and clicks, and send the results if sharing is on."""
+    """Prepare the server and the environment of its kernels and terminals; if sharing is on, send results."""
     _prepare_ros(server)
     _make_workspace(server)
     start_sender(lambda message: server.log.warning("class view: %s", message))
@@ -99,16 +100,16 @@ def _load_jupyter_server_extension(server: Server) -> None:
 
 
 def _prepare_ros(server: Server) -> None:
-    """Set the environment of ROS, and start a master if ROS_MASTER_URI names none.
+    """Set the environment of ROS, and start a master if ROS_MASTER_URI is not set.
 
-    Kernels and terminals inherit this environment. `course lab` has done both before the server starts.
+    Kernels and terminals inherit this environment. `course lab` does both before it starts the server.
     """
     if "ROS_PACKAGE_PATH" not in os.environ and not environment.apply():
         server.log.warning("The course's workspace is not built. Run `./course doctor` in a terminal.")
         return
     if os.environ.get("ROS_MASTER_URI"):
         return
-    from course_pkg.ros.process.roscore import Roscore  # needs the modules of ROS
+    from course_pkg.ros.process.roscore import Roscore  # This import needs the modules of ROS.
 
     try:
         master = Roscore().start()
@@ -159,8 +160,8 @@ def undelayed(stock: type[Connection]) -> type[Connection]:
 class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base class has no types.
     """Stores the checkpoints of notebooks in a folder outside the checkout, each at its notebook's path.
 
-    Jupyter's own class can also use another folder. But then a chapter and its solution would share one
-    checkpoint, because their files have the same name.
+    Jupyter's own class can also store all checkpoints in another folder. A chapter and its solution would
+    then share one checkpoint, because their files have the same name.
     """
 
     folder = Unicode(help="the folder of the checkpoints").tag(config=True)

@@ -1,4 +1,4 @@
-"""`course lab`: starts a master and JupyterLab with the course's settings, and ends both at the end."""
+"""`course lab`: starts a master and JupyterLab with the course's settings, and ends both before it exits."""
 
 from __future__ import annotations
 
@@ -29,9 +29,10 @@ from course_pkg.setup import Places
 from course_pkg.setup.own_files import make_own_files
 from course_pkg.workspace import make_own_workspace
 
-PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ones, and 0 means any free port
-READY = 60.0  # time limit for the start in s; it takes 2 s, or much longer with an empty disk cache
-LOOK = 0.01  # s between two checks whether the server answers
+PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ports, and 0 means any free port
+# The start has to end within this time in s; it takes 2 s, or much longer with an empty disk cache.
+READY = 60.0
+LOOK = 0.01  # This is the time in s between two checks whether the server answers.
 KEPT_LINES = 12  # number of lines of the server's log in an error message
 
 
@@ -107,7 +108,10 @@ class _Address(NamedTuple):
 
 
 class _Stop(BaseException):
-    """A signal that ends this command raises this exception. `except Exception` does not catch it."""
+    """A signal that ends this command raises this exception.
+
+    `except Exception` does not catch this exception.
+    """
 
 
 @contextmanager
@@ -165,8 +169,9 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
 def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str, object]:
     """Return JupyterLab's settings for one start, by the names of its traits.
 
-    All installed extensions stay enabled. The settings of all starts are in course_pkg/lab/extension.py. The
-    file browser shows the folder `root`; the other two are folders for checkpoints and workspaces.
+    All installed extensions stay enabled. The settings that are the same for every start are in
+    course_pkg/lab/extension.py. The file browser shows the folder `root`; `checkpoints` and `workspaces` are
+    folders for JupyterLab's checkpoints and workspaces.
     """
     return {
         "ServerApp.root_dir": root,
@@ -182,7 +187,7 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
 
 
 def _short_folder() -> str | None:
-    """Return a folder for temporary files whose name is short enough for the names of a kernel's sockets.
+    """Return a folder for temporary files; its name is short enough for the names of a kernel's sockets.
 
     The path of a socket is 80 bytes longer than the path of this folder, and Linux allows at most 107 bytes.
     None means the usual folder.
@@ -193,7 +198,7 @@ def _short_folder() -> str | None:
 def _user_settings() -> Path:
     """Return the folder of the user's own settings for JupyterLab, such as a theme.
 
-    This Jupyter uses them, too.
+    The course's Jupyter uses these settings, too.
     """
     given = os.environ.get("JUPYTERLAB_SETTINGS_DIR")
     config = os.environ.get("JUPYTER_CONFIG_DIR") or os.path.expanduser("~/.jupyter")
@@ -201,7 +206,10 @@ def _user_settings() -> Path:
 
 
 def _make_workspace() -> None:
-    """Create the folder of the student's own packages; print a message on stderr if it cannot be used."""
+    """Create the folder of the student's own packages.
+
+    Print a message on stderr if this folder cannot be used.
+    """
     try:
         make_own_workspace()
     except SetupError as error:
@@ -235,8 +243,8 @@ def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
 def _start_kernel(address: _Address, notebook: str) -> None:
     """Start the notebook's kernel while the page loads, so that the page finds a running kernel.
 
-    If this fails, the page starts the kernel itself. If the page cannot start it either, the page shows the
-    reason.
+    If this fails, the page starts the kernel itself. If the page cannot start the kernel either, the page
+    shows the reason.
     """
     if not notebook:
         return

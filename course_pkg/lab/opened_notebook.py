@@ -14,7 +14,7 @@ WORKSPACE = "default-37a8.jupyterlab-workspace"
 def notebook_to_open(root: Path, asked: str | None) -> str:
     """Return the path of the notebook to open, relative to `root`, the folder with `notebooks`.
 
-    This path is `asked`; it is the first chapter if `asked` is None, or "" if there are no chapters. Raises
+    This path is `asked`, the first chapter if `asked` is None, or "" if there are no chapters. Raises
     SetupError if `asked` is not a file in `root`.
     """
     if asked is None:
@@ -34,7 +34,7 @@ def notebook_to_open(root: Path, asked: str | None) -> str:
 def write_workspace(folder: Path, notebook: str) -> None:
     """Write the workspace that JupyterLab opens.
 
-    It has one tab for `notebook`, and no tabs of an earlier start.
+    The workspace has one tab for `notebook`, and no tabs of an earlier start.
 
     JupyterLab would start a kernel for each restored tab before the page is usable. The page's address could
     also contain the notebook and `?reset`, but JupyterLab reads the address 0.5 s later than the workspace.

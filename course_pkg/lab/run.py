@@ -1,4 +1,4 @@
-"""`course run`: runs a command in the course's environment, on the graph that is running or on a new one."""
+"""`course run`: runs a command in the course's environment, on the running graph or on a new graph."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _wait(process: SupervisedProcess) -> int:
     while (status := process.returncode) is None:
         received = signal.sigwaitinfo(AWAITED)
         # A signal that comes from the terminal has pid 0. The terminal sends the same signal to the command,
-        # so it must not be forwarded.
+        # so this signal must not be forwarded.
         if received.si_signo != signal.SIGCHLD and received.si_pid:
             process.signal(received.si_signo)
     return status

@@ -1,8 +1,8 @@
 """The node `polled_camera`: returns one picture of the shop for each call.
 
 The node offers the service `request_image` (PolledImage). The node subscribes to `counter`, the topic with
-the customers that `shop_camera` sees. Without messages, the pictures show a random number of customers. If
-`~stream` is above 0, the node also publishes this number of pictures per second on `image`
+the customers that `shop_camera` sees. If no messages arrive, the pictures show a random number of customers.
+If `~stream` is above 0, the node also publishes this number of pictures per second on `image`
 (sensor_msgs/Image).
 """
 

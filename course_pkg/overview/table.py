@@ -55,7 +55,7 @@ def _state(prediction: Prediction) -> str:
 
 
 def _cell(value: str | float) -> str | float:
-    """Return the value on one line.
+    """Return the value without line breaks.
 
     A quote is added before a text that a spreadsheet could read as a formula.
     """

@@ -62,7 +62,7 @@ class Store(Generic[Record]):
         return record
 
     def write(self, record: Record) -> Record:
-        """Store a record, and return it; it replaces the record with the same key.
+        """Store a record, and return it; an earlier record with the same key is replaced.
 
         The method holds a lock on the file while it reads and replaces the file. Therefore, records that two
         kernels store at the same time are both saved. Raises the same errors as `read`, and OSError if the

@@ -70,7 +70,7 @@ def share_memory_with_children() -> None:
     """Exclude all existing objects from garbage collection.
 
     The garbage collector writes to each object, so each fork would copy the memory of all objects. Without
-    this copy, a part needs 20 % less CPU time.
+    these copies, a part needs 20 % less CPU time.
     """
     gc.collect()
     gc.freeze()

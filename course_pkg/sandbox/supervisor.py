@@ -28,9 +28,12 @@ MASTER_PORT = 11311
 MASTER_TIMEOUT = 30.0  # The master has to start within this time in s; it takes 0.3 s on an idle machine.
 CLEAR_TIMEOUT = 5.0  # All processes of a part have to end within this time in s.
 MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the memory.
-# These lines of status and smaps_rollup in proc(5) contain the memory of a process without files (KiB).
-QUICK = ("RssAnon:", "RssShmem:")  # A page that processes share counts for each of these processes.
-EXACT = ("Pss_Anon:", "Pss_Shmem:")  # A page counts once; the processes that share it divide it.
+# These lines of /proc/PID/status and /proc/PID/smaps_rollup contain the memory of a process in KiB, without
+# mapped files (proc(5)).
+# If processes share a memory page, the page counts for each of these processes.
+QUICK = ("RssAnon:", "RssShmem:")
+# A shared page counts only once: each process that shares the page gets a part of its size.
+EXACT = ("Pss_Anon:", "Pss_Shmem:")
 OPEN = 4096  # No process of a sandbox has a file descriptor of this number or above.
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
 TOO_MUCH_MEMORY, STUDENT_ENDED, ASKED, TOO_MUCH_DISK = 3, 4, 5, 6  # These are exit statuses of a supervisor.
@@ -67,7 +70,9 @@ def supervise(
         wait_until(lambda: _listens(port), MASTER_TIMEOUT, 0.002)
         student = _start(lambda: _run_student(job, shell, messages, isolation))
         _start(lambda: _run_commands(commands, isolation))
-        os.close(commands)  # So the check runner notices at once if the command runner ends.
+        # The check runner notices the end of the command runner only if no other process has this socket
+        # open.
+        os.close(commands)
         descriptors = network.fileno(), listener.fileno()
         send(fork_server, {"supervisor": os.getpid(), "port": port}, descriptors)
     status = _watch(student, folder, isolation)

@@ -30,8 +30,8 @@ END_TIMEOUT = 8.0  # A supervisor has to end all its descendants within this tim
 KILLED_TIMEOUT = 30.0  # The fork server has to report a killed supervisor within this time in s.
 # After the end of the student's process, a check runner has to finish within this time in s.
 VERDICT_TIMEOUT = 3.0
-# One read returns at most this number of bytes; all messages of the student's process together have this
-# limit too.
+# One read returns at most this number of bytes; all messages of the student's process together may also have
+# at most this number of bytes.
 CHUNK = 65536
 
 LIMITS = {
@@ -103,7 +103,7 @@ class Session:
         self._limit = job.limit  # The limit in s depends on the current load of the machine.
 
     def run(self) -> PartResult:
-        """Run the job, and end all processes that it started.
+        """Run the job, and end all processes of the job.
 
         Raises TimeoutError if the fork server does not respond; then the worker cannot be used any more.
         """

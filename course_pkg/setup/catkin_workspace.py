@@ -101,7 +101,7 @@ def _build_environment(places: Places) -> dict[str, str]:
 
 
 def _write_path_file(places: Places) -> None:
-    """Write a file for programs such as editors, so that they find the package and its types."""
+    """Write a file with which programs such as editors find the package and its types."""
     for packages in places.venv.glob("lib/python3*/site-packages"):
         paths = environment.python_path(places)
         write_atomically(packages / "course_pkg.pth", "".join(f"{path}\n" for path in paths))

@@ -26,8 +26,8 @@ NEEDED_BY = (("course", "course lab"), ("grade", "course grade"), ("test", "cour
 class Finding(NamedTuple):
     """The result of one examination.
 
-    `advice` says what the user can do, and is empty if there is no problem. The course also works with an
-    `optional` problem.
+    `advice` says what the user can do, and is empty if there is no problem. If `optional` is true, the course
+    also works with this problem.
     """
 
     what: str

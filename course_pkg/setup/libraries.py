@@ -34,7 +34,7 @@ UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
     "UV_SYSTEM_CERTS": "1",
-    # pip uses the same strategy; it is safe because the lock file contains hashes.
+    # pip uses the same strategy; this strategy is safe because the lock file contains hashes.
     "UV_INDEX_STRATEGY": "unsafe-best-match",
 }
 
@@ -57,7 +57,7 @@ def environment_works(places: Places) -> bool:
 def make_environment(places: Places, extra: str, journal: Journal) -> None:
     """Create the virtual environment if it is missing, and install the libraries in the lock of `extra`.
 
-    Other libraries of the user are not removed. Raises SetupError if a tool fails.
+    Libraries that the user has added to the environment are not removed. Raises SetupError if a tool fails.
     """
     uv, env = installed_uv(places, journal), uv_environment()
     if not _is_on_base(places):
@@ -66,7 +66,7 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
         )
     # The lock lists all necessary libraries, and some dependencies are omitted on purpose (see lock.py).
     options: list[str | Path] = ["--no-deps", "--require-hashes", "-r", lock_file(extra)]
-    if env.get("UV_NO_INDEX"):  # uv has only an option for this
+    if env.get("UV_NO_INDEX"):  # for this setting, uv has only an option, no variable
         options.append("--no-index")
     journal.run([uv, "pip", "install", "--python", places.python, *options], env=env)
     for unwanted in places.venv.glob(f"lib/python3*/site-packages/{SLOW_STARTER}"):

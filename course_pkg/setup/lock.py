@@ -29,7 +29,8 @@ def write_locks(places: Places) -> list[Path]:
     constraint = ["--constraint", str(lock_file("course"))]
     _compile(uv, checkout, ["pyproject.toml", "--extra", "hub", *constraint], lock_file("hub"))
     constraint += ["--constraint", str(lock_file("hub"))]
-    everything = ["--extra", "hub", "--extra", "test"]  # the tests start a hub
+    # The tests need the libraries of the hub, too, because they start a hub.
+    everything = ["--extra", "hub", "--extra", "test"]
     _compile(uv, checkout, ["pyproject.toml", *everything, *constraint], lock_file("test"))
     return [lock_file(name) for name in ("uv", "course", "hub", "test")]
 

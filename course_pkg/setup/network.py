@@ -7,8 +7,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
-FORWARDER = "slirp4netns"  # connects a private network with other computers
-DEVICE = "/dev/net/tun"  # used by the forwarder
+FORWARDER = "slirp4netns"  # This program connects a private network with other computers.
+DEVICE = "/dev/net/tun"  # slirp4netns uses this device.
 RESOLVER = Path("/etc/resolv.conf")
 KERNEL = Path("/proc/sys")
 # A kernel setting, its value that forbids namespaces for ordinary users, and the value that allows them.
@@ -23,8 +23,8 @@ SETTINGS = (
 def network_problem(account: str | None = None) -> tuple[str, str]:
     """Return why this computer allows no private network, and what to do.
 
-    Both strings are empty if it allows one. Without `account`, the user of this process needs the network.
-    Only root can ask for another account.
+    Both strings are empty if this computer allows a private network. Without `account`, the function examines
+    the user of this process. Only root can examine another account.
     """
     if not shutil.which("unshare") or not shutil.which("nsenter"):
         return "unshare or nsenter is missing", "As an administrator, type: apt-get install util-linux"
@@ -53,7 +53,7 @@ def network_problem(account: str | None = None) -> tuple[str, str]:
 def outgoing_problem() -> tuple[str, str]:
     """Return why a private network cannot reach other computers, and what to do.
 
-    Both strings are empty if it can.
+    Both strings are empty if a private network can reach other computers.
     """
     if not shutil.which(FORWARDER):
         return f"{FORWARDER} is not installed", f"As an administrator, type: apt-get install {FORWARDER}"

@@ -17,10 +17,11 @@ DELIVERED = "delivered.json"
 
 
 def make_own_files(places: Places) -> None:
-    """Create the user's own folder, or add what an upgrade has brought; a checkout needs neither.
+    """Create the user's own folder, or add the new files of an upgrade; in a checkout, do nothing.
 
-    A file that the user has not changed becomes the new version. A changed file stays, and a message names
-    it. A file that the user has deleted is copied again. Raises SetupError if the folder cannot be written.
+    A file that the user has not changed is replaced with the new version. A file that the user has changed is
+    kept, and a message names the file. A file that the user has deleted is copied again. Raises SetupError if
+    the folder cannot be written.
     """
     if not places.installed:
         return
@@ -50,7 +51,10 @@ def _released(checkout: Path) -> list[str]:
 
 
 def _deliver(places: Places, name: str, delivered: dict[str, str]) -> bool:
-    """Copy the file `name` if the user has no changed copy; return False if this needs a message."""
+    """Copy the file `name` if the user has no changed copy.
+
+    Return False if the user has one, which needs a message.
+    """
     content, own = (places.checkout / name).read_bytes(), places.own / name
     fresh, last = digest([content]), delivered.get(name)
     present = digest([own.read_bytes()]) if own.exists() else None

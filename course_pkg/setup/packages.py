@@ -26,7 +26,7 @@ APT_OPTIONS = (
     "-o",
     "Dpkg::Use-Pty=0",
     "-o",
-    # This option is faster, and it is safe because a failed set-up is repeated.
+    # With this option, an installation is faster; this is safe because a failed set-up is repeated.
     "Dpkg::Options::=--force-unsafe-io",
     "-o",
     "Dpkg::Options::=--force-confold",
@@ -133,7 +133,7 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
 
 
 def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callable[[str], None]) -> None:
-    """Run `command`, and repeat it while another program holds a lock that the command needs."""
+    """Run `command`, and repeat the command while another program holds a lock that the command needs."""
     deadline = time.monotonic() + LOCK_TIMEOUT
     while True:
         try:

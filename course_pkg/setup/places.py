@@ -11,9 +11,10 @@ from typing import NamedTuple
 from course_pkg.errors import SetupError
 from course_pkg.installed import DATA, own_folder, version_folder
 
-# The first tuple contains the package's folders except course_pkg; the second tuple contains all its files.
+# The first tuple contains the package's folders except course_pkg; the second tuple contains all files of the
+# package.
 CATKIN_FOLDERS = ("srv", "msg", "action", "launch")
-BUILT = "env"  # in the folder of an installed version: all files that the set-up creates
+BUILT = "env"  # This folder of an installed version contains all files that the set-up creates.
 PACKAGE_PARTS = ("course_pkg", *CATKIN_FOLDERS, "package.xml", "CMakeLists.txt", "setup.py")
 
 
@@ -43,7 +44,7 @@ class Places(NamedTuple):
 
     @property
     def own(self) -> Path:
-        """The folder with the user's notebooks and workspace: the checkout, if it is not installed."""
+        """The folder with the user's notebooks and workspace: the checkout, or a folder of the user's own."""
         return own_folder(self.checkout)
 
     @property
@@ -81,7 +82,7 @@ class Places(NamedTuple):
 
     @property
     def environment(self) -> Path:
-        """The file with the variables of the workspace's setup.bash, which is sourced only once."""
+        """The file with the variables of the workspace's setup.bash; setup.bash is sourced only once."""
         return self.workspace / "environment.json"
 
     @property

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import TextIO
 
 LIVE_INTERVAL = 0.2  # This is the time in s between two updates of the line on a terminal.
-# If the output is not a terminal, two lines with the count have this time in s between them.
+# If the output is not a terminal, this is the time in s between two lines with the count.
 LINE_INTERVAL = 10.0
 BAR = 20  # The progress bar has this width in characters.
 GREEN, RED, PLAIN = "\033[32m", "\033[31m", "\033[0m"
@@ -84,7 +84,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show `text`, which explains a wait, but not twice in succession."""
+        """Show `text`, an explanation of a wait, unless the same text was shown last."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:

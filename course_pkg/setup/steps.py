@@ -16,7 +16,7 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.progress import Progress
 from course_pkg.setup.stamps import Stamps, digest, locked
 
-# The lock files of libraries, and what the title of their step adds.
+# The lock files of libraries, each with the text that it adds to the title of its step.
 EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
 
 
@@ -43,7 +43,7 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
     if all(step.is_done() for stage in stages for step in stage):
         return
     if places.installed and hub and os.access(places.cache, os.W_OK):
-        os.umask(0o022)  # the students' servers use the libraries of the hub
+        os.umask(0o022)  # The students' servers have to be able to read the libraries of the hub.
     elif places.installed:
         raise SetupError(
             f"The installation in {places.checkout.parent} does not work on this machine any "

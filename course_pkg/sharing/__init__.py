@@ -1,6 +1,6 @@
-"""A student's part of the class view: it sends the results of checks to the teacher's service.
+"""The student's side of the class view: it sends the results of checks to the teacher's service.
 
 Sharing is on only if COURSE_CLASS_URL contains the address of the service. The check runner then writes each
 result into the outbox, a folder of the student's state. The course's extension of the Jupyter server sends
-these files. The kernel sends nothing.
+the files in the outbox. The kernel itself sends nothing.
 """

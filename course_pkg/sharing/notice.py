@@ -1,4 +1,4 @@
-"""The notice in the notebook: the teacher receives the results of checks."""
+"""The notice in the notebook which says that the teacher receives the results of checks."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.state import state_folder, write_json
 
 ADDRESS = "COURSE_CLASS_URL"
 FILE = "class.json"
-SHOWN = "COURSE_CLASS_NOTICE_SHOWN"  # a variable of the kernel's environment
+SHOWN = "COURSE_CLASS_NOTICE_SHOWN"  # a variable of the kernel's environment, set after the notice was shown
 
 
 def address() -> str:
@@ -21,13 +21,19 @@ def address() -> str:
 
 
 def keep_about(folder: Path, url: str, about: Mapping[str, object]) -> None:
-    """Store what the service at `url` says about itself in `folder`, for the notice. Raises OSError."""
+    """Store the description that the service at `url` gives of itself in `folder`, for the notice.
+
+    Raises OSError.
+    """
     teacher, days = about.get("teacher"), about.get("days")
     write_json(folder / FILE, {"url": url, "teacher": str(teacher)[:100], "days": days})
 
 
 def notice() -> str:
-    """Return the notice, at the first call in this process; then "". It is "" if sharing is off."""
+    """At the first call in this process, return the notice; at all later calls, return "".
+
+    If sharing is off, return "".
+    """
     url = address()
     if not url or os.environ.get(SHOWN) == str(os.getpid()):
         return ""

@@ -13,12 +13,12 @@ from course_pkg.state import state_folder, write_json
 
 FOLDER = "class-outbox"
 LONGEST_HINT = 500  # characters
-LARGEST = 20_000  # bytes of a file; `put` writes less
-KEPT = 30 * 86_400  # s; older results are deleted without being sent
+LARGEST = 20_000  # maximum size of a file in bytes; `put` writes fewer bytes
+KEPT = 30 * 86_400  # time in s after which an unsent result is deleted
 
 
 class Outbox:
-    """The results that are not stored by the service yet. The name of a file is the id of its result."""
+    """The results that the service has not stored yet. The name of a file is the id of its result."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder or state_folder() / FOLDER
@@ -48,7 +48,9 @@ class Outbox:
         return ""
 
     def first(self, most: int) -> list[dict[str, object]]:
-        """Return the oldest results, at most `most`; delete files that `put` has not written.
+        """Return the oldest results, at most `most`.
+
+        Delete files that `put` has not written, or that are too old.
 
         Raises OSError if the folder cannot be read.
         """

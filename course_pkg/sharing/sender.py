@@ -17,11 +17,12 @@ from urllib.parse import urlsplit
 from course_pkg.sharing.notice import ADDRESS, address, keep_about
 from course_pkg.sharing.outbox import Outbox
 
-INTERVAL = 0.2  # s between two looks into the outbox
-PAUSES = (0.5, 1.0, 2.0, 4.0, 8.0, 15.0, 30.0, 60.0)  # s after the first, the second, … failure
-TIMEOUT = 10.0  # s for connecting, and for each wait for data
-BATCH = 50  # results in one request
-LONGEST = 200_000  # bytes of a response
+INTERVAL = 0.2  # time in s between two reads of the outbox
+# time in s before the next attempt, after the first, the second, … failure
+PAUSES = (0.5, 1.0, 2.0, 4.0, 8.0, 15.0, 30.0, 60.0)
+TIMEOUT = 10.0  # time limit in s for the connection, and for each wait for data
+BATCH = 50  # maximum number of results in one request
+LONGEST = 200_000  # maximum size of a response in bytes
 TOKENS = ("COURSE_CLASS_TOKEN", "JUPYTERHUB_API_TOKEN")
 
 
@@ -32,7 +33,7 @@ class NotAccepted(Exception):
 def start_sender(warn: Callable[[str], object]) -> threading.Thread | None:
     """Start the thread that sends results; return None if sharing is off.
 
-    `warn` gets a message when sending begins to fail, and when the reason changes.
+    `warn` is called with a message when the sending fails for the first time, and when the reason changes.
     """
     if not address():
         return None
@@ -52,7 +53,7 @@ class Sender:
         self.stopped = threading.Event()
 
     def run(self) -> None:
-        """Send results until `stopped` is set."""
+        """Send results repeatedly until `stopped` is set."""
         failures, problem = 0, ""
         pause = 0.0
         while not self.stopped.wait(pause):

@@ -51,7 +51,10 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
 
 
 def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
-    """Return half the width of a customer at `y`, as a fraction of the picture's height, and the colour."""
+    """Return half the width of a customer at `y` and the colour.
+
+    The width is a fraction of the picture's height.
+    """
     head = 0.08**2 - (y - 0.3) ** 2
     if head > 0:
         return float(head**0.5), FACE

@@ -17,10 +17,10 @@ if TYPE_CHECKING:
     import genpy
 
 POLL = 0.25  # This is the time in s between two checks whether the camera still sends messages.
-# If an Eye receives no valid frame for this time in s, the state of the counter is unknown.
+# If an Eye receives no valid frame for this many s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0
 
-Time: TypeAlias = "float | genpy.Time"  # This is a time of the clock of a Watch.
+Time: TypeAlias = "float | genpy.Time"  # a time on the clock that a Watch uses
 Frame = TypeVar("Frame")
 
 
@@ -124,7 +124,7 @@ class Eye(Generic[Frame]):
 
 
 def await_customer(eye: Eye[Frame], patience: float) -> bool:
-    """Return True as soon as a customer is at the counter, and False after `patience` s without a customer.
+    """Return True as soon as a customer is at the counter, or False if no customer comes within `patience` s.
 
     Raises CameraSilent after `patience` s if no valid frame arrived in the last second.
     """

@@ -56,8 +56,9 @@ class _Rectangle:
         along = (end[0] - start[0], end[1] - start[1])
         length = math.hypot(*along)
         ux, uy = (along[0] / length, along[1] / length) if length else (1.0, 0.0)
-        # A rectangle has two pairs of parallel edges. Each entry is (ux, uy, low, high): the unit vector at a
-        # right angle to two edges, and the positions of these edges along the vector.
+        # A rectangle has two pairs of parallel edges; each entry describes one pair. An entry is (ux, uy,
+        # low, high): the unit vector at a right angle to the two edges, and the positions of these edges
+        # along the vector.
         self._pairs = ((ux, uy, -half, length + half), (-uy, ux, -half, half))
         self._start = start
 

@@ -65,7 +65,7 @@ class DriverServices:
 
 
 def serve(services: DriverServices, *names: str) -> None:
-    """Offer the services `names`, which change the driver."""
+    """Offer the services `names`, whose handlers change the driver."""
     available = {
         "toggle_forward": (Empty, services.driver.handle_toggle),
         "change_rate": (ChangeRate, services.change_rate),

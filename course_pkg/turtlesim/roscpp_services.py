@@ -33,7 +33,10 @@ class Refused(rospy.ServiceException):
 
 
 def refuse_like_roscpp() -> None:
-    """Make this process refuse connections with roscpp's error messages; call this after init_node()."""
+    """Make this process refuse connections with roscpp's error messages.
+
+    Init_node() must be called before.
+    """
     tcpros_base.start_tcpros_server()
     server = tcpros_base._tcpros_server
     assert server is not None

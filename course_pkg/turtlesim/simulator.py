@@ -20,8 +20,7 @@ from course_pkg.turtlesim.turtle_interface import TurtleInterface
 from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, UnknownTurtle, World, all_finite
 
 FIRST = "turtle1"  # This turtle exists after a reset.
-# Requests take at most this time in s in one tick. Even many requests therefore do not delay a pose for
-# longer.
+# Requests take at most this time in s in one tick. So even many requests delay a pose by at most this time.
 BUDGET = 0.008
 MAX_DELAY = 0.25  # Ticks with a longer delay (s) are skipped, for example after the machine was suspended.
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
@@ -154,7 +153,7 @@ class Simulator:
         return removed
 
     def _reset_world(self, background: Colour) -> None:
-        """Reset the world, and connect the interfaces with the new turtles."""
+        """Reset the world, and connect the interfaces to the new turtles."""
         self._world.reset(background)
         for name, interface in self._interfaces.items():
             interface.turtle = self._world.turtles[name]

@@ -65,7 +65,10 @@ def _command(code: str) -> list[tuple[int, int]]:
 
 @contextmanager
 def _single_keys(terminal: int) -> Iterator[None]:
-    """Make the terminal send each key at once and without echo; restore its settings after the block."""
+    """Make the terminal send each key immediately and without echo.
+
+    Restore the terminal's settings after the block.
+    """
     before = termios.tcgetattr(terminal)
     try:
         tty.setcbreak(terminal)

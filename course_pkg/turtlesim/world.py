@@ -190,6 +190,6 @@ def normalized(angle: float) -> float:
 
 
 def _near_canvas(point: Point) -> Point:
-    """Return a point near the canvas instead of a distant point, to limit the drawing time."""
+    """Return `point`, or, if it is far from the canvas, a nearer point. This limits the drawing time."""
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

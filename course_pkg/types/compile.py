@@ -155,7 +155,7 @@ class _Generation:
         return packages
 
     def _require(self, spec: MsgSpec, source: str, within: tuple[str, ...]) -> None:
-        """Generate the message types that a message contains, if they have not been generated yet."""
+        """Generate the message types of a message's fields, if they have not been generated yet."""
         for type_name in spec.types:
             name = resolve_type(bare_msg_type(type_name), spec.package)
             if is_builtin(name) or name in self.classes:

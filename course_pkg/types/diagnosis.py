@@ -1,4 +1,4 @@
-"""Find the first mistake in the text of a definition, its line, and a correction.
+"""Find the first mistake in the text of a definition, the line of this mistake, and a correction.
 
 genmsg stops at the first line that it cannot read, and its error message often does not show this line. This
 module therefore checks each line for common mistakes first.

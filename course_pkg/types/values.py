@@ -152,7 +152,7 @@ def require_length(field: Field, items: Sequence[object], path: str) -> None:
 
 
 def _all_valid(item: Field, items: list[float]) -> bool:
-    """Return whether all elements are valid numbers; fast even for large arrays, such as an image."""
+    """Return whether all elements are valid numbers; this is fast even for large arrays, such as an image."""
     if item.kind is Kind.INTEGER and items and set(map(type, items)) == {int}:
         assert item.low is not None
         assert item.high is not None

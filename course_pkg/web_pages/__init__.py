@@ -1,1 +1,1 @@
-"""What the pages of `course class` and `course review` share, and the style sheet below that of each page."""
+"""The request handler and the style sheet that the pages of `course class` and `course review` share."""

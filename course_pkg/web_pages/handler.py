@@ -51,7 +51,7 @@ class PageHandler(RequestHandler):
         self.refuse(HTTPStatus.NOT_FOUND, "There is no such page.")
 
     def write_error(self, status_code: int, **_: object) -> None:
-        """Send an error without details."""
+        """Send an error as text, without a traceback."""
         self.refuse(status_code, f"{status_code}: {self._reason}.")
 
     def answer(self, data: Plain) -> None:
@@ -60,7 +60,7 @@ class PageHandler(RequestHandler):
         self.finish(json.dumps(data))
 
     def send_asset(self, path: Path) -> None:
-        """Send a script, or a style sheet below the common one."""
+        """Send the file `path`: a script, or a style sheet that follows the common style sheet."""
         sheet = path.suffix == ".css"
         self.set_header("Content-Type", f"text/{'css' if sheet else 'javascript'}; charset=utf-8")
         self.finish(style_sheet(path) if sheet else path.read_bytes())

@@ -2,7 +2,7 @@
 
 CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error;
 the student's line is in the call stack below the message. A row of a table is (pattern, file, problem,
-remedy); an empty file means the file that the message names.
+remedy); an empty `file` means the file that the message names.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Command:
 
 
 def cmake_messages(output: str) -> Iterator[Message]:
-    """Yield the errors and warnings of CMake in the output of a build, in their order."""
+    """Yield the errors and warnings of CMake in the output of a build, in the order of the output."""
     lines = output.splitlines()
     for number, line in enumerate(lines):
         if head := _HEAD.match(line):

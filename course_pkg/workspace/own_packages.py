@@ -27,19 +27,19 @@ INSTALLED_REMEDY = (
     "Set COURSE_HOME to a folder in which you can write. The path of this folder must not contain a space."
 )
 MANIFEST = "package.xml"
-# These folders for generated modules are used if the course's devel folder contains no such folder.
+# If the course's devel folder has no folder for generated modules, these folders are used.
 MODULES = ("lib/python3/dist-packages",)
 # The pattern matches the MD5 sum in a module that genpy has generated.
 MD5 = re.compile(r"""^  _md5sum *= *["']([0-9a-f]{32})["']""", re.MULTILINE)
-KINDS = (".srv", ".msg")  # Python packages with these endings contain only generated modules.
+KINDS = (".srv", ".msg")  # Python packages whose names have these endings contain only generated modules.
 
 
 def own_workspace() -> Path:
     """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` beside `notebooks`.
 
-    A run that validates or grades notebooks sets COURSE_WORKSPACE or COURSE_STATE, so that it does not find
-    the packages of another run. If only COURSE_STATE is set, the workspace is the folder `workspace` in that
-    folder.
+    A run that validates or grades notebooks sets COURSE_WORKSPACE or COURSE_STATE, so that this run does not
+    find the packages of another run. If only COURSE_STATE is set, the workspace is the folder `workspace` in
+    that folder.
     """
     if given := os.environ.get("COURSE_WORKSPACE"):
         return Path(given).expanduser().resolve()
@@ -49,7 +49,7 @@ def own_workspace() -> Path:
 def make_own_workspace() -> Path:
     """Return the student's workspace; create its folder `src` if it is missing.
 
-    Raises SetupError if the tools of ROS do not work in this folder; then no file has changed.
+    Raises SetupError if the tools of ROS do not work in this folder; in this case, no file is changed.
     """
     root = own_workspace()
     problem = _unfit(root)
@@ -90,7 +90,7 @@ class OwnPackages:
         self._unreadable: set[str] = set()
 
     def follow_cells(self, shell: InteractiveShell | None) -> None:
-        """Call refresh() now and, in a notebook, before each cell; print its message, if any."""
+        """Call refresh() now and, in a notebook, before each cell; print the message of refresh(), if any."""
         self._refresh_and_print()
         if shell is not None:
             shell.events.register("pre_run_cell", lambda _info: self._refresh_and_print())
@@ -179,7 +179,7 @@ def _append(name: str, folders: list[Path]) -> None:
 
 
 def _follow(module: ModuleType) -> list[str]:
-    """Import the types that were added to a package; if the type in `module` has changed, return it."""
+    """Import the types that were added to a package; if the type in `module` has changed, return its name."""
     if module.__name__.endswith(KINDS):
         # If a build is running or has failed, the student's own import shows the error.
         with suppress(Exception):

@@ -1,4 +1,4 @@
-"""A normalised notebook contains nothing that differs between two runs."""
+"""A normalised notebook contains no data that differ between two runs."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_a_readable_traceback_stays() -> None:
 
 
 def test_another_traceback_is_reduced_to_its_last_line() -> None:
-    """`tidy` removes a traceback that contains file paths, but not the error message."""
+    """`tidy` reduces a traceback that contains file paths to its error message."""
     error = {"output_type": "error", "ename": "E", "evalue": "v", "traceback": ["File /home/me/x.py", "E: v"]}
     cell = code("fail()", outputs=[error], execution_count=1)
     tidy(book(cell))

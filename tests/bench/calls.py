@@ -1,4 +1,6 @@
-"""Measures calls: those with a timeout, those of the service panel, the robust client, and the recorder.
+"""Measures the cost of calls and of the recorder.
+
+The calls are those with a timeout, those of the service panel, and those of the robust client.
 
 usage: ./course run python tests/bench/calls.py bounded|panel|robust|recorder [OPTION …]
 """
@@ -80,9 +82,9 @@ def looks(count: int) -> None:
         process.stop()
 
 
-# panel: compares a call through the service panel with a call through a rospy proxy. A call of the panel
-# includes the conversion of the strings in the form and of the response. The client and the server use one
-# core each; calls of the panel and of the proxy alternate.
+# panel: compares a call through the service panel with a call through a rospy proxy. The duration of a
+# panel's call includes the conversion of the form's strings to a request, and of the response to strings. The
+# client and the server use one core each; calls of the panel and of the proxy alternate.
 
 PANEL_BAR = 1.15
 
@@ -109,7 +111,10 @@ def panel_compare(calls: int) -> tuple[float, float]:
 
 
 def panel_main() -> int:
-    """Print the ratio of each run. Return 1 if the median ratio is above the limit."""
+    """Print, for each run, the ratio of the panel's call duration to the proxy's call duration.
+
+    Return 1 if the median ratio is above the limit.
+    """
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=1000)
     parser.add_argument("--runs", type=int, default=3)
@@ -126,11 +131,11 @@ def panel_main() -> int:
     return int(ratio > PANEL_BAR)
 
 
-# robust: makes 200 payments with the solution of 12.3, and counts the errors. The till causes a fault at
-# every third payment. The till is a separate process; the benchmark stops, kills and restarts it. The till
-# writes each payment to a file before it sends its response. An error is a payment that is missing or was
-# made twice, a receipt without a payment, a missing receipt, or a refusal that pay() does not report. A
-# payment that has not ended 2 s after its time limit counts as a hang.
+# robust: makes 200 payments with the solution of 12.3, and counts the errors. The node of the cash register
+# (the till) causes a fault at every third payment. The till is a separate process; the benchmark stops, kills
+# and restarts it. The till writes each payment to a file before it sends its response. An error is a payment
+# that is missing or was made twice, a receipt without a payment, a missing receipt, or a refusal that pay()
+# does not report. A payment that has not ended 2 s after its time limit counts as a hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
 DEADLINE = 15.0  # A payment may take this many seconds. The restart of a killed till needs about 1 s.
@@ -148,7 +153,10 @@ FAULTS = (*IN_THE_TILL, *FROM_OUTSIDE)
 
 
 def robust_main() -> int:
-    """Make many payments, and print the numbers of errors and hangs. Return 1 if there are any."""
+    """Make many payments, and print the numbers of errors and hangs.
+
+    Return 1 if there is an error or a hang.
+    """
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--calls", type=int, default=200)
     parser.add_argument("--seed", type=int, default=int(time.time()))
@@ -193,7 +201,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """A till in a separate process that is restarted after each exit."""
+    """A separate process that runs the till; the process is restarted after each exit."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder

@@ -29,7 +29,8 @@ RATE = 10  # results per second
 SECONDS = 30
 PARTS = ("05.1", "05.2", "05.3", "05.4")
 VERDICTS = ("passed", "not yet", "not yet")
-# Notes the time, in ms since 1970, of the frame after each new version of the page.
+# Records the time, in ms since 1970, of the first frame that the browser draws after each new version of the
+# page.
 WATCH = """
 () => {
   window.shown = [];
@@ -82,7 +83,8 @@ def live() -> None:
             stack.close()
             for thread in threads:
                 thread.join(20)
-    # Results may overtake each other, so the n-th result counts as shown when n results are shown.
+    # Results can arrive in another order, so the n-th result counts as shown as soon as the page shows n
+    # results.
     times = sorted(
         next(when for version, when in shown if version > number) - put for number, put in enumerate(written)
     )

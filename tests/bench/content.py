@@ -60,7 +60,7 @@ def objects_main() -> bool:
 def names_main() -> bool:
     """Print the names that code cells import from course_pkg, except types.
 
-    Return whether there are too many.
+    Return whether there are too many names.
     """
     found: dict[str, set[str]] = {}
     for code in code_cells():
@@ -73,7 +73,7 @@ def names_main() -> bool:
 
 
 def parts_main() -> bool:
-    """Print the number of graded parts of each chapter; return whether there are too few."""
+    """Print the number of graded parts of each chapter; return whether there are too few parts."""
     parts = Counter(part.check.split(".")[0] for part in every_part())
     print(f"graded parts: {parts.total()} (bar: at least {PARTS_BAR})")
     print("  " + "  ".join(f"{chapter}: {count}" for chapter, count in sorted(parts.items())))

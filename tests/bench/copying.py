@@ -1,9 +1,8 @@
 """Measures how well the flags find copies in a class of 300 students.
 
 `grading.py copies [SEED …]` writes a class of chapter 05. Each of 280 students gets independently written
-answers in a random style. The 20 other students copy a student's answers, and disguise the copies with other
-names, another order and other comments. Ten of them copy all exercises, and ten copy only two of four
-exercises.
+answers in a random style. The 20 other students copy a student's answers, and disguise the copies: they
+change names, order and comments. Ten of them copy all exercises, and ten copy only two of four exercises.
 """
 
 from __future__ import annotations

@@ -3,9 +3,9 @@
 usage: ./course run --shared-graph python tests/bench/first_start.py PREFIX [RUNS]
 
 PREFIX is the folder of an installation by `./course install --prefix PREFIX`. Each run is a new user, with an
-empty home folder and an empty browser cache: the program prints the time from the command to a page with a
-rendered notebook and an idle kernel, then the same for the second start, and the size of the user's files. If
-root starts it, the user is nobody.
+empty home folder and an empty browser cache. For the first start and for the second start, the program prints
+the time from the command to a page with a rendered notebook and an idle kernel. It also prints the size of
+the user's files. If root starts the program, the new user is the account `nobody`.
 """
 
 from __future__ import annotations
@@ -47,7 +47,10 @@ def installed(program: Path, _notebook: Path, home: Path) -> Iterator[str]:
 
 
 def new_user(program: Path) -> tuple[list[float], list[float], float]:
-    """Start twice as a new user; return the times of both in s, and the size of the user's files in MB."""
+    """Start the lab twice as a new user.
+
+    Return the durations of both starts in s, and the size of the user's files in MB.
+    """
     with tempfile.TemporaryDirectory(dir="/tmp") as folder, sync_playwright() as playwright:
         home = Path(folder, "home")
         home.mkdir()

@@ -43,9 +43,10 @@ from tests.grading.submitted import WRONG, hand_in
 # speed: compares `course grade` with nbgrader. Arguments: `[SUBMISSIONS] [plain] [many[:COUNT]]`. SUBMISSIONS
 # students (default 30) hand in the notebook of chapter 05. Every third student has one wrong answer. Three
 # commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and `nbgrader
-# autograde` with a notebook that has the same cells. The ratio compares the durations per notebook. With
-# `plain`, only the first command runs. With `many`, `course grade` also grades 1,000 (or COUNT) submissions,
-# and the benchmark measures the memory. nbgrader is installed into a folder of the cache.
+# autograde` with a notebook that has the same cells. The ratio of two commands is computed from their
+# durations per notebook. With `plain`, only the first command runs. With `many`, `course grade` also grades
+# 1,000 (or COUNT) submissions, and the benchmark measures the memory. nbgrader is installed into a folder of
+# the cache.
 
 NBGRADER = "nbgrader==0.9.6"
 CHAPTER = "05"
@@ -213,8 +214,8 @@ def nbgrader_python() -> Path:
 
 
 # kill: kills the grader by SIGKILL at random moments. Arguments: `[TIMES]`. Six submissions are graded once
-# without a kill. Then a run is killed after a random time and continued, TIMES times (default 20). The grades
-# must be equal after each run, and no process may remain.
+# without a kill. Then the benchmark kills a run after a random time, and continues the run; it does this
+# TIMES times (default 20). The grades must be equal after each run, and no process may remain.
 
 COURSE = Places.of().checkout / "course"
 
@@ -333,7 +334,7 @@ WRITTEN = re.compile(
 
 
 def answers_main() -> int:
-    """Check the answers. Return how many answers have a verdict that differs from their header."""
+    """Check the answers. Return the number of answers whose verdict differs from their header."""
     folder, *wanted = sys.argv[1:]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
     written = [answer for path in paths for answer in _written(path)]

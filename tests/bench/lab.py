@@ -40,11 +40,11 @@ from course_pkg.ports import free_port
 from tests.lab.commands import ADDRESS, ROOT, alive, below, can_connect, having, lab, user_environment
 from tests.support import eventually
 
-# The start of `course lab` may take at most this fraction of the start of `jupyter lab`, and at most this
+# The start of `course lab` may take at most this fraction of the duration for `jupyter lab`, and at most this
 # many seconds.
 START_RATIO, START_BAR = 0.75, 3.0
-# A click in `course lab` may take at most this fraction of a click in `jupyter lab`, and at most this many
-# ms.
+# A click in `course lab` may take at most this fraction of the duration in `jupyter lab`, and at most this
+# many ms.
 CLICK_RATIO, CLICK_BAR = 0.3, 12.0
 WARM_UP = 10  # clicks
 TIMEOUT = 20.0  # A process that still runs after this many seconds counts as left behind.
@@ -71,7 +71,7 @@ for _ in range(6):
     took.append(time.perf_counter() - began)
 print("seconds of checks:", *took[1:])
 """
-# After the pause of 60 ms, the kernel is idle again, as it is between two clicks of a person.
+# Pause for 60 ms so that the kernel is idle again, as between two clicks of a person.
 CLICK = """async () => {
     await new Promise(done => setTimeout(done, 60))
     const label = document.querySelector(".widget-label")
@@ -219,7 +219,7 @@ SERVERS: dict[str, Server] = {"stock": stock, "course": course}
 
 
 def isolation(runs: int = 10) -> bool:
-    """Measure a start, a click and a check with and without a private network; the two alternate."""
+    """Measure a start, a click and a check, alternately with and without a private network."""
     kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
     solved = nbformat.read(next((ROOT / "solutions").glob("05_*.ipynb")), as_version=4).cells
     end = next(at for at, each in enumerate(solved) if each.metadata.get("course", {}).get("check") == "05.1")
@@ -266,14 +266,17 @@ def costs(server: Server, notebook: Path) -> tuple[list[float], list[float], lis
 
 
 def kill(times: int = 25) -> bool:
-    """Kill a process of `course lab` several times, and count what is left. Return whether it is nothing."""
+    """Kill a process of `course lab` several times, and count the things that remain.
+
+    Return whether none of these remains.
+    """
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     victims["the holder of the graph"] = b"graph/holder.py\0"
     nothing = True
     with tempfile.TemporaryDirectory(prefix="c", dir="/tmp") as folder:  # a short name
         killed(
             folder, victims["the holder of the graph"]
-        )  # The first start creates files that stay, such as locks.
+        )  # The first start creates files that are not deleted, such as locks.
         for name, pattern in victims.items():
             seconds, leftovers = zip(*(killed(folder, pattern) for _ in range(times)), strict=True)
             counts = {kind: sum(each[kind] for each in leftovers) for kind in leftovers[0]}
@@ -286,8 +289,8 @@ def kill(times: int = 25) -> bool:
 def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
     """Kill the process whose command line contains `pattern`, and then stop the command.
 
-    An empty `pattern` kills the command itself. The files of the command are in `folder`. Return the time
-    in s until nothing is left, and how much is left after TIMEOUT, by kind.
+    An empty `pattern` kills the command itself. The files of the command are in `folder`. Return the time in
+    s until nothing is left, and, for each kind, the number of things that are left after TIMEOUT.
     """
     port, before = free_port(), files_in(folder)
     variables = {"TMPDIR": folder, "XDG_STATE_HOME": f"{folder}/state"}
@@ -319,15 +322,18 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
 
 
 def files_in(folder: str) -> set[str]:
-    """Return all files, sockets and folders in a folder, which may be removed meanwhile."""
+    """Return all files, sockets and folders in a folder.
+
+    Another process may remove some of them during the search.
+    """
     return {os.path.join(root, name) for root, folders, files in os.walk(folder) for name in folders + files}
 
 
 def started_with(folder: str) -> list[int]:
     """Return all processes of this computer with TMPDIR=`folder`.
 
-    Without these processes, no private network of the command exists, because a network ends with the last
-    process that uses it or has it open.
+    If none of these processes exists, no private network of the command exists, because a network ends with
+    the last process that uses it or has it open.
     """
     found = []
     for process in Path("/proc").glob("[0-9]*"):

@@ -139,7 +139,7 @@ def processor_time(pid: int) -> float:
 
 
 # fuzz: makes 10,000 random calls to the simulator, or publishes random messages. The benchmark prints whether
-# the node still runs, whether its state is consistent, and its memory.
+# the node still runs, whether the node's state is consistent, and how much memory the node uses.
 
 BLOCKS = 10
 

@@ -55,7 +55,7 @@ NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
 RATE = 5  # Each topic has this rate in Hz.
 
-# A node that publishes and subscribes to the topics in its arguments.
+# This program is a node that publishes and subscribes to the topics in its arguments.
 SPEAKER = """
 import sys
 import rospy
@@ -177,7 +177,8 @@ EVENTS, LENGTH = 2000, 10.0  # s
 # The first drawing may take at most this many ms. Moving the view must reach at least this many frames per
 # second.
 DRAW_BAR, PAN_BAR = 500.0, 30.0
-REPEATS, TIMELINE_WATCH = 9, 2000  # The benchmark draws this many times, and moves the view for this many ms.
+# The benchmark draws the timeline this many times, and moves the view for this many ms.
+REPEATS, TIMELINE_WATCH = 9, 2000
 PANELS = Path(__file__).parents[2] / "course_pkg" / "panels"
 DRAW = """async (state) => {
     const url = URL.createObjectURL(new Blob([state._esm], {type: "text/javascript"}))
@@ -413,7 +414,8 @@ def topic_main() -> int:
 
 
 # types: measures the time until the type browser is open, with the types of this machine and with additional
-# types. The benchmark compares the time with `rossrv list`, which lists the same service types in a terminal.
+# types. The benchmark compares this time with the duration of `rossrv list`, which lists the same service
+# types in a terminal.
 
 TYPES_BAR = 100.0  # The type browser may need at most this many ms to open, after the import.
 PACKAGES, TYPES = 60, 10

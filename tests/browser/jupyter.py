@@ -25,8 +25,8 @@ from course_pkg.ros.process.supervised import SupervisedProcess
 from tests.browser.pages import READY
 from tests.support import eventually
 
-# These functions run in the page. The first function closes all notebooks without a dialog and opens one
-# notebook.
+# These functions run in the page. The first function closes all notebooks without a dialog, and then opens
+# one notebook.
 OPEN = """async (path) => {
   const { commands, serviceManager, shell } = window.jupyterapp;
   await serviceManager.ready;
@@ -121,14 +121,15 @@ def _command(port: int, root: Path) -> list[str]:
         "ServerApp.terminado_settings": {"shell_command": list(SHELL)},
         "LabApp.news_url": "",
         "LabApp.expose_app_in_browser": True,
-        # With TCP, another program could take the chosen port before the kernel opens it.
+        # With TCP, another program could use the port that JupyterLab chose, before the kernel listens on
+        # this port.
         "KernelManager.transport": "ipc",
     }
     return [sys.executable, "-m", "jupyterlab", *(f"--{name}={value}" for name, value in options.items())]
 
 
 def _environment(folder: Path, master: str) -> Mapping[str, str]:
-    """Return an environment with separate JupyterLab settings, so that several servers can run at a time."""
+    """Return an environment with separate JupyterLab settings, so that several servers can run at once."""
     for place, values in json.loads(OVERRIDES.read_text("utf-8")).items():
         extension, _, name = place.partition(":")
         settings = folder / "settings" / extension

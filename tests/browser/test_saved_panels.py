@@ -170,7 +170,7 @@ def test_a_chart_is_read_by_keyboard_and_pointer(page: Page, tmp_path: Path) -> 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_chart_can_be_read_in_both_themes_and_fits(page: Page, tmp_path: Path, theme: str) -> None:
-    """In a width of 560 px, the labels do not overlap, and the curve has enough contrast."""
+    """At a width of 560 px, the labels do not overlap, and the curve has enough contrast."""
     page.set_viewport_size({"width": 560, "height": 1200})
     drawn = chart(page, tmp_path, CURVE, theme)
     expect(drawn.locator("svg text").first).to_be_visible()

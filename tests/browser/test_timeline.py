@@ -19,7 +19,9 @@ COLOURS = """(canvas, [x, y]) => {
     return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
 }"""
 LENGTH = 1.0  # s
-EDGE = 0.02  # The drawing is longer than the recording by this fraction, before and after the recording.
+# The drawing shows this fraction of the recording's duration before the recording, and the same fraction
+# after it.
+EDGE = 0.02
 
 
 def recording(*more: Event, open_end: bool = False) -> Recording:
@@ -171,7 +173,7 @@ def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
 
 
 def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
-    """Ctrl with the mouse wheel zooms, and a drag moves the visible time range."""
+    """Ctrl with the mouse wheel zooms, and a drag of the mouse moves the visible time range."""
     timeline = show(page, tmp_path, recording())
     whole = ticks(timeline)
     drawing(timeline).hover(position={"x": 300, "y": 60})

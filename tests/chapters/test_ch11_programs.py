@@ -32,7 +32,7 @@ def added(session: str, amount: int) -> tuple[int, int]:
 
 @pytest.mark.usefixtures("server")
 def test_each_session_has_its_own_total() -> None:
-    """Each session has its own total, and another node can continue a session."""
+    """Each session has its own total, and a different node can continue a session."""
     assert [added("alice", 5), added("bob", 100), added("alice", -7)] == [(5, 1), (100, 1), (-2, 2)]
     assert program("session_client", "alice", "10", "10").stdout.splitlines() == [
         "alice: 8 after 3 calls",

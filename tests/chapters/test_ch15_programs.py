@@ -121,7 +121,7 @@ def test_a_dead_camera_leads_to_a_refusal(camera: NodeProcess) -> None:
 
 @pytest.mark.usefixtures("till")
 def test_a_till_adds_up_and_refuses() -> None:
-    """The till counts an item once even if it is set twice, and refuses an invalid item."""
+    """The till counts an item once even if the item is set twice, and the till refuses an invalid item."""
     put = BoundedProxy("/till/set", TillSet)
     assert [put(item, cents).total for item, cents in (("milk", 120), ("bread", 340), ("milk", 110))] == [
         120,

@@ -60,7 +60,10 @@ def test_hint_of_the_first_matching_condition() -> None:
 
 
 def test_assertion_is_reported_once_and_may_fail_later() -> None:
-    """An assertion about three inputs is one line of the report, and fails if one input fails."""
+    """The report shows an assertion about three inputs as one line.
+
+    The assertion fails if one input fails.
+    """
     results = Results()
     results.passes("a")
     results.passes("b")

@@ -93,7 +93,7 @@ def test_pass_has_the_same_text_each_time_and_is_recorded(master: PrivateMaster,
 
 
 def test_a_seed_draws_the_same_inputs_again(tmp_path: Path) -> None:
-    """If COURSE_SEED is the seed from a record, the check fails in the same way again."""
+    """If COURSE_SEED is the seed from a record, the check uses the same inputs and fails again."""
     cells = '    rospy.Service("/getGeometry", geometry, lambda r: (r.length, 0))\n    handle_geometry = 1\n'
     cells += '    print(check("05.1"))'
     first = output(cells, tmp_path)

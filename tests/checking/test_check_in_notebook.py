@@ -85,7 +85,7 @@ def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
     text = " ".join(report(notebook).split())
     assert text == (
         "05.1 not examined A version of handle_geometry that is older than the last run of its cell answers "
-        "the calls of /getGeometry. Run the cell that creates the service again, and then run this cell "
+        "the calls of /getGeometry. Run the cell that creates the service, and then run this cell "
         "again."
     )
     notebook.run(SERVICE, "service")

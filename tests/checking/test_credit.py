@@ -43,7 +43,7 @@ def test_the_goals_of_each_part_have_its_points() -> None:
 
 
 def test_a_mark_counts_after_a_failure_and_a_separate_goal_does_not() -> None:
-    """A separate goal is counted only after a mark or at the end of the check."""
+    """A separate goal counts only after a call of mark() or at the end of the check."""
     results = Results()
     results.marked.add("first")
     results.goal_ended("separate", fulfilled=True)

@@ -26,7 +26,7 @@ class Stuck(Exception):
 
 
 class Drawer:
-    """An object of a check that the kernel uses through a proxy."""
+    """An object of a check; the kernel uses this object through a proxy."""
 
     def __init__(self) -> None:
         self.things = 0
@@ -67,7 +67,7 @@ class Drawer:
     @property
     @remote
     def count(self) -> int:
-        """A number that can be changed."""
+        """A number that the kernel can change."""
         return self.things
 
     @count.setter
@@ -78,7 +78,7 @@ class Drawer:
     @property
     @remote
     def number(self) -> int:
-        """A number that cannot be changed."""
+        """A number that the kernel cannot change."""
         return 7
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""A running class view with a class, and the requests of students and teachers."""
+"""Functions that run a class view with a class, and that send the requests of students and teachers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NASTY = "</span><img src=x onerror=alert(1)>"
 
 
 def tokens_in(folder: Path) -> dict[str, str]:
-    """Return the token of each student by the username."""
+    """Return the students' tokens; the keys are the usernames."""
     lines = (folder / FILE).read_text().splitlines()[1:]
     return {line.split(",")[0]: line.split(",")[-1] for line in lines}
 
@@ -67,7 +67,7 @@ def enter(url: str, token: str = TEACHER) -> str:
 
 
 def changes(url: str, cookie: str, epoch: str = "", since: int = -1) -> dict[str, object]:
-    """Return what the page gets."""
+    """Return the changes since the state `since`, as the page receives them."""
     status, text, _ = ask(f"{url}/changes?epoch={epoch}&since={since}", Cookie=cookie)
     assert status == 200, text
     found = json.loads(text)

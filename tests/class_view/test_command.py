@@ -1,4 +1,7 @@
-"""The command `course class`: one clear message for each wrong input, and no lost results after SIGKILL."""
+"""Tests of the command `course class`.
+
+It prints one clear message for each wrong input, and loses no results after SIGKILL.
+"""
 
 from __future__ import annotations
 
@@ -33,9 +36,13 @@ def _refused(*arguments: object) -> str:
 
 
 def test_wrong_inputs_get_one_message(tmp_path: Path) -> None:
-    """A busy port, a missing or incomplete roster, and a database that is damaged or of another version."""
+    """Each wrong input causes one message.
+
+    The inputs are a port in use, a missing or incomplete roster, and a database that is damaged or has
+    another version.
+    """
     data = ("--data", tmp_path / "data", "--port", 0)
-    assert "There are no students. Give their usernames with --roster FILE" in _refused(*data)
+    assert "There are no students. Use the option --roster FILE" in _refused(*data)
     assert "There is no folder" in _refused("--data", tmp_path / "nothing", "--delete", "s01")
     roster = tmp_path / "roster.csv"
     roster.write_text("name,username\nAda,ada\nBob,\n")
@@ -48,8 +55,8 @@ def test_wrong_inputs_get_one_message(tmp_path: Path) -> None:
         port = busy.getsockname()[1]
         message = _refused("--data", tmp_path / "data", "--students", 2, "--port", port)
         assert (
-            f"127.0.0.1:{port} cannot be used (Address already in use). Give another port with --port"
-            in message
+            f"127.0.0.1:{port} cannot be used (Address already in use). Choose a different port "
+            "with the option --port" in message
         )
     assert "contains nothing about 'nobody'" in _refused(*data, "--delete", "nobody")
     database = tmp_path / "data" / FILE
@@ -79,7 +86,10 @@ def _running(data: Path, port: int) -> Iterator[subprocess.Popen[str]]:
 def test_no_result_is_lost_when_the_service_is_killed(
     kills: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The service is killed at random moments while a student sends results; each result arrives once."""
+    """The test kills the service at random moments while a student sends results.
+
+    The service stores each result exactly once.
+    """
     monkeypatch.setenv("COURSE_STATE", str(tmp_path / "state"))
     monkeypatch.setattr("course_pkg.sharing.sender.PAUSES", (0.05,))
     monkeypatch.setattr("course_pkg.sharing.sender.BATCH", 2)

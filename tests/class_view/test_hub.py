@@ -1,4 +1,4 @@
-"""The service as a service of a JupyterHub, whose HTTP API is imitated here."""
+"""The class view as a service of a JupyterHub; the tests imitate the hub's HTTP API."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ USERS = {
 
 
 class User(RequestHandler):
-    """Whose token it is."""
+    """The request handler that returns the owner of a token."""
 
     def get(self) -> None:
         """Send the owner of the token."""
@@ -34,10 +34,10 @@ class User(RequestHandler):
 
 
 class Token(RequestHandler):
-    """A token for a code."""
+    """The request handler that exchanges an OAuth code for a token."""
 
     def post(self) -> None:
-        """Send the token of the user whose name is the code."""
+        """Send a token; the code in the request is the name of the token's user."""
         right = self.get_argument("client_secret") == "service"
         self.set_status(200 if right else 400)
         self.finish(json.dumps({"access_token": self.get_argument("code")}))
@@ -86,14 +86,17 @@ def login(url: str, user: str, state: str = "") -> tuple[int, dict[str, str]]:
 
 
 def test_the_hub_decides_whose_token_it_is(url: str) -> None:
-    """A user's server sends results with its token; a service's token belongs to no student."""
+    """A token of a user's server belongs to this user; a token of a hub service belongs to no student."""
     assert send(url, "student", result("r1")) == (200, '{"done": ["r1"]}')
     assert send(url, "service", result("r1"))[0] == 403
     assert send(url, "wrong", result("r1"))[0] == 403
 
 
 def test_only_a_teacher_of_the_hub_opens_the_page(url: str) -> None:
-    """The hub logs users in, and their scopes decide; a forged login is refused."""
+    """The hub logs users in, and only users with the teacher's scope can open the page.
+
+    A forged login is refused.
+    """
     status, headers = login(url, "teacher")
     cookie = headers["Set-Cookie"].partition(";")[0]
     assert (status, headers["Location"]) == (302, "/")
@@ -101,12 +104,12 @@ def test_only_a_teacher_of_the_hub_opens_the_page(url: str) -> None:
     assert login(url, "student")[0] == 403
     assert login(url, "wrong")[0] == 403
     assert login(url, "teacher", state="forged")[0] == 403
-    assert ask(f"{url}/?token=teacher")[0] == 302  # a token in the address is not used
+    assert ask(f"{url}/?token=teacher")[0] == 302  # The service ignores a token in the address.
     assert ask(f"{url}/changes")[0] == 403
 
 
 def test_a_hub_that_does_not_answer_is_not_a_refusal(tmp_path: Path) -> None:
-    """The sender then keeps its results, and tries again."""
+    """If the hub does not answer, the sender keeps its results and sends them again later."""
     hub = HubService.of(environment(f"http://127.0.0.1:{free_port()}/hub/api"))
     assert hub
     with serving(tmp_path, identity=HubIdentity(hub)) as url:
@@ -114,5 +117,5 @@ def test_a_hub_that_does_not_answer_is_not_a_refusal(tmp_path: Path) -> None:
 
 
 def test_without_a_hub_there_is_no_hub() -> None:
-    """The variables of a user's server do not make a service."""
+    """The environment variables of a user's server are not sufficient to run as a service of the hub."""
     assert HubService.of({"JUPYTERHUB_API_TOKEN": "x", "JUPYTERHUB_API_URL": "x"}) is None

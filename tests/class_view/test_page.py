@@ -43,7 +43,10 @@ def fill(url: str, folder: Path) -> None:
 
 
 def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
-    """A result appears without a reload; names can be hidden with the keyboard, also after a reload."""
+    """A result appears without a reload.
+
+    A teacher can hide the names with the keyboard, and the names are still hidden after a reload.
+    """
     with serving(tmp_path) as url, opened(browser, url) as (page, words):
         token = tokens_in(tmp_path)["s01"]
         expect(page.get_by_text("There are no results for this selection yet.")).to_be_visible()
@@ -69,7 +72,10 @@ def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("colours", ["light", "dark"])
 def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colours: Colours) -> None:
-    """axe-core finds no problem, empty and with results; no harmful text runs; nothing overflows."""
+    """axe-core finds no problem, no script in a result runs, and nothing overflows.
+
+    The page is tested without results and with results.
+    """
     with serving(tmp_path, 8) as url:
         for state in ("empty", "class"):
             for width in (1280, 390):

@@ -1,4 +1,7 @@
-"""The service: who may send and see results, what is stored, and what the page gets."""
+"""Tests of the service.
+
+They test the permissions to send and see results, the stored results, and the data for the page.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ from tests.web_pages.servers import ask
 
 
 def test_a_student_writes_only_own_results(tmp_path: Path) -> None:
-    """The token decides whose result it is; a result that is sent twice is stored once."""
+    """The token decides to which student a result belongs; a result that is sent twice is stored once."""
     with serving(tmp_path) as url:
         tokens = tokens_in(tmp_path)
         forged = result("r1", student="s02", hint="Multiply.")
@@ -37,7 +40,10 @@ def test_a_student_writes_only_own_results(tmp_path: Path) -> None:
 
 
 def test_foreign_requests_are_refused(tmp_path: Path) -> None:
-    """Results need a student's token; the page needs the teacher's."""
+    """A request that sends results needs a student's token.
+
+    A request for the page needs the teacher's token.
+    """
     with serving(tmp_path) as url:
         student = tokens_in(tmp_path)["s01"]
         for token in ("", "wrong", TEACHER, "ü"):
@@ -61,7 +67,7 @@ def test_foreign_requests_are_refused(tmp_path: Path) -> None:
     [(b"{", 400), ([], 400), ({"results": []}, 400), ({"results": [{}] * 101}, 400), (b"[" * 100_000, 400)],
 )
 def test_bad_requests_are_refused(tmp_path: Path, body: object, status: int) -> None:
-    """A request that contains no list of results gets status 400, and one that is too large gets 413."""
+    """A request without a list of results gets status 400, and a too large request gets status 413."""
     with serving(tmp_path) as url:
         own = {"Authorization": f"token {tokens_in(tmp_path)['s01']}"}
         assert ask(f"{url}/results", body, **own)[0] == status
@@ -69,7 +75,7 @@ def test_bad_requests_are_refused(tmp_path: Path, body: object, status: int) -> 
 
 
 def test_what_is_not_a_result_is_left_out(tmp_path: Path) -> None:
-    """The sender may delete it, and the other results of the request are stored."""
+    """The service stores the valid results of a request, and the sender may delete the invalid item."""
     wrong = [
         *({"id": "a"}, result("b", check="../x"), result("c", verdict="best"), result("d", time="now")),
         *(result("e", time=float("inf")), result("f" * 65)),
@@ -83,7 +89,7 @@ def test_what_is_not_a_result_is_left_out(tmp_path: Path) -> None:
 
 
 def test_a_full_disk_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The sender then keeps its results."""
+    """If the disk is full, the service reports an error, and the sender keeps its results."""
 
     def full(*_: object) -> None:
         raise sqlite3.OperationalError("database or disk is full")
@@ -97,7 +103,7 @@ def test_a_full_disk_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 def test_a_student_is_deleted_while_the_service_runs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The page forgets the results, and the token is not valid any more."""
+    """The page no longer shows the student's results, and the student's token is no longer valid."""
     with serving(tmp_path) as url:
         tokens, cookie = tokens_in(tmp_path), enter(url)
         send(url, tokens["s01"], result("r1", hint="Multiply."))
@@ -116,7 +122,7 @@ def _result(student: str, name: str, verdict: str = "not yet", when: float = 1.0
 
 
 def test_old_results_are_deleted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """All results of a student are deleted, some days after the last one arrived."""
+    """The service deletes all results of a student some days after the student's last result."""
     storage = Storage(tmp_path)
     storage.add([_result("old", "1"), _result("new", "1")])
     now = time.time()
@@ -129,7 +135,7 @@ def test_old_results_are_deleted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 
 def test_a_student_cannot_fill_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A request that exceeds the limit changes nothing."""
+    """If a request exceeds the limit, the service stores nothing from this request."""
     monkeypatch.setattr("course_pkg.class_view.storage.MOST", 2)
     storage = Storage(tmp_path)
     storage.add([_result("s", "1")])
@@ -140,7 +146,7 @@ def test_a_student_cannot_fill_the_disk(tmp_path: Path, monkeypatch: pytest.Monk
 
 
 def test_the_model_counts_tries_until_the_first_pass() -> None:
-    """A blank answer is no try, and a part that has passed stays passed."""
+    """A blank answer is not counted as an attempt, and a passed part remains passed after a later failure."""
     verdicts = ["not attempted", "not yet", "not examined", "passed", "not yet"]
     model = ClassModel({"s": "Sam"})
     for number, verdict in enumerate(verdicts, 1):

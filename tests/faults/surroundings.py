@@ -22,7 +22,7 @@ class Surroundings:
     def left_behind(self) -> dict[str, object]:
         """Return the differences between this state and the current state.
 
-        The function ignores new child processes of an older process.
+        The function ignores new child processes of a process that already existed.
         """
         now = Surroundings()
         others = {pid for before in self.processes for pid in descendants(before)}

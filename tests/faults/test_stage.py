@@ -1,4 +1,4 @@
-"""A stage causes a fault, and later undoes the fault."""
+"""A stage causes a fault, and undoes the fault later."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Each part of a submission earns its points, or the report contains a reason."""
+"""Each part of a submission earns its points, or the report contains the reason why not."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_the_solution_earns_full_marks(worker: SandboxWorker, tmp_path: Path, ch
 
 
 def test_each_part_has_its_own_points(worker: SandboxWorker, tmp_path: Path) -> None:
-    """A wrong answer, a blank answer, or an answer that ends its process loses only its own points."""
+    """A wrong or blank answer, or an answer that ends its process, loses only the points of its own part."""
     answers = {"05.1": WRONG, "05.2": "import os; os._exit(1)", "05.3": ""}
     grade = graded(worker, hand_in(tmp_path, "s01", answers=answers))
     verdicts = [report.verdict for report in grade.reports]
@@ -132,7 +132,7 @@ def test_a_student_cannot_choose_not_examined(worker: SandboxWorker, tmp_path: P
 
 
 def test_error_of_a_cell_is_in_the_feedback(worker: SandboxWorker, tmp_path: Path) -> None:
-    """The feedback shows the error of a cell that fails."""
+    """If a cell fails, the feedback shows its error."""
     grade = graded(
         worker, hand_in(tmp_path, "s01", answers={"05.1": "def handle_geometry(request:\n    pass\n"})
     )
@@ -161,7 +161,7 @@ def test_answer_may_use_cells_above(worker: SandboxWorker, tmp_path: Path) -> No
 
 
 def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
-    """A deleted exercise loses only its own points."""
+    """A deleted exercise loses only its own points; the other exercises keep theirs."""
     path = hand_in(tmp_path, "s01")
     notebook = json.loads(path.read_text())
     gone = next(cell for cell in code_cells(notebook) if "def handle_checked" in cell["source"])

@@ -93,7 +93,7 @@ def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
-    """The parts of the package are examined. All other reports say that there is no notebook."""
+    """The parts of the package are examined. The reports on all other parts say that there is no notebook."""
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
     assert [check for check, each in verdicts(grade).items() if each is Verdict.PASSED] == list(MINE)
@@ -111,7 +111,7 @@ def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
-    """If a file or a permission changes, the key of the grade changes."""
+    """If a file of the package or its permission changes, the key of the grade changes."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     keys = set()
     for change in (lambda: None, lambda: (package / SERVER).chmod(0o644), (package / "README.md").unlink):

@@ -74,7 +74,8 @@ def _files(out: Path) -> Iterator[Path]:
 def _two() -> list[Grade]:
     """Return the grades of two students.
 
-    The first student submits late and earns all points. The second student has a part with each verdict.
+    The first student submits late and earns all points. The second student has parts with all verdicts, one
+    part for each verdict.
     """
     verdicts = (Verdict.PASSED, Verdict.FAILED, Verdict.NOT_ATTEMPTED, Verdict.UNDECIDED, Verdict.PASSED)
     mixed = tuple(report(f"05.{number}", verdict) for number, verdict in enumerate(verdicts, 1))
@@ -236,7 +237,7 @@ def test_the_class_page(tmp_path: Path) -> None:
 
 
 def test_what_was_asked_for_counts_as_possible(tmp_path: Path) -> None:
-    """A chapter counts in the totals even if a student did not hand it in."""
+    """The totals include a chapter that a student did not hand in."""
     five, six = (Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06"))
     gone = replace(five, student="s03", absent=True)
     asked = Asked(
@@ -354,7 +355,7 @@ def test_nothing_harmful_in_any_report(tmp_path: Path) -> None:
 
 
 def test_similar_names_have_different_files(tmp_path: Path) -> None:
-    """Students with similar names have different files, even if the file system ignores capitals."""
+    """Students with similar names have different files, even if the file system ignores case."""
     names = ["s01", "S01", "s01 ", "s-01", "../s01", "s01/", "Ś01"]
     write_reports([replace(class_of(1)[0], student=name) for name in names], tmp_path)
     for folder in ("results", "feedback", "gradescope"):

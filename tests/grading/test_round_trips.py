@@ -1,4 +1,4 @@
-"""Tests of the whole way from a platform's submissions to the file for the platform.
+"""Tests of all steps from a platform's submissions to the file that the platform imports.
 
 Sources: Moodle's importgradeslib.php and locallib.php, Canvas's gradebook_importer.rb, and Gradescope's
 autograder format.
@@ -273,7 +273,7 @@ def test_canvas(tmp_path: Path, notebook: bytes, roster: str) -> None:
 
 
 def test_canvas_forgets_chapters_of_an_earlier_run(tmp_path: Path) -> None:
-    """Old files for Canvas are removed so that an instructor does not import them."""
+    """The run deletes Canvas files of an earlier run, so that an instructor does not import them."""
     write_reports([Grade("s01", each, (report(f"{each}.1"),)) for each in ("05", "06")], tmp_path)
     write_reports([Grade("s01", "06", (report("06.1"),))], tmp_path)
     assert [path.name for path in (tmp_path / "canvas").iterdir()] == ["06.csv"]

@@ -128,7 +128,7 @@ def test_the_command_line(homes: Path, tmp_path: Path) -> None:
 
 
 def test_a_second_collection_replaces_what_changed_and_keeps_the_rest(homes: Path, tmp_path: Path) -> None:
-    """New notebooks and packages replace the old ones, and other chapters do not change."""
+    """New notebooks and packages replace the old notebooks and packages, and other chapters do not change."""
     home = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1", **packaged()})
     run(homes, tmp_path / "out")
     (home / "ros-course" / "notebooks" / NOTEBOOK).write_bytes(b"2")
@@ -150,7 +150,7 @@ def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> 
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
-    # This link can exist on some file systems.
+    # Some file systems allow this hard link.
     os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)
     [home] = [each for each in homes_in(homes) if each.student == "ben"]
     files, problems = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
@@ -270,7 +270,7 @@ def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.
 
 
 def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path) -> None:
-    """Nothing is written to a folder that contains other files."""
+    """The collection writes no file to a folder that contains other files."""
     (tmp_path / "thesis.txt").write_text("")
     with pytest.raises(HandoutError, match=r"did not create it.*Give a new or an empty folder"):
         run(homes, tmp_path)

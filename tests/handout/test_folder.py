@@ -121,7 +121,7 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
         ("course_pkg/chapters/ch05_write_a_server/answers/first.py", False),
         ("course_pkg/chapters/ch05_write_a_server/fixtures.py", False),
         ("solutions/05_write_a_server.ipynb", False),
-        # An author may have changed these files, so the release derives them again.
+        # An author may have changed these files, so the release creates them again from the solutions.
         ("notebooks/05_write_a_server.ipynb", False),
         ("roster.csv", False),
         ("grades/class.html", False),

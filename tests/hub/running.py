@@ -1,4 +1,4 @@
-"""A hub that runs as this user, for tests and measurements."""
+"""A hub that runs as the current user, for tests and measurements."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.support import eventually, terminal
 
 
 def passwords(folder: Path) -> dict[str, str]:
-    """Return the one-time passwords of the hub in `folder`, by user."""
+    """Return the one-time passwords of the hub in `folder`; the keys are the users."""
     with (folder / "hub" / "private" / "passwords.csv").open(newline="") as file:
         return {row["username"]: row["password"] for row in csv.DictReader(file)}
 
@@ -30,10 +30,10 @@ def arguments(folder: Path, students: Sequence[str]) -> list[str]:
 def hub(
     folder: Path, students: Sequence[str], *options: str, before: Sequence[str] = ()
 ) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """Run a hub during the block; yield its process, and its address when it answers.
+    """Run a hub during the `with` block; when the hub answers, yield its process and address.
 
-    `before` is the start of the command line. Another test may start a hub at the same time, so the port is
-    not one of the usual ports.
+    `before` contains the first words of the command line. Another test may start a hub at the same time, so
+    the port is not one of the usual ports.
     """
     port = [] if "--port" in options else ["--port", "0"]
     with running(*arguments(folder, students), *port, *options, before=before) as process:
@@ -48,7 +48,7 @@ def answers(address: str) -> bool:
 
 
 def refusal(*options: str) -> str:
-    """Return the message with which `course hub` refuses the options."""
+    """Return the error message of `course hub` for wrong options."""
     done = subprocess.run(
         [ROOT / "course", "hub", *options], capture_output=True, text=True, timeout=60, check=False
     )

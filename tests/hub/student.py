@@ -17,7 +17,7 @@ TIMEOUT = 300.0  # s
 
 
 class Student:
-    """One browser: it logs in, starts the server and a kernel, and runs cells."""
+    """A student's browser session: it logs in, starts the student's server and a kernel, and runs cells."""
 
     def __init__(self, hub: str, name: str, certificate: Path | None = None) -> None:
         self.hub, self.name = hub, name
@@ -43,19 +43,19 @@ class Student:
         return answer.status_code == 302
 
     def start_server(self) -> None:
-        """Start the server, wait until it answers, and get its cookie."""
+        """Start the student's server, wait until the server answers, and get the server's cookie."""
         answer = self.session.get(f"{self.hub}/hub/spawn/{self.name}", timeout=TIMEOUT)
         assert answer.ok, answer.text
         eventually(self._server_answers, TIMEOUT, 0.3)
 
     def refused_server(self) -> str:
-        """Start the server, and return the page of the hub that shows why it did not start."""
+        """Start the student's server, and return the hub's page that shows why the server did not start."""
         self.session.get(f"{self.hub}/hub/spawn/{self.name}", timeout=TIMEOUT)
         page = f"{self.hub}/hub/spawn-pending/{self.name}"
         return self.session.get(page, timeout=TIMEOUT).text
 
     def open_notebook(self, path: str) -> dict[str, Any]:
-        """Start a kernel for a notebook, connect to it, and return the notebook's content."""
+        """Start a kernel for a notebook, connect to the kernel, and return the notebook's content."""
         session = {"path": path, "name": path, "type": "notebook", "kernel": {"name": "python3"}}
         kernel = self.post("api/sessions", session)["kernel"]["id"]
         address = f"{self._server.replace('http', 'ws', 1)}/api/kernels/{kernel}/channels"
@@ -69,7 +69,7 @@ class Student:
         return content
 
     def run(self, code: str) -> tuple[str, float]:
-        """Run a cell; return its output as text, and the time in s until the kernel is idle again."""
+        """Run a cell; return the cell's output as text, and the time in s until the kernel is idle again."""
         assert self._socket
         begun, number = time.monotonic(), uuid.uuid4().hex
         header = {

@@ -1,4 +1,4 @@
-"""`course hub` starts a hub; a student logs in once, works, and nothing remains at the end."""
+"""`course hub` starts a hub; a student logs in once and works; after the hub's end, no process remains."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def temporary_folder(folder: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
-    """Run a hub for the tests of this module, and end it with SIGKILL; nothing remains."""
+    """Run a hub for the tests of this module; end it with SIGKILL, and assert that no process remains."""
     with hub(folder, ["anna", "ben"]) as (process, address):
         yield address
         family = below(process)
@@ -55,7 +55,10 @@ def address(folder: Path) -> Iterator[str]:
 
 
 def test_a_student_logs_in_once_and_passes_a_check(address: str, folder: Path) -> None:
-    """The password works once; the server has the released notebooks; a kernel passes a check."""
+    """The password can be used only once; the server has the released notebooks.
+
+    A check passes in a kernel.
+    """
     password = passwords(folder)["anna"]
     with Student(address, "anna") as anna:
         assert not anna.log_in("wrong")
@@ -71,7 +74,7 @@ def test_a_student_logs_in_once_and_passes_a_check(address: str, folder: Path) -
 
 
 def test_passwords_are_for_the_teacher_only(address: str, folder: Path) -> None:
-    """Only the owner can read the folder of the passwords."""
+    """Only the hub's owner can read the folder with the passwords."""
     private = folder / "hub" / "private"
     assert private.stat().st_mode & 0o777 == 0o700
     assert (private / "passwords.csv").stat().st_mode & 0o777 == 0o600
@@ -94,5 +97,5 @@ def test_a_second_hub_is_refused(address: str, folder: Path) -> None:
 def test_wrong_options_are_refused(
     tmp_path: Path, names: list[str], options: list[str], message: str
 ) -> None:
-    """One message names the cause, and no hub starts."""
+    """A wrong option causes one error message with the reason, and no hub starts."""
     assert message in refusal(*arguments(tmp_path, names)[1:], *options)

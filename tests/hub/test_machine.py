@@ -1,4 +1,7 @@
-"""A hub on a machine that lacks something: private networks, space on a disk, a home folder."""
+"""Tests of a hub on a machine that lacks something.
+
+The machine has no private networks, no free disk space, or no home folder of a student.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,7 @@ from tests.hub.running import hub, passwords
 from tests.hub.student import Student
 from tests.support import terminal
 
-# A new user namespace has its own limits of namespaces, and a new mount namespace its own mounts.
+# A new user namespace has its own limits for namespaces, and a new mount namespace has its own mounts.
 POOR = """
 echo 0 > /proc/sys/user/max_user_namespaces
 echo 0 > /proc/sys/user/max_net_namespaces
@@ -37,7 +40,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
-    """Run a hub with TLS where namespaces are forbidden, and the disk of one home folder is full."""
+    """Run a hub with TLS on a machine that forbids namespaces.
+
+    The disk of one student's home folder is full.
+    """
     if problem := terminal("unshare", "-Urm", "true").stderr:
         pytest.skip(f"this machine allows no user namespaces: {problem}")
     cert, key = self_signed(folder, "127.0.0.1")
@@ -50,7 +56,10 @@ def address(folder: Path) -> Iterator[str]:
 
 
 def test_a_server_starts_where_namespaces_are_forbidden(address: str, folder: Path) -> None:
-    """The student can work, and the log says that others can reach the nodes. Pages are encrypted."""
+    """The student can work, and the log says that other users can reach the student's nodes.
+
+    Pages are encrypted.
+    """
     assert address.startswith("https://")
     with Student(address, "anna", folder / "hub.pem") as anna:
         assert anna.log_in(passwords(folder)["anna"])
@@ -60,7 +69,7 @@ def test_a_server_starts_where_namespaces_are_forbidden(address: str, folder: Pa
 
 
 def test_a_full_disk_is_named_on_the_students_page(address: str, folder: Path) -> None:
-    """The server of this student does not start, and the page says why."""
+    """This student's server does not start, and the page shows the reason."""
     with Student(address, "full", folder / "hub.pem") as student:
         assert student.log_in(passwords(folder)["full"])
         page = student.refused_server()
@@ -68,7 +77,10 @@ def test_a_full_disk_is_named_on_the_students_page(address: str, folder: Path) -
 
 
 def test_a_missing_home_is_reported_for_this_student_only() -> None:
-    """`nobody` has no home folder on Debian; the account of this process has one."""
+    """On Debian, the account `nobody` has no home folder.
+
+    The account that runs this test has a home folder.
+    """
     missing = next(each for each in pwd.getpwall() if not os.path.exists(each.pw_dir))
     own = pwd.getpwuid(os.getuid()).pw_name
     (problem,) = home_problems([own, missing.pw_name])
@@ -76,7 +88,7 @@ def test_a_missing_home_is_reported_for_this_student_only() -> None:
 
 
 def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:
-    """An upgrade removes the old version, so the hub's folder is beside the versions."""
+    """An upgrade deletes the old version, so the hub's folder is next to the folders of the versions."""
     version = tmp_path / "versions" / "1"
     version.mkdir(parents=True)
     (version / RECORD).touch()
@@ -85,7 +97,10 @@ def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:
 
 
 def test_a_certificate_is_for_the_name_that_students_type(tmp_path: Path) -> None:
-    """A hub on all addresses is reached at the machine's name; a browser needs it as a subjectAltName."""
+    """The certificate contains the machine's name as a subjectAltName.
+
+    Students type this name in the address if a hub listens on all addresses.
+    """
     assert reached_at("127.0.0.1") == "127.0.0.1"
     assert reached_at("0.0.0.0") == socket.getfqdn()  # noqa: S104 -- no server listens here
     cert, key = self_signed(tmp_path, "hub.example")

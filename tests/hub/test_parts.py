@@ -1,4 +1,4 @@
-"""The parts of the hub that need no running hub."""
+"""Tests of functions of the hub that need no running hub."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LIMITS = limits.Limits(memory=300, processes=50)
 
 
 def test_a_password_is_accepted_once(tmp_path: Path) -> None:
-    """A wrong password changes nothing, and a new one replaces the old one."""
+    """A wrong password does not use up the right password, and a new password replaces the old password."""
     record = Passwords(tmp_path / "passwords.json")
     password = record.issue(["anna"])["anna"]
     assert record.issue(["anna"]) == {}
@@ -38,7 +38,7 @@ def test_a_password_is_accepted_once(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", ["Anna", "anna berg", "../anna", "-anna", "1anna", "a" * 33, "anna\n", ""])
 def test_unusual_names_are_refused(name: str) -> None:
-    """The message contains the name."""
+    """The error message contains the refused name."""
     with pytest.raises(HubError, match="not names of accounts"):
         accounts.check_names(["ben", name])
 
@@ -50,7 +50,7 @@ def test_an_account_of_the_system_is_refused() -> None:
 
 
 def test_a_missing_or_foreign_home_is_a_problem(tmp_path: Path) -> None:
-    """The reason names the folder."""
+    """The reason contains the path of the folder."""
     assert "does not exist" in accounts.home_problem(tmp_path / "none", os.getuid())
     assert "another user" in accounts.home_problem(tmp_path, os.getuid() + 1)
     assert accounts.home_problem(tmp_path, os.getuid()) == ""
@@ -68,7 +68,7 @@ def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
 
 
 def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
-    """The sentence for the teacher says which mechanism is used."""
+    """The text for the teacher says which mechanism limits the servers."""
     assert limits.group_of_hub(tmp_path) is None
     assert "rlimits" in limits.describe(LIMITS, None, own_account=True)
     program = "from tests.hub.test_parts import *; limits.set_rlimits(LIMITS, True); bytearray(400 << 20)"
@@ -78,7 +78,7 @@ def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
 
 
 def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
-    """Nbgitpuller brings a new notebook and keeps a changed one."""
+    """Nbgitpuller downloads a new notebook, and does not overwrite a changed notebook."""
     course, home = tmp_path / "course", tmp_path / "home" / "ros-course"
     for name in ("notebooks", "figures"):
         (course / name).mkdir(parents=True)
@@ -98,14 +98,14 @@ def test_a_new_release_keeps_the_students_work(tmp_path: Path) -> None:
 
 
 def test_the_proxy_is_pinned() -> None:
-    """The lock names no address of a registry."""
+    """The lock file contains no address of a registry."""
     lock = Path(__file__).parents[2] / "deploy" / "jupyterhub" / "package-lock.json"
     assert "configurable-http-proxy" in lock.read_text()
     assert "resolved" not in lock.read_text()
 
 
 def test_the_files_for_containers_can_be_read() -> None:
-    """Both files limit memory and start JupyterLab; nothing has run with them."""
+    """Both files contain a memory limit and start JupyterLab; the test does not run them."""
     deploy = Path(__file__).parents[2] / "deploy"
     values = yaml.safe_load((deploy / "kubernetes" / "values.yaml").read_text())
     assert values["singleuser"]["memory"]["limit"] == "1G"

@@ -1,4 +1,4 @@
-"""The files of the image agree with each other and with the repository."""
+"""The files of the container image are consistent with each other and with the repository."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ SECRET = re.compile(r"password|secret|token|api_?key", re.IGNORECASE)
 
 
 def test_the_base_is_a_distribution_that_the_course_knows(tmp_path: Path) -> None:
-    """The base has the version of Debian on which the tests run."""
+    """The base image has the Debian version on which the tests run."""
     base = dict(ARGUMENT.findall(DOCKERFILE.read_text()))["BASE"]
     release = tmp_path / "os-release"
     release.write_text("ID=debian\nVERSION_CODENAME=bookworm\n")
@@ -27,7 +27,7 @@ def test_the_base_is_a_distribution_that_the_course_knows(tmp_path: Path) -> Non
 
 
 def test_each_copied_file_exists_and_is_not_ignored() -> None:
-    """.dockerignore leaves out no file that the Dockerfile copies by its name."""
+    """.dockerignore does not exclude any file that the Dockerfile copies by name."""
     ignored = (ROOT / ".dockerignore").read_text().split()
     copied = COPY.findall(DOCKERFILE.read_text())
     assert "." in copied
@@ -37,7 +37,7 @@ def test_each_copied_file_exists_and_is_not_ignored() -> None:
 
 
 def test_the_devcontainer_uses_this_image() -> None:
-    """The paths and the user of devcontainer.json are those of the Dockerfile."""
+    """devcontainer.json uses the same paths and the same user as the Dockerfile."""
     known, text = json.loads(DEVCONTAINER.read_text()), DOCKERFILE.read_text()
     build = known["build"]
     assert (DEVCONTAINER.parent / build["dockerfile"]).resolve() == DOCKERFILE
@@ -49,19 +49,19 @@ def test_the_devcontainer_uses_this_image() -> None:
 
 
 def test_the_image_runs_as_an_ordinary_user() -> None:
-    """The last USER line names the user of Binder's arguments, and a command follows it."""
+    """The last USER line names the user of Binder's arguments, and a command follows this line."""
     text = DOCKERFILE.read_text()
     assert re.findall(r"^USER (\S+)$", text, re.MULTILINE)[-1] == "${NB_UID}"
     assert text.rstrip().splitlines()[-1].startswith("CMD ")
 
 
 def test_no_file_names_a_registry_or_contains_a_secret() -> None:
-    """The files work with each registry, and can be published."""
+    """The files work with any registry, and contain no secret that prevents their publication."""
     for path in (DOCKERFILE, DEVCONTAINER, ROOT / ".dockerignore"):
         assert not HOST.findall(path.read_text())
         assert not SECRET.findall(path.read_text())
 
 
 def test_the_former_files_of_binder_are_gone() -> None:
-    """repo2docker would not read them, because it prefers the Dockerfile."""
+    """repo2docker prefers the Dockerfile, so it would not read these files."""
     assert not [name for name in ("postBuild", "start") if (ROOT / name).exists()]

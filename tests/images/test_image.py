@@ -1,7 +1,11 @@
-"""The image is built from nothing, and the quick part of the suite runs inside of it.
+"""Tests of the container image.
 
-The base comes from mmdebstrap, and buildah runs the Dockerfile in a chroot, so no registry is needed. All
-files are in a temporary folder, which is removed at the end; they need 4 GB there (COURSE_IMAGE_FOLDER).
+The test builds the image without an existing base, and runs the quick tests of the suite in a container of
+the image.
+
+mmdebstrap creates the base, and buildah runs the Dockerfile in a chroot, so the test needs no registry. All
+files are in a temporary folder, which needs 4 GB and is removed at the end; COURSE_IMAGE_FOLDER names its
+parent folder.
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ from course_pkg.handout.edition.git import git
 from course_pkg.setup import Places
 
 ROOT = Places.of().checkout
-USER = 1000  # NB_UID in the Dockerfile
+USER = 1000  # the value of NB_UID in the Dockerfile
 HOME = "/home/jovyan"
 COURSE = f"{HOME}/ros-services-course"
 LIBRARIES = (
@@ -40,11 +44,11 @@ pytestmark = [
 
 
 class Image:
-    """A container of the image, in a folder of its own."""
+    """A container of the image, in its own folder."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        # A proxy or a mirror that this machine uses has to be known in the container, too.
+        # If this machine uses a proxy or a mirror, the container also needs its address.
         settings = [Path("/etc/ssl/certs/ca-certificates.crt"), folder / "pip.conf"]
         self._volumes = [
             f"--volume={settings[0]}:{settings[0]}:ro",
@@ -56,12 +60,12 @@ class Image:
         settings[1].write_text(f"[global]\ncert = {settings[0]}\nextra-index-url = {indexes}\n")
 
     def buildah(self, *arguments: str | Path) -> str:
-        """Run buildah with its storage in the folder, and return what it prints."""
+        """Run buildah with its storage in the folder, and return the output of buildah."""
         storage = ["--root", self._folder / "root", "--runroot", self._folder / "run"]
         return _output(["buildah", *storage, "--storage-driver=vfs", *arguments], TMPDIR=str(self._folder))
 
     def build(self) -> None:
-        """Make the base, build the image from the files that git tracks, and create a container."""
+        """Create the base, build the image from the files that git tracks, and create a container."""
         base, context = self._folder / "base.tar", self._folder / "context"
         _output(["mmdebstrap", "--variant=minbase", "--include=ca-certificates", "bookworm", base])
         for name in filter(None, git(ROOT, "ls-files", "-z").split("\0")):
@@ -75,12 +79,12 @@ class Image:
         self.container = self.buildah("from", "--pull-never", "localhost/course").strip()
 
     def run(self, script: str) -> str:
-        """Run a script as the user of the image; the chroot forbids namespaces."""
+        """Run a script as the image's user, in a chroot that forbids namespaces."""
         options = ["--isolation=chroot", *self._volumes]
         return self.buildah("run", *options, self.container, "--", "bash", "-ec", script)
 
     def run_with_namespaces(self, script: str) -> str:
-        """Run a script as the user of the image, in a container that allows namespaces."""
+        """Run a script as the image's user, in a container that allows namespaces."""
         root = Path(self.buildah("mount", self.container).strip())
         for folder in (root, *root.parents):
             if folder.is_relative_to(self._folder):
@@ -143,7 +147,7 @@ def test_jupyterlab_and_ros_are_on_the_path_of_an_ordinary_user(image: Image) ->
 
 
 def test_the_course_works_without_namespaces(image: Image) -> None:
-    """ROS, types, JupyterLab, and a notebook with its checks work in a container that forbids namespaces."""
+    """In a container without namespaces, ROS, types and JupyterLab work, and a notebook's checks pass."""
     with pytest.raises(AssertionError):
         image.run("unshare -Urn true")
     assert "passed" in image.run(f"{PYTEST} {QUICK} {STARTED}")
@@ -151,7 +155,7 @@ def test_the_course_works_without_namespaces(image: Image) -> None:
 
 
 def test_the_course_works_with_namespaces(image: Image) -> None:
-    """The same tests pass with namespaces, and the sandbox examines answers of two chapters."""
+    """The same tests pass with namespaces, and the sandbox checks answers of two chapters."""
     image.run_with_namespaces("unshare -Urn true")
     assert "passed" in image.run_with_namespaces(f"{PYTEST} {QUICK} {STARTED}")
     assert "passed" in image.run_with_namespaces(f"{PYTEST} {ANSWERS}")

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 def make_version(prefix: Path) -> Path:
     """Write a version with the notebooks of two chapters to `prefix`, and return its folder.
 
-    Its catkin workspace is a link to that of this checkout, so the test needs no build.
+    Its catkin workspace is a link to the workspace of this checkout, so the test needs no build.
     """
     version, built = prefix / "versions" / "1", Places.of().cache
     checkout = version / "course"
@@ -35,7 +35,7 @@ def make_version(prefix: Path) -> Path:
 
 
 def asked(version: Path, program: str, **variables: str) -> str:
-    """Return the output of `program`, which the interpreter runs with the package of `version`."""
+    """Run `program` with the interpreter and the package of `version`, and return the output."""
     command = [Places.of().python, "-c", program]
     environment = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "PYTHONPATH": str(version / "course")}
     done = subprocess.run(

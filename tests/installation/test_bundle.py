@@ -1,4 +1,4 @@
-"""The installer for machines without internet: its index for apt, and its script."""
+"""Tests of the installer for machines without internet: the index for apt, and the install script."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from course_pkg.installation.bundle import install_script, package_index, write_
 
 
 def test_apt_finds_a_package_of_the_bundle(tmp_path: Path) -> None:
-    """With the index, apt lists the package, and its size and checksum are right."""
+    """With the index, apt lists the package with the right size and checksum."""
     control = tmp_path / "source" / "DEBIAN" / "control"
     control.parent.mkdir(parents=True)
     control.write_text(
@@ -28,7 +28,7 @@ def test_apt_finds_a_package_of_the_bundle(tmp_path: Path) -> None:
 
 
 def test_the_script_is_correct_shell(tmp_path: Path) -> None:
-    """The shell accepts the script, which names each package and no address of the internet."""
+    """The shell accepts the script; the script names each package, and contains no internet address."""
     script = install_script(["python3", "g++"])
     subprocess.run(["sh", "-n"], input=script, text=True, check=True)
     assert "--no-install-recommends python3 g++\n" in script

@@ -1,4 +1,7 @@
-"""`course install` and `course uninstall`: the prefix, its versions and links. The build is a slow test."""
+"""Tests of `course install` and `course uninstall`: the prefix, the versions and the links.
+
+Only a slow test runs the build.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +40,10 @@ def _version(prefix: Prefix, name: str) -> Path:
 
 
 def test_an_upgrade_keeps_a_version_that_is_in_use(prefix: Prefix) -> None:
-    """The link leads to the new version; an old version is removed as soon as no process uses it."""
+    """The link leads to the new version.
+
+    The installer removes an old version when no process uses this version.
+    """
     old, new = prefix.versions / "1", _version(prefix, "2")
     command = prefix.bin / "course"
     assert subprocess.check_output([command], text=True) == "1\n"
@@ -52,7 +58,10 @@ def test_an_upgrade_keeps_a_version_that_is_in_use(prefix: Prefix) -> None:
 
 
 def test_an_uninstall_removes_what_the_installation_made(prefix: Prefix) -> None:
-    """It finds the links again without --bin, and keeps the files of others."""
+    """Even without --bin, the uninstall finds and removes the links.
+
+    It does not remove files of other programs.
+    """
     (prefix.bin / "other").touch()
     assert uninstall(prefix.path, force=False) == 0
     left = [path.name for path in prefix.path.parent.rglob("*") if path.is_symlink() or not path.is_dir()]
@@ -61,7 +70,7 @@ def test_an_uninstall_removes_what_the_installation_made(prefix: Prefix) -> None
 
 
 def test_an_uninstall_waits_for_the_users(prefix: Prefix) -> None:
-    """While a user works, nothing is removed."""
+    """While a user works, `course uninstall` removes no files."""
     environment = {"PYTHONPATH": f"{prefix.versions / '1'}/course", "PATH": os.defpath}
     with subprocess.Popen(["sleep", "60"], env=environment) as lab:
         with pytest.raises(SetupError, match=f"processes {lab.pid}"):
@@ -71,7 +80,10 @@ def test_an_uninstall_waits_for_the_users(prefix: Prefix) -> None:
 
 
 def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
-    """A space, a foreign folder, a foreign command: one message each, and nothing changes."""
+    """For an unsuitable prefix, the installer prints one message and changes nothing.
+
+    Unsuitable are a space, another program's folder, and another program's command.
+    """
     (tmp_path / "foreign").mkdir()
     (tmp_path / "foreign" / "file").touch()
     (tmp_path / "bin").mkdir()
@@ -92,7 +104,7 @@ def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
 def test_a_full_disk_leaves_the_current_version(
     prefix: Prefix, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """The new version is removed, and `course` still starts the old one."""
+    """The installer removes the new version, and `course` still starts the old version."""
     edition = tmp_path / "edition"
     edition.mkdir()
     for name in ("package.xml", "course"):
@@ -112,7 +124,7 @@ def test_a_full_disk_leaves_the_current_version(
 
 
 def test_bash_completes_commands_and_options() -> None:
-    """The script comes from the table of commands."""
+    """The completion script is generated from the table of commands."""
     script = subprocess.check_output([ROOT / "course", "completion"], text=True)
     words = 'COMP_WORDS=(course {}); COMP_CWORD={}; _course; echo "${{COMPREPLY[@]}}"'
     for typed, number, expected in (("unins", 1, "uninstall"), ("install --pre", 2, "--prefix")):

@@ -1,4 +1,4 @@
-"""A user's own folder beside a shared installation."""
+"""A user's own folder, with a shared installation."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Places:
 def test_an_upgrade_adds_notebooks_and_never_overwrites_the_users_work(
     places: Places, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """New and unchanged notebooks get the new version. A message names a changed one once."""
+    """New and unchanged notebooks get the new version. A message lists each changed notebook once."""
     make_own_files(places)
     (places.own / "notebooks" / "05.ipynb").write_text("my work")
     for name in ("05", "06", "07"):
@@ -42,7 +42,7 @@ def test_an_upgrade_adds_notebooks_and_never_overwrites_the_users_work(
 
 
 def test_a_deleted_notebook_is_copied_again(places: Places) -> None:
-    """A user can delete a notebook to start again with an empty one."""
+    """A user can delete a notebook to get the original notebook again."""
     make_own_files(places)
     (places.own / "notebooks" / "05.ipynb").unlink()
     make_own_files(places)
@@ -52,7 +52,7 @@ def test_a_deleted_notebook_is_copied_again(places: Places) -> None:
 def test_a_folder_that_cannot_be_created_is_one_message(
     places: Places, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The message contains the folder and the variable that changes it."""
+    """The message contains the folder, and the variable that selects another folder."""
     monkeypatch.setenv("COURSE_HOME", "/proc/none/ros-course")
     with pytest.raises(SetupError, match=r"/proc/none/ros-course cannot be written \(.*set COURSE_HOME to"):
         make_own_files(places)
@@ -67,7 +67,7 @@ def test_a_checkout_stays_as_it_is() -> None:
 
 @pytest.mark.parametrize("name", ["jörg", "o'neil", "$(id)", "two words"])
 def test_results_and_workspace_are_in_the_users_own_folder(tmp_path: Path, name: str) -> None:
-    """Also with an unusual user name, all that an installed package writes is in ~/ros-course."""
+    """Even for an unusual user name, an installed package writes all its files to ~/ros-course."""
     version = make_version(tmp_path / "prefix")
     home = tmp_path / name
     program = (

@@ -1,4 +1,4 @@
-"""Functions that run `course` like a user, and find the processes that still run."""
+"""Functions that run `course` as a user does, and that find processes that still run."""
 
 from __future__ import annotations
 
@@ -25,7 +25,10 @@ def user_environment() -> dict[str, str]:
 
 @contextmanager
 def running(*arguments: str, before: Sequence[str] = (), **variables: str) -> Iterator[subprocess.Popen[str]]:
-    """Run `course lab` or `course run` during the `with` block; `before` is the start of the command line."""
+    """Run `course lab` or `course run` during the `with` block.
+
+    `before` contains the first words of the command line.
+    """
     with subprocess.Popen(
         [*before, ROOT / "course", *arguments],
         env={**user_environment(), **variables},
@@ -102,7 +105,7 @@ def own_namespace(kind: str) -> str:
 
 
 def listening(pids: list[int]) -> set[tuple[str, int]]:
-    """Return the IPv4 addresses and ports on which processes listen, in whichever network they are."""
+    """Return the IPv4 addresses and ports on which the processes listen, in all networks."""
     found = set()
     for pid in pids:
         with suppress(OSError):  # the process may have ended

@@ -22,7 +22,7 @@ READY = 60.0  # s
 
 @pytest.fixture(scope="module")
 def by_hand(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
-    """Start `jupyter lab` with its path and without any variable of ROS, as an editor or Binder does."""
+    """Start `jupyter lab` by its path and without any ROS variable, as an editor or Binder does."""
     port = free_port()
     command = [Places.of().venv / "bin" / "jupyter", "lab", "--no-browser", "--allow-root"]
     options = ["--IdentityProvider.token=t", f"--ServerApp.port={port}", "--ServerApp.port_retries=0"]
@@ -46,13 +46,13 @@ def by_hand(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
 
 
 def environment_of(service: Service, pattern: bytes) -> dict[str, str]:
-    """Return the variables of the process below the server whose command line contains `pattern`."""
+    """Return the environment of the server's child process whose command line contains `pattern`."""
     found = eventually(lambda: having(pattern, below(service.process)), READY)
     return psutil.Process(found[0]).environ()
 
 
 def test_kernels_and_terminals_share_ros_and_a_master(by_hand: Service) -> None:
-    """A kernel and a terminal find the packages of ROS, and use the same master, which answers."""
+    """A kernel and a terminal find the ROS packages, and both use the same running master."""
     by_hand.post("/api/kernels")
     by_hand.post("/api/terminals")
     kernel = environment_of(by_hand, b"ipykernel_launcher")
@@ -66,7 +66,7 @@ def test_kernels_and_terminals_share_ros_and_a_master(by_hand: Service) -> None:
 
 
 def test_the_settings_are_those_of_course_lab(by_hand: Service) -> None:
-    """The course's files are hidden, checkpoints are in the cache, and the course's defaults hold."""
+    """The course's files are hidden, checkpoints are in the cache, and the course's defaults are used."""
     names = {entry["name"] for entry in by_hand.get("/api/contents")["content"]}
     assert "notebooks" in names
     assert not {"course_pkg", "setup.py"} & names
@@ -76,6 +76,6 @@ def test_the_settings_are_those_of_course_lab(by_hand: Service) -> None:
 
 
 def test_the_course_enables_its_extension() -> None:
-    """The file that enables the extension is where Jupyter looks for it, as if pip had installed it."""
+    """The file that enables the extension is in the folder where Jupyter looks for it."""
     enabled = Places.of().venv / "etc" / "jupyter" / "jupyter_server_config.d" / "course_pkg.json"
     assert '"course_pkg.lab.extension": true' in Path(enabled).read_text()

@@ -81,7 +81,7 @@ async def options_of_a_page(host: str) -> object:
 
 @pytest.mark.parametrize("ours", [False, True])
 def test_only_the_extension_sets_the_socket_option(ours: bool, tmp_path: Path) -> None:
-    """With the extension, a kernel's websocket has TCP_NODELAY; without the extension, it does not."""
+    """Only with the extension does a kernel's websocket have TCP_NODELAY."""
     with server(tmp_path, ours=ours) as host:
         assert completed(asyncio.wait_for(options_of_a_page(host), 60)) == [ours]
 

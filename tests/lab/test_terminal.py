@@ -27,7 +27,7 @@ SCRIPT = (
 )
 INSTALLED = "catkin_install_python(PROGRAMS scripts/area DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})\n"
 TAB = "\t"
-BUSY = 240.0  # s; time limit for commands that take 3 s on an idle machine, such as catkin_make
+BUSY = 240.0  # s; maximum time for commands that take 3 s on an idle machine, such as catkin_make
 
 
 class Terminal:
@@ -74,7 +74,7 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
     """Start `course lab` with a temporary workspace, and yield a terminal."""
     state = tmp_path_factory.mktemp("state")
     with pytest.MonkeyPatch.context() as patch:
-        patch.chdir(state)  # The test starts `course lab` in another folder than the checkout.
+        patch.chdir(state)  # The test starts `course lab` in a folder that is not the checkout.
         with lab(COURSE_STATE=str(state)) as (process, address):
             parts = urlsplit(address)
             headers = {"Authorization": f"token {parse_qs(parts.query)['token'][0]}"}
@@ -144,7 +144,7 @@ def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
 
 
 def test_roscore_starts_a_new_master_after_the_lab_master_has_ended(terminal: Terminal) -> None:
-    """If the master of the lab is killed, roscore starts a new one at the same address, with /rosout."""
+    """If the master of the lab is killed, roscore starts a new master at the same address, with /rosout."""
     master = "python3 -c 'from course_pkg.ros import *; print(MasterClient(master_uri()).pid())'"
     former = int(terminal.run(master))
     os.kill(former, signal.SIGKILL)

@@ -1,4 +1,4 @@
-"""Tests of chapter 13 on a machine without a C++ compiler."""
+"""Tests of chapter 13 on a machine that has no C++ compiler."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ SERVICES = (
 
 
 def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot:
-    """Return a snapshot of the graph. The node `dead` is registered but does not run."""
+    """Return a snapshot of the graph. The node `dead` is registered, but its process does not run."""
     names = ("/client", "/listener", "/server", "/talker")
     nodes = tuple(
         NodeSeen(name, "http://localhost:1/", "refused" if name == dead else "answered") for name in names
@@ -123,7 +123,7 @@ def test_several_publishers_add_up_and_several_listeners_do_not() -> None:
 
 
 def test_counts_never_draw_again_and_are_sent_only_if_they_change() -> None:
-    """If the rates do not change, the panel sends nothing."""
+    """If the rates do not change, the panel sends no message to the page."""
     wall = Wall()
     for activity in counts(*range(0, 800, 20)):
         wall.model.count(activity)
@@ -243,7 +243,7 @@ def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
 
 
 def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) -> RateMeter:
-    """Return a rate meter that has read the counts of a steady rate every 2 s.
+    """Return a rate meter that has read the counts of a publisher with a constant rate every 2 s.
 
     Each count is read up to `late` s after the count was made.
     """
@@ -279,7 +279,7 @@ def test_the_end_of_messages_and_a_new_rate_are_noticed_soon() -> None:
 
 
 def test_a_restarted_publisher_is_counted_from_its_start() -> None:
-    """If a count decreases, earlier counts are not used any more."""
+    """If a count decreases, the meter ignores all earlier counts."""
     meter = counted(10, 30)
     meter.read(32.0, 4)
     assert meter.rate is not None
@@ -306,7 +306,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The panel shows as many digits as the counts can determine."""
+    """The panel shows only as many digits as the counts can determine."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 

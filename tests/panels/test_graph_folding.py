@@ -60,7 +60,7 @@ def names(shown: Picture) -> set[str]:
 
 
 def test_a_namespace_has_two_or_more_shapes() -> None:
-    """A namespace contains at least two elements."""
+    """A group of elements is a namespace only if it contains at least two elements."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}

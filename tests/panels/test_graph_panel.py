@@ -70,7 +70,7 @@ def test_a_hidden_node_hides_its_services_and_its_own_topics() -> None:
 
 
 def test_the_order_of_the_snapshot_does_not_matter() -> None:
-    """The same graph always gives the same drawing."""
+    """The order of a snapshot's entries does not change the drawing."""
     turned = Snapshot(WHOLE.master, WHOLE.nodes[::-1], WHOLE.topics[::-1], WHOLE.services[::-1])
     assert picture(turned) == picture(WHOLE)
 

@@ -74,7 +74,7 @@ def test_a_topic_without_a_type_waits_for_one() -> None:
 
 
 def test_the_first_message_gives_the_type() -> None:
-    """If no type is known, the first message gives the type."""
+    """If no type is known, the first message determines the type."""
     process = FakeProcess(None)
     process.model.report({"messages": [message(1, "2.5")]})
     assert process.state["messages"][0]["line"] == "data 2.5"

@@ -19,7 +19,7 @@ def at(x: float, colour: Colour | None = BACKGROUND, speed: float = 1.0, y: floa
 
 
 def filmed(*snapshots: Observation) -> TurtleRecording:
-    """Return the recording of a turtle with a pose every 50 ms."""
+    """Return the recording of a turtle that has a pose every 50 ms."""
     recording = TurtleRecording()
     for number, seen in enumerate(snapshots):
         recording.see(number * LOOK, "turtle1", seen)
@@ -85,7 +85,7 @@ def test_clear_is_seen_by_a_turtle_on_its_line() -> None:
 
 
 def test_reset_is_seen_by_the_first_turtle() -> None:
-    """After a reset, the recording contains an erased drawing."""
+    """After a reset of the simulator, the replay erases the drawing."""
     home = Observation(HOME, HOME, 0.0, 0.0, BACKGROUND)
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), at(3.2, USUAL), home, home)
     assert (UP, "cleared") in [row[1:] for row in recording.rows]

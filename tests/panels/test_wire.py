@@ -93,7 +93,7 @@ def values(pieces: list[PieceState]) -> dict[str, str]:
 
 
 def covered(pieces: list[PieceState]) -> list[tuple[int, int]]:
-    """Return the offsets of the fields that are not headings."""
+    """Return the byte offsets of all fields, without headings."""
     return [(piece["at"], piece["size"]) for piece in pieces if piece["role"] != "group"]
 
 
@@ -131,7 +131,7 @@ ANSWERED = (False, b"\1" + sized(struct.pack("<2f", 6.24, 55.536)))
 
 
 def test_every_primitive_has_its_place_and_value() -> None:
-    """The fields contain all bytes and the original values."""
+    """Each byte belongs to a field, and the fields have the original values."""
     kind = compile_message("x/Everything", EVERYTHING)
     data = sized(body(kind, VALUES))
     pieces = request_pieces(data, kind)

@@ -1,7 +1,7 @@
 """Attacks that try to earn points without an answer, or to harm the grader.
 
-Each attack is code before the answer in a student's cell for exercise 05.1. The attacks in SLOW run forever.
-The attacks in BUILD are lines that are added to a package's CMakeLists.txt.
+Each attack is code that is inserted before the answer in a student's cell for exercise 05.1. The attacks in
+SLOW run forever. The attacks in BUILD are lines that are added to a package's CMakeLists.txt.
 """
 
 FORGED = {

@@ -26,8 +26,8 @@ def handle_geometry(request):
 geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
 """
 WRONG = RIGHT.replace("request.width * request.length", "1.0")
-# Each line of PROBES is a Python expression. Except for the first line, the expression must raise an error or
-# be false.
+# Each line of PROBES is a Python expression. Each expression must raise an error or be false, except the
+# expression in the first line.
 PROBES = """
 os.getuid() == UID
 open(SECRET[0]).read()

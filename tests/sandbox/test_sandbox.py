@@ -198,7 +198,10 @@ def one_call(context: CheckContext) -> None:
 
 
 def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path: Path) -> None:
-    """If an answer is stopped while its check runs, the result is this reason, and not a lost master."""
+    """If an answer is stopped during its check, the result contains the reason.
+
+    It does not contain an error about a lost master.
+    """
     source = """
         import os, time
         def handle_geometry(request):
@@ -307,7 +310,7 @@ def test_the_previous_answer_is_not_in_memory(worker: SandboxWorker) -> None:
 
 
 def test_nothing_of_the_previous_part_remains(worker: SandboxWorker) -> None:
-    """The next part finds no files, processes or variables of the previous part."""
+    """The next part finds no files, processes or variables that the previous part created."""
     leave = """
     import os
     open("/student/note", "w").close(); open("/tmp/note", "w").close(); open("/dev/shm/note", "w").close()

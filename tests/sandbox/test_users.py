@@ -14,7 +14,7 @@ from tests.sandbox.other_users import run_installed, unpacked_autograder
 
 @pytest.mark.timeout(300)
 def test_attacks_by_another_user_reach_nothing(tmp_path: Path) -> None:
-    """No attack reads a solution, changes a file, earns points, or leaves a process."""
+    """No attack reads a solution, changes a file, earns points, or leaves a running process."""
     source = unpacked_autograder(tmp_path, chapters=("05",))
     source.parent.chmod(0o700)
     checkout = Places.of().checkout
@@ -28,7 +28,7 @@ def test_attacks_by_another_user_reach_nothing(tmp_path: Path) -> None:
     found = json.loads(ran.stdout.splitlines()[-1])
     assert not found["refusal"]
     assert found["uid"] >= 60000
-    # The probes were run, because only the first probe succeeds.
+    # Only the first probe succeeds, which shows that the probes were run.
     assert found["done"] == ["os.getuid() == UID"]
     assert not any(found["points"].values()), found["points"]
     assert not any(found["left"].values()), found["left"]

@@ -1,4 +1,4 @@
-"""What `course doctor` says about private networks."""
+"""Tests of what `course doctor` prints about private networks."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def fake(folder: Path, name: str, script: str) -> None:
 
 @pytest.fixture
 def kernel(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Imitate a machine whose kernel refuses namespaces; return the folder of the kernel's settings."""
+    """Imitate a machine whose Linux kernel refuses namespaces; return the folder of the kernel's settings."""
     fake(tmp_path, "unshare", "echo 'unshare failed: Operation not permitted' >&2; exit 1")
     fake(tmp_path, "nsenter", "exit 1")
     monkeypatch.setenv("PATH", str(tmp_path))
@@ -29,7 +29,7 @@ def kernel(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_setting_that_forbids_namespaces_is_named(
     kernel: Path, name: str, forbids: str, _allows: str
 ) -> None:
-    """The message names the kernel's setting and its value, and the command that changes it."""
+    """The message contains the kernel's setting, its value, and the command that changes the setting."""
     setting = kernel / name.replace(".", "/")
     setting.parent.mkdir()
     setting.write_text(f"{forbids}\n")
@@ -39,12 +39,12 @@ def test_a_setting_that_forbids_namespaces_is_named(
 
 
 def test_other_reasons_are_quoted(kernel: Path) -> None:
-    """Without such a setting, the message quotes the reason of the program."""
+    """If no kernel setting forbids namespaces, the message contains the error message of the program."""
     assert network.network_problem()[0] == "unshare failed: Operation not permitted"
 
 
 def test_what_outgoing_connections_need(kernel: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The messages name a missing program, a missing device, and a name server that cannot be reached."""
+    """The messages name a missing program, a missing device, and an unreachable name server."""
     assert "slirp4netns is not installed" in network.outgoing_problem()[0]
     fake(kernel, "slirp4netns", "exit 0")
     monkeypatch.setattr(network, "DEVICE", str(kernel / "none"))

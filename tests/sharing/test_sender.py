@@ -1,4 +1,7 @@
-"""Sharing: what a check writes into the outbox, how it is sent, and what the notebook says about it."""
+"""Tests of sharing.
+
+They test what a check writes into the outbox, how the sender sends it, and what the notebook prints about it.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +35,7 @@ def outbox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Outbox:
 def test_results_arrive_and_leave_the_outbox(
     outbox: Outbox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The hint is sent, the student's values are not; the notebook names the teacher once."""
+    """The sender sends the hint, but not the student's values; the notebook names the teacher only once."""
     assert outbox.put(REPORT) == ""
     (stored,) = outbox.folder.glob("*.json")
     assert "my secret" not in stored.read_text()
@@ -49,7 +52,7 @@ def test_results_arrive_and_leave_the_outbox(
 
 
 def test_results_stay_if_they_cannot_be_sent(outbox: Outbox, tmp_path: Path) -> None:
-    """A wrong token, a service that does not run, and an address that is none keep the results."""
+    """With a wrong token, a bad address, or no running service, the results stay in the outbox."""
     outbox.put(REPORT)
     with serving(tmp_path / "class") as url, pytest.raises(NotAccepted, match="403: The token is wrong"):
         Sender(url, "wrong", outbox, print).send()
@@ -62,14 +65,14 @@ def test_results_stay_if_they_cannot_be_sent(outbox: Outbox, tmp_path: Path) -> 
 
 
 def test_a_full_disk_is_one_message(outbox: Outbox) -> None:
-    """The report of the check says that the result is not shared."""
+    """If the disk is full, the check's report says that the result is not shared."""
     outbox.folder.parent.mkdir(parents=True)
     outbox.folder.write_text("This file is in the way.")
     assert "This result is not shared with your teacher" in outbox.put(REPORT)
 
 
 def test_nothing_runs_without_an_address(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without COURSE_CLASS_URL, there is no thread and no notice."""
+    """Without COURSE_CLASS_URL, no thread runs and no notice is printed."""
     monkeypatch.delenv("COURSE_CLASS_URL", raising=False)
     assert start_sender(print) is None
     assert notice() == ""

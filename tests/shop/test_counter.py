@@ -29,7 +29,7 @@ def test_numbers_follow_the_order_of_coming() -> None:
 
 
 def test_a_second_call_removes_future_customers() -> None:
-    """A second call removes future customers, but not customers at the counter."""
+    """A second call removes planned customers who have not come yet, but not the customers at the counter."""
     counter = Counter()
     counter.let_in(0.0, [0.0, 5.0], stay=10.0)
     visits = counter.let_in(1.0, [1.0], stay=1.0)

@@ -16,13 +16,14 @@ from tests.browser.pages import picture
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
 # These rules are added to axe-core's default rules.
 RULES = {name: {"enabled": True} for name in ("target-size", "label-content-name-mismatch")}
-OPTIONS = {"rules": RULES, "preload": False}  # A page may not fetch files, so axe-core cannot preload them.
+# A page is not allowed to fetch files, so axe-core cannot preload files.
+OPTIONS = {"rules": RULES, "preload": False}
 # This rule is the slowest rule of axe-core, and does not depend on the width of the window.
 CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
-# Every test run checks this window width and this theme. The test checks other widths and themes only after a
-# change of the pages.
+# Every test run checks the pages with this window width and this theme. A test run checks other widths and
+# themes only if the pages have changed.
 ALWAYS = (1200, "light")
 SWEEPS = [
     pytest.param(width, colours, marks=() if (width, colours) == ALWAYS else pytest.mark.when_changed)
@@ -202,7 +203,7 @@ def test_the_search_leads_to_a_section(browser: Browser, course: Path) -> None:
 
 
 def test_a_search_without_results_shows_a_message(browser: Browser, course: Path) -> None:
-    """The message contains the searched word, and Escape closes the search."""
+    """The message contains the search term, and Escape closes the search dialog."""
     with reader(browser) as page:
         open_page(page, course, "index.html")
         page.get_by_role("button", name="Search").click()

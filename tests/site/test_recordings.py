@@ -57,7 +57,7 @@ class Noted:
 
 @pytest.mark.parametrize("trouble", [None, NoServiceSelected("There is no server.")])
 def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) -> None:
-    """The panel gets the name of the service before the requests.
+    """The panel receives the name of the service, and then the requests.
 
     An error in the recording does not stop the notebook.
     """

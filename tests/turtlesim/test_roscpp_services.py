@@ -31,7 +31,7 @@ def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.soc
 
 
 def framed(sock: socket.socket) -> bytes:
-    """Read a length and then a block of this length, and return both."""
+    """Read a length and then a block of this length; return the bytes of both."""
     size = exactly(sock, 4)
     return size + exactly(sock, struct.unpack("<I", size)[0])
 

@@ -53,7 +53,7 @@ def test_the_first_turtle_is_in_the_middle() -> None:
 
 
 def test_a_velocity_is_valid_for_a_second() -> None:
-    """A velocity of 1 m/s is valid for one second and moves the turtle by 1.008 m."""
+    """A velocity of 1 m/s drives the turtle for one second, and moves the turtle by 1.008 m."""
     world, turtle = driven(forward=1.0)
     world.tick(0.0)
     assert turtle.x - HOME == pytest.approx(0.016)

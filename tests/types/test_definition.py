@@ -77,7 +77,7 @@ def test_mistake_has_its_place_and_remedy(text: str, line: int, column: int, rem
 
 
 def test_the_message_shows_the_line_with_a_mark() -> None:
-    """The error message shows the invalid line with a mark below it."""
+    """The error message shows the invalid line, with a marker below the mistake."""
     assert str(refused("float32 x\nflaot32 y\n---\n")) == (
         "course_pkg/Broken.srv, line 2, column 1: unknown type 'flaot32'; write float32\n    flaot32 y\n    ^"
     )
@@ -125,7 +125,7 @@ def test_comments_are_kept_with_their_fields() -> None:
 
 
 def test_constants_have_their_values() -> None:
-    """Constants have a type and a value.
+    """Each constant has a type and a value.
 
     A string constant's value is everything after the equals sign.
     """

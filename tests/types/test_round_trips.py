@@ -36,7 +36,7 @@ def wire(message: genpy.Message) -> bytes:
 
 
 def sent(message: genpy.Message) -> genpy.Message:
-    """Return the message that is decoded from these bytes."""
+    """Encode the message to bytes, and return the message that is decoded from these bytes."""
     return type(message)().deserialize(wire(message))
 
 
@@ -59,7 +59,7 @@ def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.Mo
             plain = kind.request.check(values(chance, kind.request))
             line = rosservice_line("/x", kind, plain)
             arrived = kind.request.to_values(sent(read_by_rosservice(line, kind, monkeypatch)))
-            # The test does not compare the bytes, because YAML's NaN has another sign.
+            # The test does not compare the bytes, because NaN from YAML has a different sign bit.
             assert repr(arrived) == repr(plain), line
 
 

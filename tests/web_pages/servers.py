@@ -1,4 +1,4 @@
-"""A tornado application in a thread of the test, and a request to a page."""
+"""Serves a tornado application in a thread of the test, and sends requests to pages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from tornado.web import Application
 def served(application: Callable[[int], AbstractContextManager[Application]]) -> Iterator[str]:
     """Serve an application during the `with` block; yield its address without a slash at its end.
 
-    The thread calls `application` with the port, in its event loop, and leaves the context at the end.
+    The thread calls `application` with the port, in the thread's event loop, and closes the context manager
+    at the end.
     """
     (listening,) = bind_sockets(0, "127.0.0.1")
     port = listening.getsockname()[1]
@@ -50,7 +51,7 @@ class Kept(urllib.request.HTTPRedirectHandler):
     """Follows no redirect."""
 
     def redirect_request(self, *_: object) -> None:
-        """Return no new request."""
+        """Do not follow a redirection."""
 
 
 def ask(url: str, data: object = None, **headers: str) -> tuple[int, str, dict[str, str]]:

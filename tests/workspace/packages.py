@@ -54,12 +54,12 @@ def write(workspace: Path, files: Mapping[str, str]) -> None:
 
 
 def surroundings(workspace: Path) -> dict[str, str]:
-    """Return the course's environment with PWD set to the workspace."""
+    """Return the course's environment variables, with PWD set to the workspace."""
     return {**environment.merged(Places.of(), os.environ), "PWD": str(workspace)}
 
 
 def build(workspace: Path, *arguments: str, path: str = "") -> tuple[int, str]:
-    """Return the exit status and output of catkin_make; `path` is the first folder in PATH."""
+    """Run catkin_make; return its exit status and output. `path` is the first folder in PATH."""
     known = surroundings(workspace)
     known["PATH"] = f"{path}:{known['PATH']}" if path else known["PATH"]
     done = subprocess.run(
@@ -75,7 +75,7 @@ def build(workspace: Path, *arguments: str, path: str = "") -> tuple[int, str]:
 
 
 def shell(workspace: Path, line: str, *, sourced: bool = True) -> str:
-    """Return the output of a bash command in the workspace, with or without its setup.bash."""
+    """Run a bash command in the workspace, with or without its setup.bash, and return the output."""
     line = f"source devel/setup.bash && {line}" if sourced else line
     done = subprocess.run(
         ["bash", "-c", line],

@@ -208,7 +208,7 @@ SLIPS = {
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Create a workspace with a long path."""
+    """Create a workspace whose folder has a long path."""
     return tmp_path_factory.mktemp("workspace-with-a-long-name")
 
 
@@ -330,7 +330,7 @@ def test_unknown_message_is_quoted() -> None:
 
 
 def test_tags_have_lines() -> None:
-    """Tags with attributes are found, but tags in comments are not found."""
+    """The search finds tags with attributes, but no tags in comments."""
     text = '<?xml version="1.0"?>\n<package format="2">\n<!-- <name>old</name>\n-->\n  <name> mine </name>\n'
     assert [(tag.name, tag.line, tag.text) for tag in manifest_tags(text)] == [
         ("package", 2, ""),

@@ -77,7 +77,7 @@ replace("measure(length, width, height).volume", "str(measure(length, width, hei
 replace(".volume", ".area * height")
 # %% 00.2 wrong: leaves the height out | hint: The request contains 0 for
 replace("measure(length, width, height)", "measure(length=length, width=width)")
-# %% 00.2 wrong: whole metres | hint: The request contains other numbers
+# %% 00.2 wrong: whole metres | hint: The numbers in the request differ
 replace("measure(length, width, height)", "measure(length // 1 + 1, width // 1 + 1, height // 1 + 1)")
 # %% 00.2 wrong: a tuple | hint: Your function returned more than
 based_on("the lines of the panel")

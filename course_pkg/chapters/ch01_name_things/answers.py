@@ -69,7 +69,7 @@ def viewer_command(arm):
 
 # %% 01.2 wrong: joint_states keeps its name | hint: The viewer subscribes to a
 replace("joint_states:=/{arm}/joint_states ", "")
-# %% 01.2 wrong: a relative name for joint_states | hint: Your new name is relative, so
+# %% 01.2 wrong: a relative name for joint_states | hint: The new name of the topic is relative
 replace("joint_states:=/{arm}", "joint_states:={arm}")
 # %% 01.2 wrong: the namespace is the arm | hint: The name of the node has to be ARM_viewer
 replace("__ns:=/screen", "__ns:=/{arm}")
@@ -186,9 +186,9 @@ replace("return sorted(name for name in names if rosnode.rosnode_ping(name, max_
             break
         living.append(name)
     return living''')
-# %% 01.4 wrong: the subscribers, too | hint: One of these nodes only subscribes to the topic
+# %% 01.4 wrong: the subscribers, too | hint: One node in your list only subscribes
 replace("dict(publishers).get(topic, [])", "dict(publishers).get(topic, []) + dict(subscribers).get(topic, [])")
-# %% 01.4 wrong: the subscribers | hint: One of these nodes only subscribes to the topic
+# %% 01.4 wrong: the subscribers | hint: One node in your list only subscribes
 replace("(publishers)", "(subscribers)")
 # %% 01.4 wrong: the nodes that publish on any topic | hint: Your list contains a node that publishes
 replace("dict(publishers).get(topic, [])", "{name for _, nodes in publishers for name in nodes}")
@@ -197,7 +197,7 @@ replace("dict(publishers).get(topic, [])", "{name for each, nodes in publishers 
 # %% 01.4 wrong: fails for a topic without publishers | hint: A topic without a publisher
 replace("\n    names = dict(publishers).get(topic, [])", "")
 replace("names", "dict(publishers)[topic]")
-# %% 01.4 wrong: pings without a limit | hint: rosnode_ping does not return, because
+# %% 01.4 wrong: pings without a limit | hint: rosnode_ping sends pings forever
 replace("""names = dict(publishers).get(topic, [])
     return sorted(name for name in names if rosnode.rosnode_ping(name, max_count=1))""", "return sorted(name for name in dict(publishers).get(topic, []) if rosnode.rosnode_ping(name))")
 # %% 01.4 wrong: the number of nodes | hint: Your function returned the number

@@ -35,7 +35,7 @@ def count_aloud(topic, rate, count):
 
 # %% 02.1 wrong: does not wait for a subscriber | hint: The first number was published
 replace("\n    wait_until(publisher.get_num_connections, 2.0)", "")
-# %% 02.1 wrong: waits for a subscriber without a limit | hint: Wait for a subscriber for
+# %% 02.1 wrong: waits for a subscriber without a limit | hint: Wait at most 2 s for a subscriber
 replace("wait_until(publisher.get_num_connections, 2.0)", "while publisher.get_num_connections() == 0:\n        time.sleep(0.01)")
 # %% 02.1 wrong: publishes nothing if there is no subscriber | hint: The function failed without a
 replace("connections, 2.0)", """connections, 2.0)
@@ -146,7 +146,7 @@ replace("publisher = … (message):", "def show(message):\n        publisher = r
 # %% 02.2 wrong: waits for one message | hint: The function does not return. Return
 replace("def show(message):", "while not rospy.is_shutdown():\n        message = rospy.wait_for_message(source, JointState)")
 replace("\n\n    return rospy.Subscriber(source, JointState, show)", "")
-# %% 02.2 wrong: only the first message | hint: Only one message was mirrored
+# %% 02.2 wrong: only the first message | hint: Your callback published only one message
 replace("publisher.publish(image)", "publisher.publish(image)\n        subscriber.unregister()")
 replace("return rospy", "subscriber = rospy")
 replace("(source, JointState, show)", "(source, JointState, show)\n    return subscriber")
@@ -155,7 +155,7 @@ replace("def show(message):", "def show(message):\n        time.sleep(0.1)")
 replace("JointState, show", "JointState, show, queue_size=1")
 # %% 02.2 wrong: a pause in the callback | hint: Some messages are missing. Do
 replace("def show(message):", "def show(message):\n        time.sleep(0.1)")
-# %% 02.2 wrong: publishes too late | hint: The mirrored messages are late.
+# %% 02.2 wrong: publishes too late | hint: Your messages are late.
 replace("(source, target):", "(source, target):\n    import queue\n")
 replace("10)", "10)\n    images = queue.SimpleQueue()")
 replace("publisher.publish(image)", "images.put((time.monotonic() + 0.4, image))")
@@ -452,7 +452,7 @@ replace('\n        return "running" if time.monotonic() - self.last <= 1.0 else 
         if time.monotonic() - self.last > 1:
             self.ended = True
         return "ended" if self.ended else "running"''')
-# %% 02.5 wrong: "waiting" after the stream has ended | hint: Messages arrived before, but no message
+# %% 02.5 wrong: "waiting" after the stream has ended | hint: Some messages have arrived, but no message
 replace('"ended"', '"waiting"')
 # %% 02.5 wrong: compares with None before the first message | hint: Before the first message, no time
 replace('if self.last … else "ended"', 'if time.monotonic() - self.last <= 1.0:\n            return "running"\n        return "ended"')
@@ -460,7 +460,7 @@ replace('if self.last … else "ended"', 'if time.monotonic() - self.last <= 1.0
 replace("def __init__(self, topic):", "def __init__(self, topic):\n        self.topic = topic")
 replace("\n        self.subscriber = rospy.Subscriber(topic, UInt32, self.hear)", "")
 replace("(self):", "(self):\n        rospy.Subscriber(self.topic, UInt32, self.hear)")
-# %% 02.5 wrong: one global time for all watches | hint: Only the other Watch object received messages.
+# %% 02.5 wrong: one global time for all watches | hint: this Watch object received no message
 replace("class Watch:", "last = None\nclass Watch:")
 replace("\n        self.last = None", "")
 replace("self.last = time.monotonic()", "global last\n        last = time.monotonic()")

@@ -35,7 +35,7 @@ def poll(service, seconds, rate):
 
 # %% 03.1 wrong: polls without a pause | hint: poll() made too many calls
 replace("\n        time.sleep(1 / rate)", "")
-# %% 03.1 wrong: polls without a limit | hint: poll() continues after the end
+# %% 03.1 wrong: polls without a limit | hint: poll() continues after its time
 replace("end = time.monotonic() + seconds\n    while time.monotonic() < end:", "while True:")
 replace("\n    return None", "")
 # %% 03.1 wrong: uses the rate as the pause | hint: Pause for 1 / rate
@@ -57,7 +57,7 @@ replace("return answer.number", "return True")
 replace("answer.number", "answer")
 # %% 03.1 wrong: 0 if there is no customer | hint: If no customer is there
 replace("return None", "return answer.number")
-# %% 03.1 wrong: calls a second time for the number | hint: poll() made another call, although
+# %% 03.1 wrong: calls a second time for the number | hint: poll() called the service a second time
 replace("return answer.number", "return rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=0).number")
 # %% 03.1 wrong: forgets to return | hint: poll() returned None, although a customer was there
 replace("return answer.number", "break")
@@ -78,7 +78,7 @@ replace("after=0", "number=0")
 replace("ServiceProxy(service", 'ServiceProxy("/detect_customer"')
 # %% 03.1 wrong: only customers after the first | hint: The value of `after` in
 replace("after=0", "after=1")
-# %% 03.1 wrong: 1 for a customer | hint: poll() returned a different number
+# %% 03.1 wrong: 1 for a customer | hint: The number that poll() returned
 replace("return answer.number", "return 1")
 
 # %% 03.2 right: a set of the greeted customers
@@ -150,7 +150,7 @@ replace("add(message.data)", "add(message.data)\n            publisher.publish(m
 replace("            publisher.publish(message.data)\n\n", "")
 # %% 03.2 wrong: does not greet | hint: The number was published before
 replace("\n            say_good_day(message.data)", "")
-# %% 03.2 wrong: a fixed topic | hint: No node is subscribed to the topic
+# %% 03.2 wrong: a fixed topic | hint: No node subscribes to the topic
 replace("greeted = set … UInt32, greet)", 'rospy.Subscriber("/customers", UInt32, publisher.publish)')
 # %% 03.2 wrong: the two topics exchanged | hint: Your function publishes on `customers`
 based_on("a fixed topic")
@@ -206,7 +206,7 @@ replace('"no regular messages"', '"topic without latch"')
 replace('"waits in the control loop"', '"stream for one value"')
 # %% 03.3 wrong: a wait for the stream | hint: A program that waits in … The node receives many messages
 replace('"stream for one value"', '"waits in the control loop"')
-# %% 03.3 wrong: a case left out | hint: A case is missing
+# %% 03.3 wrong: a case left out | hint: A case from the table is missing
 replace('\n    "F": "stream for one value",', "")
 # %% 03.3 wrong: small letters | hint: Some keys are wrong. Use
 replace('"A"', '"a"')
@@ -265,7 +265,7 @@ replace('("topic", "newest")', '"topic"')
 replace('"topic", "newest"', '"newest", "topic"')
 # %% 03.4 wrong: one job left out | hint: The keys have to be
 replace('\n    "free space on disk": ("service", "seldom"),', "")
-# %% 03.4 wrong: a list of triples | hint: Write a dict, which has braces
+# %% 03.4 wrong: a list of triples | hint: Write a dict in braces
 replace("decisions = … }", 'decisions = [\n    ("wheel speed", "topic", "newest"),\n    ("open the gripper", "service", "answer"),\n]')
 # %% 03.4 wrong: a reason that is not in the list | hint: The designs are
 replace('"newest"', '"fast"')

@@ -45,7 +45,7 @@ replace("float32[] seconds", "float32 seconds")
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
 replace("\nuint8 mode", "uint8 mode")
 replace("colour", "color")
-# %% 04.1 wrong: in another order | hint: All fields are there, but
+# %% 04.1 wrong: in another order | hint: Your file contains all fields, but
 replace("uint8 mode\nstd_msgs/ColorRGBA colour", "std_msgs/ColorRGBA colour\nuint8 mode")
 # %% 04.1 wrong: the response above the line | hint: success … belongs to the response.
 replace("float32[] seconds", "float32[] seconds\nbool success")
@@ -87,7 +87,7 @@ replace("float32 total", "float32 total\nstring message")
 replace("float32 total", "float32[] total")
 # %% 04.1 wrong: another type | hint: mode … has the wrong type in … uint8
 replace("uint8 mode", "int32 mode")
-# %% 04.1 wrong: constants in another order | hint: All constants are there, but
+# %% 04.1 wrong: constants in another order | hint: Your file contains all constants, but
 replace("uint8 ON=1\nuint8 BLINK=2", "uint8 BLINK=2\nuint8 ON=1")
 # %% 04.1 wrong: another name for a constant | hint: FLASH … the description has no constant
 replace("BLINK", "FLASH")
@@ -134,7 +134,7 @@ def will_talk(server, client):
 # %% 04.2 wrong: the order does not matter | hint: The order of the fields
 based_on("the lines without comments and blanks")
 replace("[words for words in lines if words]", "sorted(words for words in lines if words)")
-# %% 04.2 wrong: forgets the line between the halves | hint: One field is on different
+# %% 04.2 wrong: forgets the line between the halves | hint: One field is in the request of one text
 based_on("the lines without comments and blanks")
 replace("if words", 'if words and words != ["---"]')
 # %% 04.2 wrong: the types only | hint: One letter of a field's
@@ -153,7 +153,7 @@ def will_talk(server, client):
 
     return fields(server) == fields(client)
 
-# %% 04.2 wrong: the request only | hint: One field is missing, so
+# %% 04.2 wrong: the request only | hint: One field is missing in one of the texts
 def will_talk(server, client):
     def md5(text):
         return md5_of(text.split("---")[0] + "---\n")

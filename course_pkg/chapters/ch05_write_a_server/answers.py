@@ -92,7 +92,7 @@ geometry_service = rospy.Service("/getGeometry", geometry, Geometer().handle)
 
 # %% 05.1 wrong: a client in place of a server | hint: The service does not exist. … rospy.Service
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'rospy.ServiceProxy("/getGeometry", geometry)')
-# %% 05.1 wrong: the program of the course serves | hint: Another program serves the name
+# %% 05.1 wrong: the program of the course serves | hint: Another program provides the service with the name
 import subprocess
 
 subprocess.Popen(["rosrun", "course_pkg", "server"])
@@ -323,7 +323,7 @@ replace('"on" if self.on else "off"', '"It is on" if self.on else "It is off"')
 # %% 05.4 wrong: one value for all switches | hint: A new Switch() was on
 replace("    def __init__(self):\n        self.on = False", "    on = False")
 replace("self.on", "Switch.on", times=3)
-# %% 05.4 wrong: raises an error if nothing changes | hint: A request for the current
+# %% 05.4 wrong: raises an error if nothing changes | hint: It is not an error if the switch
 replace("moved = request.data != self.on", 'if request.data == self.on:\n            raise rospy.ServiceException("already there")')
 replace("success=moved", "success=True")
 
@@ -376,7 +376,7 @@ if __name__ == "__main__":
     main()
 """
 
-# %% 05.5 wrong: no first line | hint: The shebang is missing, which
+# %% 05.5 wrong: no first line | hint: The shebang is missing: the first
 replace("#!/usr/bin/env python3\n", "")
 # %% 05.5 wrong: no guard | hint: An import of the file starts the node
 replace('if __name__ == "__main__":', "if True:")
@@ -406,7 +406,7 @@ replace("            self.open()\n", "            self.move_service = self\n")
 replace("    def open(self):", "    def open(self):\n        self.moves = 0")
 # %% 05.5 wrong: begins with 0 | hint: The first move returned 0
 replace("str(self.moves)", "str(self.moves - 1)")
-# %% 05.5 wrong: never counts | hint: The count stays 1
+# %% 05.5 wrong: never counts | hint: The count is 1 after every call
 replace("self.moves += 1", "self.moves = 1")
 # %% 05.5 wrong: success in any case | hint: The state did not change, but
 replace("success=changed", "success=True")
@@ -422,7 +422,7 @@ replace('self.move_service.shutdown("maintenance")', 'rospy.signal_shutdown("mai
 replace("changed = request", "self.moves += 1\n        changed = request")
 # %% 05.5 wrong: a type that is not imported | hint: An exception has ended the program
 replace("SetBoolResponse, Trigger, TriggerResponse", "SetBoolResponse, TriggerResponse")
-# %% 05.5 wrong: the notebook serves, and the program only waits | hint: Another process serves the name
+# %% 05.5 wrong: the notebook serves, and the program only waits | hint: Another process provides the
 from pathlib import Path
 
 Path("arm.py").write_text("""#!/usr/bin/env python3

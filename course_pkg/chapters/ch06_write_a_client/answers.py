@@ -30,7 +30,7 @@ def measure(service, length, width, height):
     proxy = rospy.ServiceProxy(service, geometry)
     return proxy(length, width, height).area, proxy(length, width, height).volume
 
-# %% 06.1 wrong: stores the responses | hint: For the same sides, measure() returned an earlier
+# %% 06.1 wrong: stores the responses | hint: with the same sides returned the response
 responses = {}
 
 def measure(*question):
@@ -120,7 +120,7 @@ replace("return False", 'return "False"')
 # %% 06.2 wrong: True in any case | hint: The function returned True for a
 replace("return False", "pass")
 
-# %% 06.2 wrong: calls the service | hint: Wait for the service without a call
+# %% 06.2 wrong: calls the service | hint: but do not call the service
 replace("timeout=seconds)", "timeout=seconds)\n        rospy.ServiceProxy(service, geometry)(1, 1, 1)")
 
 # %% 06.3 right: ServiceException
@@ -405,7 +405,7 @@ if __name__ == "__main__":
     print("fits")
 """
 
-# %% 06.6 wrong: no first line | hint: The shebang is missing, which
+# %% 06.6 wrong: no first line | hint: The shebang is missing: the first
 replace("#!/usr/bin/env python3\n", "")
 # %% 06.6 wrong: no guard | hint: Python cannot import the file
 replace('if __name__ == "__main__":\n    sys.exit(main())', "sys.exit(main())")

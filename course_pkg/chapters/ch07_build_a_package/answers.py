@@ -60,7 +60,7 @@ replace("\nfloat32 volume", "")
 replace("---\nfloat32 area", "float32 area\n---")
 # %% 07.2 wrong: an additional field | hint: contains the field
 replace("float32 volume", "float32 volume\nstring unit")
-# %% 07.2 wrong: float64 | hint: Use the type of the exercise
+# %% 07.2 wrong: float64 | hint: Copy the type from the exercise
 replace("float32", "float64", times=5)
 # %% 07.2 wrong: width first | hint: The order of the fields is
 replace("float32 length\nfloat32 width", "float32 width\nfloat32 length")
@@ -447,7 +447,7 @@ replace('response.state = "ON"', "pass")
 replace('{0: "OFF", 1: "ON"}', '{0: "off", 1: "on"}')
 # %% 07.9 wrong: the states exchanged | hint: The two states are exchanged
 replace('{0: "OFF", 1: "ON"}', '{0: "ON", 1: "OFF"}')
-# %% 07.9 wrong: other states | hint: The exercise does not have
+# %% 07.9 wrong: other states | hint: This state is neither
 replace('{0: "OFF", 1: "ON"}', '{0: "closed", 1: "open"}')
 # %% 07.9 wrong: no response for other numbers | hint: The handler returned no response. Raise
 based_on("conditions and a main function")

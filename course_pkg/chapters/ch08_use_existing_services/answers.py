@@ -289,12 +289,12 @@ replace('answer = rospy … was there"', """rospy.ServiceProxy(f"{switch}/set", 
     rospy.ServiceProxy(f"{switch}/report", Trigger)()""")
 # %% 08.3 wrong: success True means that it was there | hint: The switch responded with success=True and is in the wanted position, so
 replace('"moved" if answer.success else "was there"', '"was there" if answer.success else "moved"')
-# %% 08.3 wrong: ignores success | hint: it was there before
+# %% 08.3 wrong: ignores success | hint: it was in this position before
 replace(' if answer.success else "was there"', "")
 # %% 08.3 wrong: with a capital letter | hint: Write the string exactly as
 replace('"moved"', '"Moved"')
 
-# %% 08.3 wrong: compares two reports | hint: Use the field `success`, not
+# %% 08.3 wrong: compares two reports | hint: use the field `success`, not
 def move(switch, to_open):
     report = rospy.ServiceProxy(f"{switch}/report", Trigger)
     before = report().message
@@ -327,7 +327,7 @@ replace("{service} ", "{service} -- ")
 # %% 08.4 wrong: the dict as Python shows it | hint: YAML cannot read a dict
 replace("json.dumps", "str")
 
-# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value.
+# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value
 def call_line(service, fields):
     text = json.dumps(fields).replace('"', "")
     return f"rosservice call {service} {shlex.quote(text)}"
@@ -405,7 +405,7 @@ def call_any(service, fields):
 
 # %% 08.5 wrong: passes the dict without a list | hint: The second argument of fill_message_args
 replace("[fields]", "fields")
-# %% 08.5 wrong: fills the class of the service | hint: Your function passed the class
+# %% 08.5 wrong: fills the class of the service | hint: an object of the wrong class
 replace("cls._request_class()", "cls()")
 # %% 08.5 wrong: calls by keywords | hint: The field `camera_info` needs a message,
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, rosservice.get_service_class_by_name(service))(**fields)")
@@ -415,7 +415,7 @@ replace("(**fields)", "(*fields.values())")
 # %% 08.5 wrong: passes the dict to the proxy | hint: The request does not contain
 based_on("calls by keywords")
 replace("(**fields)", "(fields)")
-# %% 08.5 wrong: the name of the type for the class | hint: Your function passed the name
+# %% 08.5 wrong: the name of the type for the class | hint: Your function used the name
 based_on("calls by keywords")
 replace("get_service_class_by_name", "get_service_type")
 # %% 08.5 wrong: a fixed type | hint: Your proxy has the wrong type for this service.
@@ -500,7 +500,7 @@ replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5su
 replace('"server is gone"', '"not registered"')
 # %% 08.6 wrong: treats a missing service as a dead server | hint: so get_service_uri returns None
 replace('"not registered"', '"server is gone"')
-# %% 08.6 wrong: compares with the class | hint: Compare the type with the
+# %% 08.6 wrong: compares with the class | hint: Compare the type in the headers
 replace('headers["type"] != kind._type', 'headers["type"] != kind')
 # %% 08.6 wrong: a header that does not exist | hint: The headers have no entry with
 replace('headers["md5sum"]', 'headers["md5"]')

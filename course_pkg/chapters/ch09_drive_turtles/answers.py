@@ -101,7 +101,7 @@ def main():
 replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
 # %% 09.2 wrong: turns before the first call | hint: Before the first call, the turtle has to go straight ahead
 replace('\nforward = True', '\nforward = False')
-# %% 09.2 wrong: the handler publishes a velocity of 0 | hint: A message contained another velocity
+# %% 09.2 wrong: the handler publishes a velocity of 0 | hint: A message contained a wrong velocity
 replace("    return EmptyResponse()", "    publisher.publish(Twist())\n    return EmptyResponse()")
 # %% 09.2 wrong: twice as fast | hint: To drive straight ahead, set linear.x = 1.0
 replace('linear.x = 1.0', 'linear.x = 2.0')

@@ -304,7 +304,7 @@ replace("self.items > 0", "self.items")
 replace("self.items -= 1", "self.items.pop()")
 # %% 10.3 wrong: no loop | hint: The handler of /take returned an item although the basket was empty
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "if self.items == 0 and not self.changed.wait(self.limit)")
-# %% 10.3 wrong: no limit | hint: The handler of /take waits longer than the limit
+# %% 10.3 wrong: no limit | hint: The handler of /take waits longer than the time limit
 replace(", timeout=self.limit", "")
 # %% 10.3 wrong: does not wait | hint: The handler of /take returned before its time limit was over
 replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit)", "self.items == 0")
@@ -314,7 +314,7 @@ replace("not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):"
             if self.items == 0:""")
 # %% 10.3 wrong: waits before it looks | hint: An item was in the basket before the call
 replace("if not self.changed.wait_for(lambda: self.items > 0, timeout=self.limit):", "self.changed.wait(self.limit)\n            if self.items == 0:")
-# %% 10.3 wrong: the whole limit after each wake-up | hint: The handler of /take waits longer than the limit
+# %% 10.3 wrong: the whole limit after each wake-up | hint: The handler of /take waits longer than the time limit
 based_on("a loop with a deadline, and notify")
 replace("notify", "notify_all")
 replace("\n        end = time.monotonic() + self.limit", "")
@@ -500,7 +500,7 @@ class Shop:
             return False, str(error)
         return True, str(answer.receipt)
 
-# %% 10.5 wrong: holds the lock across the call | hint: Your handler holds the lock while it calls the till, so /left gets no
+# %% 10.5 wrong: holds the lock across the call | hint: Your handler holds the lock while it calls the till, so /left cannot
 replace('self.shelf.write(count - … : {error}")', """try:
                 receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt
             except rospy.ServiceException as error:
@@ -528,9 +528,9 @@ replace("\n            with self.lock:\n                self.shelf.write(self.sh
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt")
 # %% 10.5 wrong: puts back what it counted before | hint: Two threads changed the shelf
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "time.sleep(0.2)\n            self.shelf.write(count)")
-# %% 10.5 wrong: waits for the till | hint: The till has no server, but the handler waits for this service without a limit
+# %% 10.5 wrong: waits for the till | hint: No server offers the till's service, but the handler waits
 replace("try:", "rospy.wait_for_service(self.till)\n        try:")
-# %% 10.5 wrong: sells without a till | hint: The till has no server, so the client did not pay
+# %% 10.5 wrong: sells without a till | hint: No server offers the till's service, so the client did not pay
 replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=True, message="pay later")\n')
 # %% 10.5 wrong: puts nothing back without a till | hint: so the thing is not sold
 replace("as error:\n", 'as error:\n            if "unavailable" in str(error):\n                return TriggerResponse(success=False, message="no till")\n')
@@ -665,7 +665,7 @@ replace(", key=lambda shelf: shelf.number", "")
 # %% 10.6 wrong: gives up when a lock is taken | hint: although the shelf was not empty
 based_on("tries the second lock, and gives up the first one")
 replace("        time.sleep(0.03 * random.random())", "        return False")
-# %% 10.6 wrong: tries again while it holds the first lock | hint: release the first lock before each new try
+# %% 10.6 wrong: tries again while it holds the first lock | hint: release the first lock before each repetition
 based_on("locks the target first")
 replace("with target.lock:\n        with source.lock:", """with source.lock:
         while not target.lock.acquire(blocking=False):
@@ -698,7 +698,7 @@ solution()
 causes = dict(F="no loop", E="no notify", D="race")
 causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
 
-# %% 10.7 wrong: A and B exchanged | hint: The cause "lock order" needs two threads and two locks … Follow the calls from thread to thread
+# %% 10.7 wrong: A and B exchanged | hint: The cause "lock order" means that two threads … Follow the calls from thread to thread
 replace('"A": "lock across a call"', '"A": "lock order"')
 replace('"B": "lock order"', '"B": "lock across a call"')
 # %% 10.7 wrong: a wrong order taken for a lock across a call | hint: With the cause "lock across a call", threads wait in two services … Each of the two threads holds the lock of one shelf and
@@ -708,7 +708,7 @@ replace('"C": "no limit"', '"C": "no notify"')
 replace('"E": "no notify"', '"E": "no limit"')
 # %% 10.7 wrong: a missing notify taken for a missing limit | hint: The cause "no limit" means that a wait never ends, even after the client … The item came after two seconds, but the handler returned only when
 replace('"no notify"', '"no limit"')
-# %% 10.7 wrong: D and F exchanged | hint: The cause "no loop" means that a thread continues after it has woken up, … Only the numbers are wrong
+# %% 10.7 wrong: D and F exchanged | hint: The cause "no loop" means that a thread continues after it has woken up, … Only the returned numbers are wrong
 replace('"D": "race"', '"D": "no loop"')
 replace('"F": "no loop"', '"F": "race"')
 # %% 10.7 wrong: a missing loop taken for a race | hint: In a race, no thread waits … Only one item came, but several threads woke up, and each of them took

@@ -54,7 +54,7 @@ replace("encode()", 'encode("latin-1")')
 replace('struct.pack("<I", len(body)) + body', 'list(struct.pack("<I", len(body)) + body)')
 # %% 11.1 wrong: two-byte lengths | hint: A length has the wrong number of bytes
 replace("I", "H", times=2)
-# %% 11.1 wrong: nothing for an empty header | hint: The header without fields is wrong
+# %% 11.1 wrong: nothing for an empty header | hint: For a header without fields, the result is wrong
 replace("(fields):", '(fields):\n    if not fields:\n        return b""')
 # %% 11.1 wrong: a line end in each field | hint: Some bytes are wrong
 replace("{name}={value}", "{name}={value}\\n")
@@ -110,7 +110,7 @@ replace('data = b"" … return data', "return sock.recv(count)")
 replace('\n        if not piece:\n            raise ConnectionError("the other end has closed")', "")
 # %% 11.2 wrong: reads ahead | hint: The function returned more than `count` bytes, so these bytes are missing in the
 replace("count - len(data)", "4096")
-# %% 11.2 wrong: discards the bytes that it read ahead | hint: The function waits for bytes that an earlier call has read and lost
+# %% 11.2 wrong: discards the bytes that it read ahead | hint: The function waits for bytes that an earlier call of the function has read and lost
 replace("count - len(data)", "4096")
 replace("return data", "return data[:count]")
 # %% 11.2 wrong: keeps what it read ahead | hint: The function read more than `count` bytes from the socket
@@ -129,7 +129,7 @@ def receive(sock, count):
 
 # %% 11.2 wrong: passes the whole number each time | hint: The function returned more than `count` bytes, so these bytes are missing in the
 replace("sock.recv(count - len(data))", "sock.recv(count)")
-# %% 11.2 wrong: passes the whole number each time, and cuts | hint: The function waits for bytes that an earlier call has read and lost
+# %% 11.2 wrong: passes the whole number each time, and cuts | hint: The function waits for bytes that an earlier call of the function has read and lost
 replace("sock.recv(count - len(data))", "sock.recv(count)")
 replace("return data", "return data[:count]")
 # %% 11.2 wrong: returns fewer bytes at the end | hint: The connection ended early, and the function returned fewer than `count` bytes
@@ -138,7 +138,7 @@ replace('raise ConnectionError("the other end has closed")', "break")
 replace("\n    return data", "")
 # %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and more bytes follow
 replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(data) < count:\n        raise ConnectionError("too short")')
-# %% 11.2 wrong: buffered file | hint: The function waits for bytes that an earlier call has read and lost
+# %% 11.2 wrong: buffered file | hint: The function waits for bytes that an earlier call of the function has read and lost
 based_on("a short piece is taken for the end")
 replace("sock.recv", 'sock.makefile("rb").read')
 # %% 11.2 wrong: sleeps | hint: The connection is still open, and more bytes follow
@@ -272,7 +272,7 @@ replace("receive(sock, 5)", """reply = sock.recv(4096)
         if reply[0] == 0:
             raise rospy.ServiceException(reply[5:].decode())""")
 replace("receive(sock, 8)", "reply[5:]")
-# %% 11.3 wrong: * as the MD5 | hint: The value "*" matches every definition, even a wrong definition
+# %% 11.3 wrong: * as the MD5 | hint: the value "*" matches every definition, even a wrong definition
 based_on("no length in front of the request")
 replace("geometry._md5sum", '"*"')
 replace('"<3f"', '"<I3f", 12')
@@ -305,7 +305,7 @@ replace("    finally:\n        sock.close()", "    finally:\n        pass")
 replace("answer = receive(sock, size)", """answer = b""
         while piece := sock.recv(1024):
             answer += piece""")
-# %% 11.3 wrong: sends the request too early | hint: The request came before the server had sent its header
+# %% 11.3 wrong: sends the request too early | hint: Your function sent the request before the server
 replace("        body = struct … len(body)) + body)\n", "")
 replace("node.name, … geometry._md5sum}))", """node.name, "service": service, "md5sum": geometry._md5sum}))
         sock.sendall(struct.pack("<I3f", 12, length, width, height))""")
@@ -408,7 +408,7 @@ replace("return AddUpResponse(*self.sessions[session])", """self.calls += 1
 replace("AddUpResponse(*self.sessions[session])", "AddUpResponse(total=self.sessions[session][0])")
 # %% 11.4 wrong: accepts a call without a session | hint: A call without a session got a total
 replace('\n        if not session:\n            raise rospy.ServiceException("no field session in the connection header")', "")
-# %% 11.4 wrong: fails at a missing field | hint: The missing field caused an exception of the wrong type
+# %% 11.4 wrong: fails at a missing field | hint: and this caused an exception of the wrong type
 replace('.get("session")', '["session"]')
 # %% 11.4 wrong: fails at a new session | hint: At the first call of a session, the dict has no total for this
 replace("self.sessions.get(session, (0, 0))", "self.sessions[session]")
@@ -428,14 +428,14 @@ replace("*self.sessions[session]", "total, calls + 1")
 replace("field session in the connection header", "session")
 replace("total, calls", "calls, total")
 replace("total + request.amount, calls + 1", "calls + 1, total + request.amount")
-# %% 11.4 wrong: refuses the second node | hint: Another node may continue a session
+# %% 11.4 wrong: refuses the second node | hint: A different node may continue a session
 replace("self.sessions = {}", "self.sessions, self.owner = {}, {}")
 replace('("no field session in the connection header")', """("no session")
         if self.owner.setdefault(session, request._connection_header["callerid"]) != request._connection_header["callerid"]:
             raise rospy.ServiceException("this session is not yours")""")
 # %% 11.4 wrong: forgets old sessions | hint: The response contains only the amount of this call
 replace("        total, calls", "        for old in list(self.sessions)[:-3]:\n            del self.sessions[old]\n        total, calls")
-# %% 11.4 wrong: starts the course's server | hint: Another program does the work
+# %% 11.4 wrong: starts the course's server | hint: A program that your code started does the work of this
 import subprocess
 
 
@@ -453,7 +453,7 @@ replace('get("session")', 'get("sessions")')
 replace("(0, 0)", "(1, 0)")
 # %% 11.4 wrong: forgets to return | hint: The handler returned None. Return an AddUpResponse
 replace("return AddUpResponse", "AddUpResponse")
-# %% 11.4 wrong: unpacks None | hint: The handler raised this error
+# %% 11.4 wrong: unpacks None | hint: The handler raised the error that you see above
 replace("(session, (0, 0))", "(session)")
 
 # %% 11.5 right: by the error message
@@ -493,9 +493,9 @@ class Keeper:
                 self.proxy.close()
                 self.proxy = None
 
-# %% 11.5 wrong: waits for the server | hint: Without a server, your method did not return
+# %% 11.5 wrong: waits for the server | hint: Your method did not return after the server had ended
 replace("        self.proxy.close()\n", "        rospy.wait_for_service(self.service)\n")
-# %% 11.5 wrong: another order of the sides | hint: The request contains other sides
+# %% 11.5 wrong: another order of the sides | hint: The sides in the request are wrong
 replace("            return self.proxy(length, width, height)", "            return self.proxy(width, length, height)")
 # %% 11.5 wrong: a new connection for each call | hint: The connection was not persistent
 replace("self.service = service … persistent=True)", "self.proxy = rospy.ServiceProxy(service, geometry)")
@@ -538,7 +538,7 @@ class Keeper:
                 self.connect()
         raise last
 
-# %% 11.5 wrong: swallows a refusal | hint: The server refused the call and sent an error message
+# %% 11.5 wrong: swallows a refusal | hint: The server refused the call, but your method did not raise
 replace("raise", "return None")
 # %% 11.5 wrong: connects again after a refusal | hint: There was more than one connection
 replace("""except (rospy.ServiceException, rospy.exceptions.TransportException, AttributeError) as error:
@@ -560,9 +560,9 @@ replace("return self", "self")
 # %% 11.5 wrong: recursion without end | hint: Your method called the service again and again
 replace("raise\n        self.proxy.close()", "raise")
 replace("()\n        return self.proxy", "()\n        return self.measure")
-# %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors, and your method does not
+# %% 11.5 wrong: catches ServiceException only | hint: A broken connection can raise three kinds of errors
 replace("(rospy.ServiceException, rospy.exceptions.TransportException, AttributeError)", "rospy.ServiceException")
-# %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors, and your method does not
+# %% 11.5 wrong: does not catch AttributeError | hint: A broken connection can raise three kinds of errors
 replace(", AttributeError)", ")")
 # %% 11.5 wrong: returns the volume | hint: Return the whole response of the proxy
 based_on("a loop of two")
@@ -616,9 +616,9 @@ class Remembering:
         uri = rosgraph.Master(node.name).lookupService(self.service)
         return ask(uri, self.service, length, width, height)
 
-# %% 11.6 wrong: another order of the sides | hint: The request contains other sides
+# %% 11.6 wrong: another order of the sides | hint: The sides in the request are wrong
 replace("self.service, length, width, height", "self.service, height, length, width", times=2)
-# %% 11.6 wrong: never looks again | hint: No server is at the old address any more
+# %% 11.6 wrong: never looks again | hint: No server responds at the old address any more
 based_on("looks up for each call")
 replace("\n\n", "\n        self.uri = rosgraph.Master(node.name).lookupService(service)\n\n")
 replace("uri = rosgraph.Master(node.name).lookupService(self.service)\n        return ask(uri", "return ask(self.uri")
@@ -654,7 +654,7 @@ replace("self.look_up()\n            return ask(self.uri, self.service, length, 
             return None""")
 # %% 11.6 wrong: one address for all objects | hint: A second object of the class changed the address
 replace("self.uri = ", "Remembering.uri = ")
-# %% 11.6 wrong: does not keep the new address | hint: Also store the address of the second lookup
+# %% 11.6 wrong: does not keep the new address | hint: Store every address that you look up
 replace("\n            self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """
             uri = rosgraph.Master(node.name).lookupService(self.service)
             return ask(uri, self.service, length, width, height)""")

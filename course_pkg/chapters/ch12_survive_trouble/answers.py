@@ -216,7 +216,7 @@ replace("        with self.lock:\n            if … take(request.cents)\n      
 replace("len(self.receipts) + 1", "self.count = getattr(self, 'count', 0) + 1\n                for old in list(self.receipts)[:-20]:\n                    del self.receipts[old]")
 # %% 12.2 wrong: takes requests without an id | hint: A request with an empty id got a receipt
 replace('\n        if not request … its repeat")', "")
-# %% 12.2 wrong: no lock | hint: The same request came five times
+# %% 12.2 wrong: no lock | hint: Five calls with the same request came
 replace("\n        self.lock = threading.Lock()", "")
 replace("\n            raise rospy … request_id])", """
             raise rospy.ServiceException("no id")
@@ -292,7 +292,7 @@ def pay(till, cents, deadline):
 # %% 12.3 wrong: no pause after a TimeoutError | hint: There was no pause after a TimeoutError
 based_on("a loop with a clock")
 replace("                raise\n", "                raise\n            if isinstance(error, TimeoutError):\n                continue\n")
-# %% 12.3 wrong: treats a bad return value as a refusal | hint: An error with "handler returned" is not a refusal, because the handler has perhaps
+# %% 12.3 wrong: treats a bad return value as a refusal | hint: An error that contains "handler returned" is not a refusal, because the handler has
 replace(' and "handler returned" not in str(error)', "")
 # %% 12.3 wrong: doubles before the first sleep | hint: The first pause is too long
 replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "        pause *= 2\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))")
@@ -300,14 +300,14 @@ replace("        time.sleep(min(pause, max(end - time.monotonic(), 0)))\n       
 replace("min(pause, max(end - time.monotonic(), 0))", "pause")
 # %% 12.3 wrong: as many tries as the deadline has seconds | hint: pay() ended before the deadline
 replace("while (rest := end - time.monotonic()) > 0:", "for _ in range(int(deadline)):\n        rest = max(end - time.monotonic(), 0)")
-# %% 12.3 wrong: waits for the service | hint: The till has no server, but pay() waits for this service without a time
+# %% 12.3 wrong: waits for the service | hint: No server offers the till's service, but pay() waits
 replace("        try:", "        rospy.wait_for_service(till)\n        try:")
-# %% 12.3 wrong: tries once | hint: One failed try ended pay()
+# %% 12.3 wrong: tries once | hint: One failed call ended pay()
 replace("end, pause … pause *= 2\n", """try:
         return call_within(min(0.5, deadline), rospy.ServiceProxy(till, Charge), request_id, cents).receipt
     except TimeoutError:
     """)
-# %% 12.3 wrong: a new id for each try | hint: The tries of one payment had different ids
+# %% 12.3 wrong: a new id for each try | hint: The calls of one payment had different ids
 replace("\n    request_id = str(uuid.uuid4())", "")
 replace("request_id", "str(uuid.uuid4())")
 # %% 12.3 wrong: one id for all payments | hint: Two payments had the same id
@@ -319,13 +319,13 @@ replace("Charge), request_id, cents", 'Charge), "", cents')
 replace("raise", "pass")
 # %% 12.3 wrong: None for a refusal | hint: The till refused the payment, but pay() did not raise an error
 replace("raise", "return None")
-# %% 12.3 wrong: the whole deadline for the first try | hint: The first try used the whole time until the deadline
+# %% 12.3 wrong: the whole deadline for the first try | hint: The first call used the whole time until the deadline
 replace("min(0.5, rest)", "rest")
 # %% 12.3 wrong: a proxy without a limit | hint: because a proxy has no time limit
 replace("return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)", "return rospy.ServiceProxy(till, Charge)(request_id, cents)")
-# %% 12.3 wrong: does not catch TimeoutError | hint: its TimeoutError ended pay()
+# %% 12.3 wrong: does not catch TimeoutError | hint: the TimeoutError ended pay()
 replace("(rospy.ServiceException, TimeoutError)", "rospy.ServiceException")
-# %% 12.3 wrong: treats every error as a refusal | hint: One failed try ended pay()
+# %% 12.3 wrong: treats every error as a refusal | hint: One failed call ended pay()
 based_on("does not catch TimeoutError")
 replace("receipt", "receipt\n        except TimeoutError:\n            pass")
 replace("cannot process request", 'request" in str(error) or "error')
@@ -333,12 +333,12 @@ replace("cannot process request", 'request" in str(error) or "error')
 replace("end, pause = time.monotonic() + deadline, 0.1\n    while (rest := end - time.monotonic()) > 0:", "for _ in range(2):")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
-# %% 12.3 wrong: no pause | hint: The pause after the first failed try was missing or too short
+# %% 12.3 wrong: no pause | hint: The pause after the first failed call was missing or too short
 replace("\n        time.sleep(min(pause, max(end - time.monotonic(), 0)))", "")
 # %% 12.3 wrong: always the same pause | hint: The pauses do not grow fast enough
 replace("end, pause = time.monotonic() + deadline, 0.1", "end = time.monotonic() + deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
-# %% 12.3 wrong: two seconds for a try | hint: A try took longer than
+# %% 12.3 wrong: two seconds for a try | hint: A call took longer than
 replace("0.5", "2")
 # %% 12.3 wrong: a tenth of a second for a try | hint: s, so pay() called the till again too early
 replace("0.5", "0.1")
@@ -347,7 +347,7 @@ replace("(rest := end - time.monotonic()) > 0", "time.monotonic() < end")
 replace("min(0.5, rest)", "0.5")
 # %% 12.3 wrong: adds to the pause | hint: The pauses do not grow fast enough
 replace("pause *= 2", "pause += 0.1")
-# %% 12.3 wrong: begins with a shorter pause | hint: The pause after the first failed try was missing or too short
+# %% 12.3 wrong: begins with a shorter pause | hint: The pause after the first failed call was missing or too short
 replace("0.1", "0.05")
 # %% 12.3 wrong: five times | hint: The till worked again before the deadline, but pay() had already ended
 replace("while (rest := end - time.monotonic()) > 0:", """for _ in range(5):
@@ -359,7 +359,7 @@ replace("""end, pause = time.monotonic() + deadline, 0.1
     while (rest := end - time.monotonic()) > 0:""", "waited, pause = 0, 0.1\n    while waited < deadline:")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))", "(pause)\n        waited += pause")
-# %% 12.3 wrong: raises when the deadline has passed | hint: At the deadline, it is not known whether the till has taken the money
+# %% 12.3 wrong: raises when the deadline has passed | hint: At the deadline, pay() raised an error
 replace("return None", 'raise TimeoutError("nobody knows")')
 # %% 12.3 wrong: forgets to return | hint: The till sent a receipt, but pay() returned None
 replace("            return call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents).receipt", "            call_within(min(0.5, rest), rospy.ServiceProxy(till, Charge), request_id, cents)\n            break")
@@ -468,7 +468,7 @@ class Watchdog:
 replace("(OSError, rosgraph.MasterException)", "rosgraph.MasterException")
 # %% 12.4 wrong: loops in __init__ | hint: Run the endless loop in a thread
 replace("threading.Thread(target=self.run, daemon=True).start()", "self.run()")
-# %% 12.4 wrong: the addresses mixed up | hint: The addresses are in the wrong order
+# %% 12.4 wrong: the addresses mixed up | hint: registerService() got the addresses in the wrong order
 replace("self.uri, rospy.get_node_uri()", "rospy.get_node_uri(), self.uri")
 # %% 12.4 wrong: takes the name back from another provider | hint: Another node provides this service now, but the watchdog registered its own
 replace("self.master.lookupService(self.service)", """if self.master.lookupService(self.service) != self.uri:
@@ -496,7 +496,7 @@ replace("while not self … get_node_uri())", """with self.lock:
                     pass
                 time.sleep(self.every)""")
 replace(".set()", " = True")
-# %% 12.4 wrong: asks the kernel's own master | hint: The watchdog did not call the given master
+# %% 12.4 wrong: asks the kernel's own master | hint: The watchdog did not call the master that was passed to it
 replace("= name, uri, master, every", "= name, uri, rosgraph.Master(rospy.get_name()), every")
 # %% 12.4 wrong: looks without a pause | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
@@ -509,7 +509,7 @@ replace("        with self.lock:\n            self.over.set()", "        self.ov
 # %% 12.4 wrong: ends when another node has the name | hint: The name is free again, but the watchdog does not register its own service
 replace("self.master.lookupService(self.service)", """if self.master.lookupService(self.service) != self.uri:
                     self.over.set()""")
-# %% 12.4 wrong: the address of the service for that of the node | hint: The last argument is wrong
+# %% 12.4 wrong: the address of the service for that of the node | hint: The last argument of registerService() is wrong
 replace("self.uri, rospy.get_node_uri()", "self.uri, self.uri")
 # %% 12.4 wrong: has the check's master forget that stop() has returned | hint: stop() does not return
 replace("        with self.lock:\n            self.over.set()", "        self.over.set()")
@@ -533,7 +533,7 @@ replace('"new master"', '"killed"')
 replace("lock", "frozen")
 # %% 12.5 wrong: a frozen process taken for a lock | hint: The diagnosis "lock" means that a handler holds a lock during a call, so … not even get_loggers
 replace("frozen", "lock")
-# %% 12.5 wrong: a repeat taken for a race | hint: The diagnosis "race" means that the data is wrong, but no client has to … The server did the work of the first try, but its response was lost
+# %% 12.5 wrong: a repeat taken for a race | hint: The diagnosis "race" means that the data is wrong, but no client has to … The server did the work of the first call, but the response
 replace("repeated", "race")
 # %% 12.5 wrong: a case left out | hint: Give a cause for each letter from A to G
 replace('\n    "G": "two providers",', "")
@@ -561,13 +561,13 @@ policies["speed"] = "try again"
 policies["payment"], policies["step"] = "same id", "look first"
 policies["not started"] = "wait for the service"
 
-# %% 12.6 wrong: repeats a refusal | hint: The policy "try again" is right only if another try can succeed, and if … The server has refused the request
+# %% 12.6 wrong: repeats a refusal | hint: The policy "try again" is right only if a second call can succeed, and if … The server has refused the request
 replace('"refused": "report"', '"refused": "try again"')
 # %% 12.6 wrong: waits for another definition | hint: only if no server is registered … The two programs were built with different definitions
 replace('"md5": "report"', '"md5": "wait for the service"')
-# %% 12.6 wrong: tries a step again | hint: The policy "try again" is right only if another try can succeed, and if … Perhaps the robot has already moved, and a second request moves it again
+# %% 12.6 wrong: tries a step again | hint: The policy "try again" is right only if a second call can succeed, and if … Perhaps the robot has already moved, and a second request moves it again
 replace('"look first"', '"try again"')
-# %% 12.6 wrong: gives up a payment | hint: With the policy "report", the client does not try again, although another try can … Perhaps the till has already taken the money
+# %% 12.6 wrong: gives up a payment | hint: With the policy "report", the client does not repeat the call, although a second … Perhaps the till has already taken the money
 replace('"same id"', '"report"')
 # %% 12.6 wrong: looks before it sets the speed | hint: The policy "look first" is right only if a repetition does harm, and if … The request sets a state
 replace('"try again"', '"look first"')

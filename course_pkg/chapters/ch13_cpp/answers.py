@@ -48,7 +48,7 @@ replace("\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "")
 replace("\ninclude_directories(${catkin_INCLUDE_DIRS})", "")
 # %% 13.1 wrong: another name for the program | hint: The program has the wrong name
 replace("box_server ", "server ", times=2)
-# %% 13.1 wrong: catkin_package last | hint: The command catkin_package is in the wrong place
+# %% 13.1 wrong: catkin_package last | hint: The command catkin_package is in the wrong line
 replace("\ncatkin_package()\n", "")
 replace("(box_server ${catkin_LIBRARIES})", "(box_server ${catkin_LIBRARIES})\ncatkin_package()")
 # %% 13.1 wrong: no catkin_package | hint: The command catkin_package is missing
@@ -77,10 +77,10 @@ replace("""ros::ServiceServer server = node.advertiseService("box", measure);
   spinner.start();
   ros::waitForShutdown();
   return 0;""")
-# %% 13.2 wrong: starts a server in Python | hint: The program can start another program.
+# %% 13.2 wrong: starts a server in Python | hint: The program contains a call that can start another program
 replace("#include <ros/ros.h>", "#include <ros/ros.h>\n#include <unistd.h>")
 replace("ros::spin();", "execlp(\"python3\", \"python3\", \"box_server.py\", nullptr);")
-# %% 13.2 wrong: a system call of its own | hint: The program can start another program.
+# %% 13.2 wrong: a system call of its own | hint: The program contains a call that can start another program
 replace("ros::spin();", """ros::spin();
 #ifdef __x86_64__
   __asm__ volatile("syscall");
@@ -97,7 +97,7 @@ replace("volume = response.area", "volume = area")
 replace("\n  return true;", "")
 # %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a valid request, so the client got an error
 replace("true", "0")
-# %% 13.2 wrong: what is advertised is not kept | hint: The service ends, because the object that advertiseService returns is deleted
+# %% 13.2 wrong: what is advertised is not kept | hint: advertiseService returns an object, and the service
 replace("ros::ServiceServer server = node", "node")
 # %% 13.2 wrong: no spin | hint: The program ends, so its service also ends
 replace(";\n  ros::spin();", ";")
@@ -213,7 +213,7 @@ replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
 replace("waitForShutdown()", "spin()")
 # %% 13.4 wrong: more threads, and no lock | hint: Two threads read the same number, and both threads add 1 to it
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
-# %% 13.4 wrong: an atomic number | hint: Two threads can read the same number before one of them writes, even if
+# %% 13.4 wrong: an atomic number | hint: Two threads can read the same number before one of them writes the
 replace("include <mutex", "include <atomic")
 replace("int served = 0;\nstd::mutex counting;", "std::atomic<int> served{0};")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")
@@ -227,13 +227,13 @@ replace("  think();", "  std::lock_guard<std::mutex> lock(counting);\n  think();
 replace("6", "1")
 # %% 13.4 wrong: never started | hint: The AsyncSpinner executes no callbacks, because it was not started
 replace("\n  spinner.start();", "")
-# %% 13.4 wrong: main does not wait | hint: The program ends, because main ends after the spinner was started
+# %% 13.4 wrong: main does not wait | hint: The program ends, because main starts the spinner and then returns
 replace("spinner.start();\n  ros::waitForShutdown();", "spinner.start();")
-# %% 13.4 wrong: does not think | hint: The functions think() and count() replace real work, so do not change their times
+# %% 13.4 wrong: does not think | hint: The functions think() and count() simulate long calculations, so do
 replace("\n  ros::WallDuration(0.4).sleep();", "")
 # %% 13.4 wrong: three threads | hint: The spinner has too few threads
 replace("6", "3")
-# %% 13.4 wrong: thinks for less, on one thread | hint: The functions think() and count() replace real work, so do not change their times
+# %% 13.4 wrong: thinks for less, on one thread | hint: The functions think() and count() simulate long
 replace("int served = 0;\nstd::mutex counting;", "int served = 0;")
 replace("0.4", "0.04")
 replace("\n  std::lock_guard<std::mutex> lock(counting);", "")

@@ -28,7 +28,7 @@ replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForSe
 replace('  if (!client.call(spawn)) {\n    ROS_ERROR("the simulator refused MyTurtle");\n    return 1;\n  }\n', '  client.call(spawn);\n')
 # %% 14.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
 replace('  spawn.request.name = "MyTurtle";\n', '')
-# %% 14.1 wrong: a semicolon is missing | hint: semicolon
+# %% 14.1 wrong: a semicolon is missing | hint: Look for a missing ; or bracket
 replace('request.x = 3;', 'request.x = 3')
 
 # %% 14.2 right: a function, and spinOnce
@@ -88,7 +88,7 @@ replace('    geometry_msgs::Twist message;\n', '')
 replace('  while (ros::ok()) {\n', '  geometry_msgs::Twist message;\n  while (ros::ok()) {\n')
 # %% 14.2 wrong: ten times per second | hint: The program does not publish twice per second
 replace('rate(2)', 'rate(10)')
-# %% 14.2 wrong: no header | hint: std_srvs/Empty.h
+# %% 14.2 wrong: no header | hint: The compiler does not know the name std_srvs
 replace('#include <std_srvs/Empty.h>\n', '')
 
 # %% 14.3 right: methods, and spinOnce
@@ -391,11 +391,11 @@ int main(int argc, char** argv) {
 replace('++calls[session->second]', '++calls["all"]')
 # %% 14.9 wrong: the name of the node | hint: The response contains the number of all calls
 replace('++calls[session->second]', '++calls[event.getCallerName()]')
-# %% 14.9 wrong: the session and the name of the node | hint: The handler uses the node's name
+# %% 14.9 wrong: the session and the name of the node | hint: The handler uses the name of the calling node
 replace('++calls[session->second]', '++calls[session->second + event.getCallerName()]')
 # %% 14.9 wrong: counts afterwards | hint: The response contains the number of calls before this call
 replace('++calls[session->second]', 'calls[session->second]++')
-# %% 14.9 wrong: a map in the handler | hint: The count starts again in each call
+# %% 14.9 wrong: a map in the handler | hint: In each call, the count starts at 0 again
 replace('std::map<std::string, int> calls;\n', '')
 replace('bool handleCount(Event& event) {\n', 'bool handleCount(Event& event) {\n  std::map<std::string, int> calls;\n')
 # %% 14.9 wrong: no message | hint: The message is empty

@@ -52,15 +52,15 @@ if __name__ == "__main__":
 replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * frame.width * frame.height")
 # %% 15.1 wrong: any dark point | hint: Only a twentieth of the points is dark
 replace("10 * dark >= frame.width * frame.height", "dark > 0")
-# %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, and this is enough
+# %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, so this frame shows a
 replace(">= frame.width", "> frame.width")
-# %% 15.1 wrong: rounded | hint: The number of dark points is one less than a tenth, so this frame
+# %% 15.1 wrong: rounded | hint: The number of dark points is one less than a tenth of all points, so this
 replace("10 * dark >= frame.width * frame.height", "round(dark / (frame.width * frame.height), 2) >= 0.1")
 # %% 15.1 wrong: 96 is dark | hint: Some points have the value 96, but a point is dark only if its
 replace("point < 96", "point <= 96")
 # %% 15.1 wrong: the padding counts | hint: Each row has frame.step bytes, but only the first frame.width bytes are points
 replace("frame.data[start : start + frame.width]", "frame.data[start : start + frame.step]")
-# %% 15.1 wrong: always True | hint: All points are light
+# %% 15.1 wrong: always True | hint: No point is dark, so this frame shows no customer
 replace("10 * dark >= frame.width * frame.height", "dark >= 0")
 # %% 15.1 wrong: publishes only customers | hint: The node published nothing for a valid frame. Check whether the callback
 replace("if customer is not None:", "if customer:")
@@ -219,7 +219,7 @@ replace("return time.monotonic() - self.arrived > 1.0", "return False")
 replace("lambda: self.customer and not self.is_silent()", "lambda: self.customer")
 # %% 15.3 wrong: refuses at once | hint: The node refused the call too early
 replace("        with self.changed:\n            found", "        if self.is_silent():\n            raise rospy.ServiceException('the camera is silent')\n        with self.changed:\n            found")
-# %% 15.3 wrong: uses only messages that come during the call | hint: A message that arrived before the call is valid, too
+# %% 15.3 wrong: uses only messages that come during the call | hint: A message can also be valid if it
 replace("        with self.changed:\n            found", "        began = time.monotonic()\n        with self.changed:\n            found")
 replace("if not found and self.is_silent()", "if not found and self.arrived < began")
 # %% 15.3 wrong: a message counts for 0.2 s | hint: The node did not use the last message
@@ -268,21 +268,21 @@ if __name__ == "__main__":
     main()
 '''
 
-# %% 15.5 wrong: unchanged | hint: ` has not changed
+# %% 15.5 wrong: unchanged | hint: ` is the same as in the joint state
 replace("[-value for value in joints.velocity]", "joints.velocity")
-# %% 15.5 wrong: an empty list | hint: is empty in the image
+# %% 15.5 wrong: an empty list | hint: is empty in the mirror image, but not in the joint state
 replace("                velocity=[-value for value in joints.velocity],\n", "")
 # %% 15.5 wrong: always negative | hint: A negative number has to become a positive number
 replace("[-value for value in joints.position]", "[-abs(value) for value in joints.position]")
 # %% 15.5 wrong: reversed | hint: Some numbers are wrong
 replace("[-value for value in joints.position]", "[-value for value in reversed(joints.position)]")
-# %% 15.5 wrong: a new stamp | hint: The stamp of an image is different from the stamp of its joint state
+# %% 15.5 wrong: a new stamp | hint: The time stamp of a mirror image is different from the time stamp of the
 replace("                header=joints.header,\n", "")
-# %% 15.5 wrong: the stamp only | hint: Copy the whole header, with stamp and frame_id
+# %% 15.5 wrong: the stamp only | hint: Copy the whole header:
 replace("        mirrored.publish(", "        joints.header.frame_id = ''\n        mirrored.publish(")
-# %% 15.5 wrong: no effort | hint: ` has changed, but it has to stay the same
+# %% 15.5 wrong: no effort | hint: ` of the mirror image is different from this field of the joint state
 replace("                effort=joints.effort,\n", "")
-# %% 15.5 wrong: any number of positions | hint: The numbers of names and positions are different
+# %% 15.5 wrong: any number of positions | hint: The number of names is different from the number of positions
 replace("len(joints.position) != count or ", "")
 # %% 15.5 wrong: any number of velocities | hint: The number of velocities has to be 0 or equal to the number of
 replace(" or len(joints.velocity) not in (0, count)", "")
@@ -294,23 +294,23 @@ replace("    if is_valid(joints):", "    if not is_valid(joints):\n        joint
 replace("not in (0, count)", "!= count")
 # %% 15.5 wrong: finite efforts only | hint: The node ignored a joint state with an infinite effort, which is valid
 replace("*joints.velocity]", "*joints.velocity, *joints.effort]")
-# %% 15.5 wrong: compares the number of efforts | hint: The conditions do not mention the number of efforts
+# %% 15.5 wrong: compares the number of efforts | hint: The node ignored a joint state in which the number of
 replace("len(joints.velocity) not in (0, count)", "len(joints.velocity) not in (0, count) or len(joints.effort) not in (0, count)")
 # %% 15.5 wrong: leaves out a joint state without joints | hint: A joint state with 0 names and 0 positions is valid
 replace("if len(joints.position) != count", "if not count or len(joints.position) != count")
-# %% 15.5 wrong: published twice | hint: Some images arrived more than once
+# %% 15.5 wrong: published twice | hint: Some mirror images arrived more than once
 replace("        mirrored.publish(", "        mirrored.publish(JointState(joints.header, joints.name, [-p for p in joints.position], [-v for v in joints.velocity], joints.effort))\n        mirrored.publish(")
-# %% 15.5 wrong: ends with the first invalid one | hint: No image arrived after the first invalid joint state
+# %% 15.5 wrong: ends with the first invalid one | hint: No mirror image arrived after the first invalid joint
 replace("    if is_valid(joints):", "    if not is_valid(joints):\n        subscriber.unregister()\n    else:")
 replace('    rospy.Subscriber("joint', '    subscriber = rospy.Subscriber("joint')
-# %% 15.5 wrong: a loop with a pause | hint: Some images are missing
+# %% 15.5 wrong: a loop with a pause | hint: Some mirror images are missing
 replace('("robot_cashier")', '("robot_cashier")\n    rospy.Subscriber("joint_states", JointState, lambda joints: None)')
 replace('rospy.Subscriber("joint_states", JointState, handle_joints)\n    rospy.spin()', """while not rospy.is_shutdown():
         handle_joints(rospy.wait_for_message("joint_states", JointState))
         rospy.sleep(0.1)""")
-# %% 15.5 wrong: publishes later | hint: The images arrive late
+# %% 15.5 wrong: publishes later | hint: The mirror images arrive late
 replace("    if is_valid(joints):", "    rospy.sleep(0.1)\n    if is_valid(joints):")
-# %% 15.5 wrong: publishes nothing | hint: No mirror image arrived
+# %% 15.5 wrong: publishes nothing | hint: No mirror image arrived. In the callback, publish
 replace("    if is_valid(joints):", "    if joints is None:")
 # %% 15.5 wrong: another type | hint: The node does not subscribe to joint_states with the right type
 replace('''"joint_states", JointState, handle''', '''"joint_states", JointTrajectory, handle''')
@@ -404,7 +404,7 @@ replace("while there is not False and", "while there and")
 # %% 15.6 wrong: calls with 0 after a visit | hint: In the last response, `found` was False, so no customer is there
 replace("there = is_there(0)", "there = is_there(0)\n    is_there(0)")
 # %% 15.6 wrong: no pause during a visit | hint: wait 0.2 s between two calls
-replace("        rospy.sleep(0.2)\n", "")
+replace("        if there:\n            rospy.sleep(0.2)\n", "")
 # %% 15.6 wrong: no pause after a refusal | hint: The node made the next call immediately after a failed call
 replace("        rospy.sleep(0.5)\n", "")
 # %% 15.6 wrong: a long pause | hint: the next call came too late
@@ -442,12 +442,12 @@ replace('    there = True\n', """    there = True
 replace("        reset()\n", '        rospy.wait_for_service("till/reset")\n        reset()\n')
 # %% 15.6 wrong: resets before and after | hint: The node called till/reset more than once after a visit
 replace('    greetings.publish("Good day!")\n', '    greetings.publish("Good day!")\n    try:\n        reset()\n    except rospy.ServiceException:\n        pass\n')
-# %% 15.6 wrong: mirrors nothing during a visit | hint: During a visit, the node mirrored nothing
+# %% 15.6 wrong: mirrors nothing during a visit | hint: During a visit, the node published no mirror images
 replace("def is_valid", "visiting = False\n\n\ndef is_valid")
 replace("    if is_valid(joints):", "    if is_valid(joints) and not visiting:")
 replace('    greetings.publish("Good day!")\n', '    global visiting\n    visiting = True\n    greetings.publish("Good day!")\n')
 replace("    try:\n        reset()\n", "    visiting = False\n    try:\n        reset()\n")
-# %% 15.6 wrong: calls in the callback | hint: The node publishes no mirror image while a call waits
+# %% 15.6 wrong: calls in the callback | hint: The node publishes no mirror image while it waits for the
 replace("handle_joints(joints):", "handle_joints(joints):\n    if is_there(wait):\n        attend_visit()")
 replace("while not rospy.is_shutdown():\n        if is_there(wait):\n            attend_visit()", "rospy.spin()")
 
@@ -557,9 +557,9 @@ replace("request.cents < 0", "False")
 replace('f"{request.item}: {request.cents} cents are negative"', '"an item cannot be negative"')
 # %% 15.7 wrong: no name | hint: The till accepted an item with an empty name
 replace("if not request.item:", "if False:")
-# %% 15.7 wrong: stores before it refuses | hint: The till refused the call, but its content has changed
+# %% 15.7 wrong: stores before it refuses | hint: The till refused the call, but the stored items have changed
 replace('    if not request.item:', '    prices[request.item] = request.cents\n    if not request.item:')
-# %% 15.7 wrong: 32 bits | hint: The till returned a wrong sum above 2147483647
+# %% 15.7 wrong: 32 bits | hint: The till returned a wrong sum when the sum was above 2147483647
 replace("    prices[request.item] = request.cents\n", "    prices[request.item] = min(request.cents, 2**31 - 1)\n")
 # %% 15.7 wrong: small letters | hint: The items milk and MILK are two different items
 replace("prices[request.item]", "prices[request.item.lower()]")
@@ -611,10 +611,10 @@ replace('        print_line(f"{request.item} {request.cents}")\n', '''        tr
 # %% 15.8 wrong: the reason is lost | hint: The error message does not contain the printer's message
 based_on("acquire and release, and the error is caught")
 replace('"not printed: " + str(e)', '"not printed"')
-# %% 15.8 wrong: counts first | hint: The line was not printed, but the till counts the item
+# %% 15.8 wrong: counts first | hint: The line was not printed, but the till stored the price of the item
 based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
-# %% 15.8 wrong: waits for a printer | hint: Do not wait for the service without a limit
+# %% 15.8 wrong: waits for a printer | hint: Do not wait for this service without a time limit
 replace("        print_line(f", "        rospy.wait_for_service('print_line')\n        print_line(f")
 # %% 15.8 wrong: repeats a refused line | hint: The till called print_line again after the printer had refused
 replace('        print_line(f"{request.item} {request.cents}")\n', """        try:
@@ -622,7 +622,7 @@ replace('        print_line(f"{request.item} {request.cents}")\n', """        tr
         except rospy.ServiceException:
             print_line(f"{request.item} {request.cents}")
 """)
-# %% 15.8 wrong: no line for the old price | hint: The item already had this price
+# %% 15.8 wrong: no line for the old price | hint: A call of till/set did not print exactly one line, because
 replace("        print_line(", "        if prices.get(request.item) != request.cents:\n            print_line(")
 # %% 15.8 wrong: prints what it refuses | hint: The till printed a line for a refused item
 replace('    if not request.item:', '    print_line(f"{request.item} {request.cents}")\n    if not request.item:')
@@ -635,7 +635,7 @@ replace("""raise rospy.ServiceException(f"{request.item}: {request.cents} cents 
     with turn:""", 'raise rospy.ServiceException(f"{request.item}: {request.cents} cents are negative")\n    for attempt in range(200):')
 replace('(f"{request.item} {request.cents}")', '(f"{request.item} {request.cents}")\n            break')
 replace("rospy.logwarn(error)", 'if "jam" not in str(error):\n                raise\n            rospy.sleep(0.01)\n    with turn:')
-# %% 15.8 wrong: the lock ends before the sum | hint: A total is not the sum of the lines printed before, because another call
+# %% 15.8 wrong: the lock ends before the sum | hint: A total is not the sum of the prices that were printed
 replace("""prices[request.item] = request.cents
         return sum(prices.values())""", "prices[request.item] = request.cents\n    rospy.sleep(0.2)\n    return sum(prices.values())")
 # %% 15.8 wrong: the lock stays locked | hint: After a refused call, the next call got no response
@@ -696,15 +696,15 @@ replace('        if not prices:\n            return True, "already empty"\n', ""
 replace("if not prices:", "if not sum(prices.values()):")
 # %% 15.9 wrong: keeps the items | hint: The till still has items after a reset
 replace("        prices.clear()\n", "")
-# %% 15.9 wrong: a sum before the lock | hint: The printer was printing a line during the reset, but this item is missing
+# %% 15.9 wrong: a sum before the lock | hint: but the sum does not contain this item
 replace("handle_reset(request):", """handle_reset(request):
     if not prices:
         return True, "already empty"
     paid = sum(prices.values())""")
 replace('\n        if not prices:\n            return True, "already empty"\n        paid = sum(prices.values())', "")
-# %% 15.9 wrong: no lock | hint: The reset did not wait for the line
+# %% 15.9 wrong: no lock | hint: The handler of till/reset did not wait until the line was printed
 replace("def handle_reset(request):\n    with turn:", "def handle_reset(request):\n    if True:")
-# %% 15.9 wrong: the lock is released before storing | hint: The printer was printing a line during the reset, but this item was in
+# %% 15.9 wrong: the lock is released before storing | hint: and this item was in the till after the reset
 replace("by item", "by item\npending = {}")
 replace("\n        prices[request.item] = request.cents\n        return sum(prices.values())", """
         pending[request.item] = request.cents
@@ -748,24 +748,24 @@ replace('if="$(arg hardware)"', 'if="$(arg wait)"')
 replace('value="$(arg wait)"', 'value="$(value wait)"')
 # %% 15.10 wrong: always with hardware | hint: With hardware:=false, counter_camera, robot and receipt_printer must not start
 replace('<group if="$(arg hardware)">', "<group>")
-# %% 15.10 wrong: unless | hint: Without an argument, the hardware has to start
+# %% 15.10 wrong: unless | hint: If the user sets no argument, the nodes of the hardware have to start
 replace('<group if=', "<group unless=")
 # %% 15.10 wrong: no till | hint: Compare the names of the nodes with the names in the exercise
 replace('  <node pkg="my_cashier" type="till.py" name="till" />\n', "")
 # %% 15.10 wrong: another node | hint: which is not in the exercise
 replace('</launch>', '  <node pkg="my_cashier" type="ask_customer.py" name="ask_customer" />\n</launch>')
-# %% 15.10 wrong: the nodes of the course | hint: A node starts the wrong program
+# %% 15.10 wrong: the nodes of the course | hint: A <node> tag starts the wrong program
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
-# %% 15.10 wrong: a prefix starts another program | hint: A node starts the wrong program
+# %% 15.10 wrong: a prefix starts another program | hint: A <node> tag starts the wrong program
 replace('type="till.py"', 'type="till.py" launch-prefix="rosrun course_pkg till"')
 # %% 15.10 wrong: no parameter | hint: The node robot_cashier has no parameter "wait"
 replace('    <param name="wait" value="$(arg wait)" />\n', "")
 # %% 15.10 wrong: the parameter outside of the node | hint: The parameter "wait" does not belong to robot_cashier
 replace('  <node pkg="my_cashier" type="vision.py"', '  <param name="wait" value="$(arg wait)" />\n  <node pkg="my_cashier" type="vision.py"')
 replace('    <param name="wait" value="$(arg wait)" />\n  </node>', "  </node>")
-# %% 15.10 wrong: a text as the parameter | hint: The parameter is a text
+# %% 15.10 wrong: a text as the parameter | hint: The value of the parameter "wait" is a string
 replace('value="$(arg wait)"', 'value="$(arg wait)" type="str"')
-# %% 15.10 wrong: another default | hint: Without an argument, the value of "wait" has to be 2 s
+# %% 15.10 wrong: another default | hint: If the user sets no argument, the value of "wait" has to be 2 s
 replace('default="2.0"', 'default="3.0"')
 # %% 15.10 wrong: a fixed value | hint: The parameter always has the same value, even if the user passes another value
 replace('value="$(arg wait)"', 'value="2.0"')
@@ -790,7 +790,7 @@ solution()
 </launch>
 '''
 
-# %% 15.11 wrong: the till of the course | hint: A node starts the wrong program
+# %% 15.11 wrong: the till of the course | hint: A <node> tag starts the wrong program
 based_on("with a delay, and output on the screen")
 replace('pkg="my_cashier" type="till.py"', 'pkg="course_pkg" type="till"')
 # %% 15.11 wrong: no respawn | hint: roslaunch did not start a node again
@@ -799,9 +799,9 @@ replace(' respawn="true"', "", times=4)
 replace('name="till" respawn="true"', 'name="till"')
 # %% 15.11 wrong: no valid XML | hint: roslaunch ended. Type
 replace('name="robot" />', 'name="robot" >')
-# %% 15.11 wrong: no vision | hint: Repeat the check of the exercise for this node … Repeat the check of the exercise for this node
+# %% 15.11 wrong: no vision | hint: Go to the exercise in which you … Go to the exercise in which you
 replace('  <node pkg="my_cashier" type="vision.py" name="vision" respawn="true" />\n', "")
-# %% 15.11 wrong: another name | hint: Repeat the check of the exercise for this node
+# %% 15.11 wrong: another name | hint: Go to the exercise in which you wrote this node, and run the check of
 replace('name="till"', 'name="cash_register"')
 
 # %% 15.11 wrong: a blind vision | hint: The frames show a customer, but detect_customer does not find a customer

@@ -61,20 +61,20 @@ class Fetcher:
             self.server.publish_feedback(FetchFeedback(done))
         self.server.set_succeeded(FetchResult(done))
 
-# %% 16.1 wrong: never checks for a cancellation | hint: Check is_preempt_requested() before each thing
+# %% 16.1 wrong: never checks for a cancellation | hint: Call is_preempt_requested() before the robot fetches
 replace("\n            if self.server … return", "")
-# %% 16.1 wrong: a count for all goals | hint: The number of things continued from the previous goal
+# %% 16.1 wrong: a count for all goals | hint: The result also counts the things of the previous goal
 replace("        self.server.start()", "        self.server.start()\n        self.fetched = 0")
 replace("for fetched in range(goal.things)", "for _ in range(goal.things)")
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=self.fetched))")
 replace("            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "            self.fetched += 1\n            self.server.publish_feedback(FetchFeedback(fetched=self.fetched))")
 replace("fetched=goal.things", "fetched=self.fetched")
-# %% 16.1 wrong: returns the result, as a service does | hint: The function ended, but the goal has no end state
+# %% 16.1 wrong: returns the result, as a service does | hint: The function returned, but the goal has no end
 replace("self.server.set_preempted(FetchResult(fetched=fetched))\n                return", "return FetchResult(fetched=fetched)")
 replace("self.server.set_succeeded(FetchResult(fetched=goal.things))", "return FetchResult(fetched=goal.things)")
-# %% 16.1 wrong: not started | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
+# %% 16.1 wrong: not started | hint: Pass `name`, the argument of your constructor, to SimpleActionServer, and
 replace("\n        self.server.start()", "")
-# %% 16.1 wrong: a fixed action name | hint: Pass the argument `name` of the constructor to SimpleActionServer, and call start()
+# %% 16.1 wrong: a fixed action name | hint: Pass `name`, the argument of your constructor, to
 replace("Server(name", 'Server("/my_fetch"')
 # %% 16.1 wrong: succeeds although it was cancelled | hint: The client cancelled the goal, so SUCCEEDED is the wrong state
 replace("set_preempted", "set_succeeded")
@@ -100,11 +100,11 @@ replace("\n                return", "")
 # %% 16.1 wrong: succeeds in the loop | hint: The goal ended after the first thing, because set_succeeded ends the goal
 replace("+ 1))\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", """+ 1))
             self.server.set_succeeded(FetchResult(fetched=fetched + 1))""")
-# %% 16.1 wrong: a second for each | hint: The robot did not work for the right time
+# %% 16.1 wrong: a second for each | hint: The duration of the robot's work is wrong
 replace("goal.seconds", "1")
-# %% 16.1 wrong: a fifth of a second for each | hint: The robot did not work for the right time
+# %% 16.1 wrong: a fifth of a second for each | hint: The duration of the robot's work is wrong
 replace("goal.seconds", "0.2")
-# %% 16.1 wrong: the time of the chapter's first goal | hint: The robot did not work for the right time
+# %% 16.1 wrong: the time of the chapter's first goal | hint: The duration of the robot's work is wrong
 replace("goal.seconds", "0.05")
 # %% 16.1 wrong: the last number of the loop | hint: The result is too small by one, because range() starts at 0
 replace("(fetched=goal.things)", "(fetched=fetched)")
@@ -116,7 +116,7 @@ replace("FetchFeedback(fetched=fetched + 1)", "FetchFeedback()")
 replace("time.sleep(goal.seconds)", "time.sleep(goal.seconds)\n        for fetched in range(goal.things):")
 # %% 16.1 wrong: an empty result when it is cancelled | hint: The field `fetched` is 0 in the result of the cancelled goal
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted()")
-# %% 16.1 wrong: the number of the goal when it is cancelled | hint: The result contains the number in the goal, 80
+# %% 16.1 wrong: the number of the goal when it is cancelled | hint: The result is 80, but this is the number
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=goal.things))")
 # %% 16.1 wrong: a misspelt field | hint: The function raised an exception
 replace("FetchFeedback(fetched", "FetchFeedback(count")
@@ -166,11 +166,11 @@ replace("""if not client.wait_for_result(rospy.Duration(seconds)):
 replace("client.wait_for_result(rospy.Duration(2))", "time.sleep(0.15)")
 # %% 16.2 wrong: a plain number of seconds | hint: actionlib does not accept a plain number of seconds
 replace("rospy.Duration(seconds)", "seconds")
-# %% 16.2 wrong: waits for a server for ever | hint: No server exists, but the wait has no limit
+# %% 16.2 wrong: waits for a server for ever | hint: No server exists, but the function waits without a time
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server()")
-# %% 16.2 wrong: returns the number of the goal | hint: The function returned the number in the goal
+# %% 16.2 wrong: returns the number of the goal | hint: The function returned the field `things` of the goal
 replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    return things")
-# %% 16.2 wrong: does not wait for the robot | hint: The goal did not arrive, because it was sent before the connection existed
+# %% 16.2 wrong: does not wait for the robot | hint: The goal did not arrive at the server, because the
 replace("\n    if not client.wait_for_server(rospy.Duration(2)):\n        return None", "")
 replace("return client.get_result().fetched", "result = client.get_result()\n    return result.fetched if result else None")
 # %% 16.2 wrong: no seconds | hint: The field `seconds` of the goal is not 0.1
@@ -249,7 +249,7 @@ replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or sp
 replace("(int, float)", "float")
 # %% 16.3 wrong: a fixed default | hint: The parameter is not set
 replace(", default)\n", ", 1.0)\n")
-# %% 16.3 wrong: does not catch what float() raises | hint: If a string is not a number, float() raises a ValueError
+# %% 16.3 wrong: does not catch what float() raises | hint: float() raises a ValueError for a string that does
 based_on("by an exception")
 replace(", ValueError", "")
 # %% 16.3 wrong: takes True for a speed | hint: The value was True, which is an int with the value 1 in Python
@@ -305,7 +305,7 @@ replace('rospy.Service("door", SetBool', 'rospy.Subscriber("door", Bool')
 # %% 16.4 wrong: a service for the delivery | hint: The client wants progress reports, and it wants to cancel the delivery
 replace("""self.server = actionlib.SimpleActionServer("deliver", FetchAction, execute_cb=self.deliver, auto_start=False)
         self.server.start()""", 'self.server = rospy.Service("deliver", SetBool, self.move_door)')
-# %% 16.4 wrong: a service for the capacity | hint: The user sets "capacity" when the robot starts, so it is not an interface
+# %% 16.4 wrong: a service for the capacity | hint: The user sets "capacity" when the robot starts, and clients never
 replace("import SetBool, SetBoolResponse", "import SetBool, SetBoolResponse, Trigger")
 replace('self.capacity = rospy.get_param("~capacity", 5)', 'self.capacity = 5\n        rospy.Service("capacity", Trigger, lambda request: (True, "5"))')
 # %% 16.4 wrong: absolute names | hint: The name is not in the namespace of the robot
@@ -324,7 +324,7 @@ replace('"open" if request.data else "closed"', '"on" if request.data else "off"
 replace("success=True", "success=request.data")
 # %% 16.4 wrong: no state at the end | hint: Call set_succeeded at the end of the delivery
 replace("\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", "")
-# %% 16.4 wrong: a misspelt field | hint: The function that delivers raised an exception
+# %% 16.4 wrong: a misspelt field | hint: The function that delivers the parcels raised an exception
 replace("FetchFeedback(fetched", "FetchFeedback(delivered")
 # %% 16.4 wrong: counts from 0 | hint: The feedback is wrong
 replace("delivered + 1", "delivered")
@@ -343,7 +343,7 @@ replace("\n            if self.server … return", "")
 replace("set_preempted(FetchResult(fetched=delivered))", "set_preempted()")
 # %% 16.4 wrong: does not check the capacity | hint: Compare goal.things with the parameter ~capacity
 replace("\n        if goal.things … return", "")
-# %% 16.4 wrong: always carries five | hint: The delivery has more parcels than the capacity, but it was not aborted
+# %% 16.4 wrong: always carries five | hint: The delivery was not aborted, although it has more parcels than
 replace('rospy.get_param("~capacity", 5)', "5")
 # %% 16.4 wrong: checks the capacity too late | hint: Compare goal.things with the capacity before the loop
 replace("if goal.things … goal.things):", """for delivered in range(goal.things):

@@ -49,7 +49,7 @@ class Folder:
         return Finished(reply)
 
     def start(self, *argv: str, worded: str = "") -> Running:
-        """Start a command here that runs until it is stopped; returns a context manager."""
+        """In this folder, start a command that runs until stop(); returns a context manager."""
         self._doing(worded or " ".join(argv))
         reply = self._channel.ask("start", timeout=SLACK, argv=argv, folder=self._number)
         number = reply.get("process")
@@ -73,7 +73,7 @@ class Running:
         return status if isinstance(status, int) else None
 
     def listens_at(self, uri: str) -> bool:
-        """Return whether the command, or one of its child processes, listens at the port of the address."""
+        """Return whether the command, or one of its child processes, listens at the port in `uri`."""
         ports = self._channel.ask("ports", timeout=at_this_load(SLACK), process=self._number).get("ports")
         return isinstance(ports, list) and port_of(uri) in ports
 

@@ -133,7 +133,7 @@ def _environment(folder: Path) -> dict[str, str]:
     """Return the course's environment; PWD is set because catkin_make uses it as the working directory."""
     try:
         known = environment.merged(Places.of(), os.environ)
-    except (OSError, ValueError):  # The course was installed without its own set-up.
+    except (OSError, ValueError):  # The course is installed, but its set-up was not run.
         known = dict(os.environ)
     return {**known, "PWD": str(folder), "PYTHONUNBUFFERED": "1"}
 
@@ -166,7 +166,7 @@ def _finished(command: Sequence[str], folder: Path, timeout: float) -> Reply:
 
 
 def _scheduled(pid: int) -> Reply:
-    """Return the CPU time of a process's main thread and the time that it waited for a CPU, in s.
+    """Return the CPU time of a process's main thread, and its waiting time for a CPU, in s.
 
     Source: /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). Without this file, the reply
     is empty.

@@ -1,6 +1,7 @@
-"""The kernel agent: it reads and runs the student's code when the check runner requests it.
+"""The kernel agent: it reads and runs the student's code when the check runner requests this.
 
-The agent makes no decisions. The check runner trusts a reply only if it can observe the effect itself.
+The agent makes no decisions. The check runner trusts a reply only if the check runner itself can observe the
+effect.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ class KernelAgent:
         self._commands = CommandFolders(self._file)
         self._handler_errors = HandlerErrors()
         self._handler_errors.open()
-        # These names of `prepare` and `place` are separate from the student's names.
+        # The names that `prepare` and `place` define are separate from the student's names.
         self._prepared: dict[str, Value] = {}
         self._proxies: ObjectProxies | None = None
         self._handlers: dict[str, Callable[..., Reply]] = {
@@ -148,7 +149,7 @@ class KernelAgent:
         return self._find(str(value["its"])) if isinstance(value, dict) and value.keys() == {"its"} else value
 
     def _prepare(self, code: str, within: float) -> Reply:
-        """Run the check's own `code`; the names that it defines can be arguments of later calls."""
+        """Run the check's own `code`; the names that `code` defines can be arguments of later calls."""
         result = _result(lambda: exec(code, self._prepared), within)  # noqa: S102 -- it is the course's code
         return {"error": result.get("error")}
 
@@ -162,7 +163,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; otherwise, its handler would print to an earlier stream."""
+    """Let rospy's log print to `stream`; otherwise, the log's handler would print to an earlier stream."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers

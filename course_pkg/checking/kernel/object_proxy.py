@@ -81,7 +81,7 @@ class ObjectProxies:
         return reply.get("value")
 
     def _connection(self) -> _Connection:
-        """Return the connection of this thread; it is closed when the thread has ended."""
+        """Return the connection of this thread; the connection is closed when the thread has ended."""
         connection: _Connection | None = getattr(self._own, "connection", None)
         # A forked process must not use the connection of its parent.
         if connection is None or connection.process != os.getpid():

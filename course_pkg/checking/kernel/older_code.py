@@ -1,7 +1,8 @@
 """Find a student's function or class that is older than the code in its cell.
 
-The check would then examine other code than the student sees. One cause is a syntax error in the changed
-cell. Another cause is that the cell ran again, but not the cell that creates the service.
+If the code in use is older, the check examines other code than the student sees in the cell. One cause is a
+syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but not
+the cell that creates the service.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class OlderCode:
         answers = f"A version of {name} that is {_older(run)} answers the calls of {service}"
         if run.error:
             return f"{answers}. {_correct()}"
-        return f"{answers}. Run the cell that creates the service again, and then run this cell again."
+        return f"{answers}. Run the cell that creates the service, and then run this cell again."
 
     def _run_after(self, value: Value) -> CellRun | None:
         """Return the last run of the cell that defined `value`, or None if the code is still the same."""

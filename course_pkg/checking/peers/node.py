@@ -54,7 +54,7 @@ class Node:
         self.master.register_service(self.name, service, uri, self.uri)
 
     def restore(self, service: str, former: Registration | None) -> None:
-        """Register the `former` server of `service` again, with its own node name.
+        """Register the `former` server of `service` again, under the name of its former node.
 
         The master stores one server for each service, and does not notify a server that was replaced.
         """
@@ -64,7 +64,7 @@ class Node:
     def forget_topics(self, made: Callable[[str], bool]) -> None:
         """Unregister all publishers and subscribers of the topics for whose names `made` returns True.
 
-        A student's function possibly does not unregister these topics.
+        A student's function may have left these topics registered.
         """
         entries = registrations(self.master)
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])

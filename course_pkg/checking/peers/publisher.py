@@ -53,14 +53,14 @@ class Publisher:
     def listened(self, *, hints: Hints = (), within: float = 3.0) -> None:
         """Assert that the topic has a subscriber of its type, and return when the subscriber is connected.
 
-        `hints` are for the value "no subscriber", also if a subscriber has another type.
+        `hints` are for the value "no subscriber"; a subscriber with another type does not count.
         """
         assertion = f"somebody listens to {self._label}"
         if not self.has_subscriber(within):
             hint = (
                 hint_for(hints, "no subscriber")
-                or "No node is subscribed to this topic. Create a rospy.Subscriber for this "
-                f"topic, of type {self._type}."
+                or "No node is subscribed to this topic. Create a rospy.Subscriber of type "
+                f"{self._type} for this topic."
             )
             self._results.fails(assertion, expected="a subscriber", actual="no subscriber", hint=hint)
         self._results.passes(assertion)

@@ -1,7 +1,7 @@
 """A server for the student's client; a script in the check chooses each response.
 
 The server implements TCPROS itself (wiki.ros.org/ROS/TCPROS, "Service Client" and "Service"). A server of
-rospy cannot close a connection without a response, ignore a request, or use another definition.
+rospy cannot close a connection without a response, ignore a request, or use a changed service definition.
 """
 
 from __future__ import annotations

@@ -72,7 +72,7 @@ class Subscription:
             return self._arrivals[before:]
 
     def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
-        """Assert that a node publishes on the topic with the right type; return when it is connected.
+        """Assert that a node publishes on the topic with the right type; return when the node is connected.
 
         `hints` are for wrong values: "no publisher", or the name of a wrong type.
         """

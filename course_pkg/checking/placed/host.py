@@ -11,7 +11,7 @@ each thread of the kernel. Each line of a connection is one JSON object:
     runner -> kernel   {"value": 5}, {"placed": {…}} for another object, or {"error": {"type": …, "text": …}}
 
 The listening socket is on the loopback interface, which a kernel in a sandbox shares with its check runner.
-The key is only in the request `place` on the channel, so other users of the computer do not know it.
+The key is only in the request `place` on the channel, so other users of the computer do not know the key.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ from course_pkg.waiting import Deadline
 LIMIT = 1 << 16  # A line has at most this number of bytes.
 # At most this number of connections is open at the same time. A kernel in a sandbox may have 200 threads.
 CONNECTIONS = 128
-# One check makes at most this number of calls. A loop that polls a lock makes about 10,000 calls per second.
+# During one check, the kernel can make at most this number of calls. A loop that polls a lock makes about
+# 10,000 calls per second.
 CALLS = 200_000
 KEY_TIMEOUT = 5.0  # The first line of a connection has to arrive within this time in s.
 SEND_TIMEOUT = 5.0  # The kernel has to read a reply within this time in s.

@@ -36,7 +36,8 @@ def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report
     """Let a separate node examine part `check_id`, such as "05.1", and return the report.
 
     The check looks up the names that it needs in `namespace`, or in the notebook if `namespace` is None. An
-    error of the check is shown in the report. Only an interrupt is raised, after the check runner has ended.
+    error of the check is shown in the report. Only KeyboardInterrupt is raised, and only after the check
+    runner has ended.
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():
@@ -59,7 +60,7 @@ def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report
 
 
 def _serve(channel: Channel, check_id: str, agent: KernelAgent) -> Report:
-    """Respond to the check runner's requests until it sends its report."""
+    """Respond to requests of the check runner until the check runner sends its report."""
     channel.send({"protocol": PROTOCOL, "check": check_id})
     while True:
         message = channel.receive(TIMEOUT)
@@ -84,7 +85,7 @@ def _runner() -> Iterator[Channel]:
 
 @contextmanager
 def _started_runner() -> Iterator[Channel]:
-    """Start a check runner; it ends with this block, even if this process is killed."""
+    """Start a check runner; the check runner ends with this block, even if this process is killed."""
     if "ROS_MASTER_URI" not in os.environ:
         raise CheckError("The node does not exist yet. First run the set-up cell, which calls join().")
     ours, theirs = socket.socketpair()
@@ -97,13 +98,13 @@ def _started_runner() -> Iterator[Channel]:
         except ChannelError as error:
             raise ChannelClosed(_how_it_ended(process, log)) from error
         finally:
-            # After this, the check runner unregisters its node.
+            # When the channel is closed, the check runner unregisters its node.
             channel.close()
             _end(process)
 
 
 def _spawn(theirs: socket.socket, log: IO[bytes]) -> subprocess.Popen[bytes]:
-    """Start the check runner in a separate session, so that an interrupt of the kernel does not reach it.
+    """Start the check runner in a separate session: an interrupt of the kernel does not reach this session.
 
     The check runner imports the course and the workspace from the same folders as this process. The
     notebook's folder is at the end of the import path or not in the path, so a student's file rospy.py cannot

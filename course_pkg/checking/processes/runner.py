@@ -32,7 +32,7 @@ class DeadlinePassed(BaseException):
 
 
 def run_check(channel: Channel, store: Store | None = None, only: str = "") -> Report:
-    """Run the check that the client requests, `store` its result, and send and return its report.
+    """Run the check that the client requests, pass its result to `store`, and send and return the report.
 
     `store` gets the id of the check and its result, and returns a message for the report, or "". Without
     `store`, nothing is stored. If `only` is not empty, only the check with this id is run. Raises
@@ -90,7 +90,10 @@ def _reported(part: Part, context: CheckContext) -> Report:
 
 
 def _require_marks(part: Part, marked: set[str]) -> None:
-    """Raise CheckError if the check did not mark exactly the goals of the part; the last mark is optional."""
+    """Raise CheckError if the check did not mark exactly the goals of the part.
+
+    The last goal may be unmarked.
+    """
     texts = {goal.text for goal in part.goals}
     if wrong := (marked - texts) | (texts - marked - {goal.text for goal in part.goals[-1:]}):
         raise CheckError(f"The check itself has a bug (goals: {', '.join(sorted(wrong))}).")
@@ -103,8 +106,8 @@ def _not_attempted(part: Part, channel: Channel) -> str:
         blank = next((name for name, reply in replies.items() if reply.get("kind") == "blank"), "")
         if blank:
             return (
-                f"Write your answer in place of the ... in {blank.removeprefix('file:')}, run "
-                "that cell, and then run this cell again."
+                f"In {blank.removeprefix('file:')}, replace the three dots (`...`) with your "
+                "answer, run that cell, and then run this cell again."
             )
         there = [reply for reply in replies.values() if reply.get("kind") != "missing"]
         if not there:
@@ -137,7 +140,10 @@ def _too_slow(part: Part, context: CheckContext) -> Assertion:
         f"it ends within {part.deadline:g} s",
         holds=False,
         actual=f"still {context.doing}" if context.doing else "",
-        hint="The code is in an endless loop, or waits without a time limit. Look for this loop or wait.",
+        hint=(
+            "The code is in an endless loop, or waits without a time limit. End the loop, or give "
+            "the wait a time limit."
+        ),
     )
 
 

@@ -1,8 +1,8 @@
 """A check's copy of a student's catkin package, built in a separate folder, and the programs of this copy.
 
 The check adds its own version of each missing file, so one file can be examined before the student has
-written all files. In grading, a submission contains only the cells of the notebook, so files are missing
-there too.
+written all files. In grading, a submission contains only the cells of the notebook, so files can be missing
+in grading, too.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-# For a package that contains only scripts, no other path is necessary.
+# A package that contains only scripts needs no path except this path.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 # Without -j2, catkin_make sets a load limit, and make would wait while the machine is busy.
 CATKIN_MAKE = "catkin_make -j2"
@@ -87,9 +87,9 @@ def built(
     """Build a copy of the student's package, and assert that the build succeeds.
 
     If `alone` is true, only `examined` comes from the student. The files in `drawn` (content by path in the
-    package) replace the student's files. The content of these files is random, so no student's CMakeLists.txt
-    can contain it. Raises CheckError if the build takes more than `within` s; a build with C++ needs more
-    than the default.
+    package) replace the student's files. The content of these files is random, so a student's CMakeLists.txt
+    cannot contain this content in advance. Raises CheckError if the build takes more than `within` s; a build
+    with C++ needs more than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}
@@ -120,8 +120,8 @@ def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: f
 def copied(context: CheckContext, package: Package, *, examined: str, alone: bool = False) -> BuiltPackage:
     """Copy a package that needs no build, because it contains only Python programs and launch files.
 
-    rosrun and roslaunch find its programs in `src`, as they do in a workspace that was built. If `alone` is
-    true, only `examined` comes from the student.
+    rosrun and roslaunch find its programs in `src`, as in a built workspace. If `alone` is true, only
+    `examined` comes from the student.
     """
     files = [package.path(examined) if alone else package.folder]
     folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})
@@ -132,7 +132,7 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
 def _own_files(package: Package, examined: str) -> dict[str, str]:
     """Return the check's own files by their paths in the folder of a check, without the examined file.
 
-    A CMakeLists.txt could otherwise use the check's version of the examined file.
+    If the result contained the examined file, a CMakeLists.txt could use the check's version of this file.
     """
     return {f"{OWN}/{package.name}/{file}": text for file, text in package.files.items() if file != examined}
 

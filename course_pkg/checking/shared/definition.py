@@ -1,4 +1,7 @@
-"""Read a student's definition of a service type with ROS's own rules, and return a hint if it is invalid."""
+"""Read a student's definition of a service type with ROS's own rules.
+
+Return a hint if the definition is invalid.
+"""
 
 from __future__ import annotations
 

@@ -43,7 +43,10 @@ def require_kernel(context: CheckContext, nodes: Collection[str]) -> None:
             "your own code does the work",
             expected=f"the node {kernel}",
             actual=f"the node {others[0]}",
-            hint="Another program does the work. Use only the code in this cell, and do not start a program.",
+            hint=(
+                "A program that your code started does the work of this exercise. Write this work "
+                "as code in the cell, and do not start another program."
+            ),
         )
 
 

@@ -57,8 +57,8 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
     """Assert that the file `program` in `folder` is a compiled roscpp program that starts no other program.
 
     C++ code can start another program (exec(3)), and a CMakeLists.txt can write a script instead of the
-    compiled program. Raises ToolMissing if binutils is missing; it is usually installed with a compiler. A
-    report shows these assertions only if they fail.
+    compiled program. Raises ToolMissing if binutils is missing; binutils is usually installed with a
+    compiler. A report shows these assertions only if they fail.
     """
     path = shlex.quote(program)
     seen = folder.command(
@@ -90,5 +90,5 @@ def require_roscpp(context: CheckContext, folder: Folder, program: str) -> None:
             "the C++ program does the work itself",
             expected="no other program or library that is started or loaded",
             actual=f"calls of {', '.join(starts)}" if starts else "a direct system call",
-            hint="The program can start another program. Use only functions of roscpp.",
+            hint="The program contains a call that can start another program. Use only functions of roscpp.",
         )

@@ -21,8 +21,8 @@ def require_shebang(
 ) -> None:
     """Assert that the first line of the student's file is a shebang with `program`, and not with Python 2.
 
-    There are hints for five cases: no shebang, a shebang in another line, another program, Windows line
-    endings, and a byte order mark. If a hint is not given, `missing` is used.
+    There are hints for five cases: no shebang, a shebang that is not in the first line, another program,
+    Windows line endings, and a byte order mark. If a hint is not given, `missing` is used.
     """
     text = context.source(f"file:{path}")
     first = text.partition("\n")[0]

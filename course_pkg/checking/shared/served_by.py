@@ -27,7 +27,10 @@ def require_served_by_program(context: CheckContext, program: Running, *services
                 "the program itself serves its services",
                 expected="a server in the process of the program",
                 actual=f"{service.name} is served by another process, as the node {service.node}",
-                hint="Another process serves the name in the exercise. Create the service in your program.",
+                hint=(
+                    "Another process provides the service with the name in the exercise. Create "
+                    "this service in your program."
+                ),
             )
 
 
@@ -42,7 +45,7 @@ def require_served_by_notebook(context: CheckContext, *services: str) -> None:
                 expected="a server in the kernel of the notebook",
                 actual=f"{service.name} is served by another process, as the node {service.node}",
                 hint=(
-                    "Another program serves the name in the exercise. Stop that program, and "
-                    "create the service in your cell."
+                    "Another program provides the service with the name in the exercise. Stop "
+                    "that program, and create the service in your cell."
                 ),
             )

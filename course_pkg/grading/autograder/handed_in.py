@@ -12,7 +12,8 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-STUDENT = "student"  # The graded folder gets this name; Gradescope knows the student's name.
+# The folder with the submission gets this name; only Gradescope needs the student's name.
+STUDENT = "student"
 
 
 def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], list[str]]:
@@ -32,7 +33,7 @@ def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], 
     ]
     if not by_chapter:
         messages.append(
-            f"There is no notebook to grade. Hand in {expected}, and not a zip that contains another zip."
+            f"There is no notebook to grade. Hand in {expected}. A zip inside a zip is not opened."
         )
     return [by_chapter.get(chapter, _missing(chapter)) for chapter in chapters], messages
 

@@ -40,8 +40,8 @@ from course_pkg.types.fields import Plain
 from course_pkg.waiting import Deadline
 
 WEAKER = (
-    "This machine forbids namespaces, so the isolation of this run was weaker than that of `course "
-    "grade`. The code ran as another user with limits, and it could use the network."
+    "This machine forbids namespaces, so the isolation of this run was weaker than the isolation "
+    "of `course grade`. The code ran as another user with limits, and it could use the network."
 )
 OUT_OF_TIME = "the time limit of the autograder was reached; ask your instructor"
 OURS = "The autograder failed ({}). This is not a mistake in your work. Please tell your instructor."
@@ -87,7 +87,10 @@ def _results(root: Path) -> dict[str, Plain]:
         messages.append(WEAKER)
     late, policy = days_late(root / "submission_metadata.json"), settings.policy
     if policy and late is None:
-        messages.append("The submission time is not known, so no points were deducted for lateness.")
+        messages.append(
+            "The autograder does not know when you handed in your work, so it did not deduct "
+            "points for lateness."
+        )
     with _runner(deadline, str(extras.folder or ""), weaker=weaker) as run:
         grades = [_grade(each, points, run).for_student() for each in found]
     if policy and late:

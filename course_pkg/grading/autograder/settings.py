@@ -38,7 +38,7 @@ class Settings:
 
 
 def read_settings(path: Path) -> Settings:
-    """Return the settings in the file at `path`; raise GradingError if it is damaged."""
+    """Return the settings in the file at `path`; raise GradingError if the file is damaged."""
     try:
         known = json.loads(path.read_text("utf-8"))
         return Settings(**{**known, "chapters": tuple(known["chapters"])})

@@ -45,7 +45,7 @@ def late_policy(
     """Return the policy from the options --late-per-day (percent) and --late-max-days.
 
     Raises GradingError if there are late days or a deadline without a policy, if there is a policy without
-    them, or if a number is out of range.
+    late days and without a deadline, or if a number is out of range.
     """
     if (table or deadlines) and per_day is None and max_days is None:
         raise GradingError(

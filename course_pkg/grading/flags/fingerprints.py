@@ -65,7 +65,7 @@ def _fingerprint(answer: Answer) -> Fingerprint:
 
 
 def _features(made: list[Statement]) -> Iterator[str]:
-    """Yield the features; the second occurrence of a feature is a different feature."""
+    """Yield the features; the second occurrence of a feature counts as a different feature."""
     counts: Counter[str] = Counter()
     for feature in [*_single(made), *_pairs(made), *_blocks(made)]:
         counts[feature] += 1
@@ -112,7 +112,8 @@ def _python_words(source: str, module: ast.Module) -> Iterator[str]:
             if token.type == tokenize.COMMENT:
                 yield from _long(token.string)
     except (tokenize.TokenError, SyntaxError, ValueError):
-        # After an IPython magic or an unterminated string, the comments before it have already been found.
+        # An IPython magic or an unterminated string ends the search; the comments before it have already been
+        # found.
         pass
     for node in ast.walk(module):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):

@@ -23,7 +23,7 @@ class Observation:
 
     key: str
     line: int
-    words: str  # A sentence tells the instructor what the program does.
+    words: str  # `words` is a sentence that tells the instructor what the program does.
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ reasons:
 - Otherwise, the two students must have several similar answers. For each answer, p is the estimated
   probability that two students have such a high similarity by chance. The estimate is the fraction of all
   pairs of students with at least this similarity. The sum of log2(1 / p) must be larger than log2 of the
-  number of pairs. With this limit, fewer than one such pair is expected by chance in the whole class.
+  number of pairs. With this limit, chance alone flags fewer than one pair of a class on average.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ SMALL = 30  # In a class with fewer students than this, the weights are the same
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
 OWN_CODE = 15  # A single answer is enough with this many features that at most one other student has.
-OWN_WORDS = 3  # A single answer is also enough with this many such comments, strings or names.
+# A single answer is also enough with this many comments, strings or names that at most one other student has.
+OWN_WORDS = 3
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)
 Couple = tuple[int, int]

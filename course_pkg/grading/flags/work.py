@@ -13,7 +13,7 @@ from course_pkg.grading.grade import Flag, Package, Submission
 from course_pkg.grading.plan import Plan
 from course_pkg.grading.rebuild.wanted import written_path
 
-ENDINGS = (".py", ".cpp", ".cc", ".h", ".hpp")  # Only files of a package with these endings are read.
+ENDINGS = (".py", ".cpp", ".cc", ".h", ".hpp")  # Of a package, only files with these endings are read.
 LARGEST = 100_000  # A file with more characters than this is not read.
 
 
@@ -26,12 +26,12 @@ class Answer:
 
     @cached_property
     def path(self) -> str:
-        """The file that the answer is or that its cell writes, or "" for code that runs in the notebook."""
+        """The path of the answer's file, or of the file that the answer's cell writes; otherwise ""."""
         return written_path(self.source) if self.where[:1].isdigit() else self.where
 
     @property
     def name(self) -> str:
-        """The path of the file or the id of the part; it is the same in all students' work.
+        """The path of the file or the id of the part: a name that is the same in all students' work.
 
         One student can write the file with a cell, and another student can submit it in a package.
         """

@@ -15,7 +15,8 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-DEPTH = 3  # At most two folders that a platform adds, and the student's folder, are nested.
+# Nested folders are searched to this depth: up to two folders that a platform adds, and the student's folder.
+DEPTH = 3
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 
 

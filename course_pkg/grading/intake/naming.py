@@ -1,6 +1,6 @@
 """Finds the student to whom a file belongs.
 
-An instructor or a platform put the student's name into the name of a folder or file.
+An instructor or a platform has put the student's name into the name of a folder or file.
 
 SUBMISSIONS/<student>/NN_topic.ipynb                          by hand; folders below are allowed
 Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle, a folder for each; or all in the name

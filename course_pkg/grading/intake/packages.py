@@ -53,7 +53,10 @@ class Found:
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the name in `names` that belongs to the package, or ""; parts need the names in `names`."""
+        """Return the name in `names` that belongs to the package, or "".
+
+        `names` are the names that parts need.
+        """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
 
@@ -125,7 +128,9 @@ def _name(manifest: bytes) -> str:
 def attached(
     given: Sequence[Submission], packages: Mapping[str, Sequence[Found]], wanted: Sequence[str] = ()
 ) -> list[Submission]:
-    """Add each student's packages to the submissions for chapters that need them; return all submissions.
+    """Add each student's packages to the submissions for chapters that need these packages.
+
+    Return all submissions.
 
     `given` contains the submissions with notebooks, and `packages` contains the packages of each student.
     `wanted` contains the graded chapters; an empty list means all chapters. Without a notebook, a package

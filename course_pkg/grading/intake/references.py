@@ -40,7 +40,7 @@ class References:
         return self._stems.get(chapter, f"{chapter}_topic")
 
     def by_name(self, stem: str) -> str:
-        """Return the chapter's number in the name of the file, even if there is no such chapter.
+        """Return the chapter number in the file name, even if no chapter has this number.
 
         Return "" if the name contains no number.
         """

@@ -63,11 +63,11 @@ def submissions(
 ) -> list[Submission]:
     """Return the submissions for `chapters`, or for all chapters, sorted by student and chapter.
 
-    `source` is a folder `<student>/NN_topic.ipynb`, a zip of it, a download from a platform (see naming.py),
-    or one notebook. `root` is the checkout that contains the solutions. The folder `without`, and folders
-    with the reports of earlier runs, are ignored. An unusable file becomes a submission with a `problem`, and
-    so does an empty folder of a student. GradingError is raised only if `source` can neither be listed nor
-    opened.
+    `source` is a folder `<student>/NN_topic.ipynb`, a zip of such a folder, a download from a platform (see
+    naming.py), or one notebook. `root` is the checkout that contains the solutions. The folder `without`, and
+    folders with the reports of earlier runs, are ignored. An unusable file becomes a submission with a
+    `problem`, and so does an empty folder of a student. GradingError is raised only if `source` can neither
+    be listed nor opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
@@ -100,7 +100,7 @@ def submission_of(path: Path, student: str = "", root: Path | None = None) -> Su
 
 
 def _beside(path: Path) -> Iterator[Found]:
-    """Yield the packages in the folder of a notebook; other files there are ignored."""
+    """Yield the packages in the folder of a notebook; other files in this folder are ignored."""
     for folder in sorted(path.parent.iterdir()):
         if (folder / MANIFEST).exists() and folder.is_dir() and not folder.is_symlink():
             with opened(folder) as entries:

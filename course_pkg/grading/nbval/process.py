@@ -35,8 +35,8 @@ OVERVIEW = re.compile(r"\b(progress|results)\(")  # In the first edition, the fu
 OWN = "/student/.course"
 # Both folders are in one folder, as in a checkout.
 NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"
-# Without this option, a kernel whose parent is process 1 would end: it would assume that its parent has
-# ended.
+# Without this option, a kernel whose parent is process 1 would end: the kernel would assume that its parent
+# has ended.
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")
 
 

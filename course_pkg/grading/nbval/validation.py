@@ -20,7 +20,7 @@ from course_pkg.sandbox.linux.bubblewrap import sandbox_command
 # s.
 CELL = 40
 LIMIT = 600.0  # A notebook may run for this time in s; the longest chapter takes 100 s.
-LINE = 100  # LINE is the maximum number of bytes of the output.
+LINE = 100  # LINE is the maximum number of characters of the first line of a cell.
 OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of the whole output.
 
 

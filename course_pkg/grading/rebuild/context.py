@@ -29,7 +29,7 @@ KNOWN = frozenset(dir(builtins)) | {"get_ipython", "display", "In", "Out", "_", 
 
 @dataclass(frozen=True)
 class _Cell:
-    """The names that a cell defines for later cells, and the undefined names that it uses."""
+    """The names that a cell defines for later cells, and the names that the cell uses but does not define."""
 
     gives: frozenset[str]
     uses: frozenset[str]

@@ -24,7 +24,7 @@ class Rebuilt:
     """The notebook to grade; each part of the reference is either in `answers` or in `missing`."""
 
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
-    # `answers` contains the source that runs for each part, which may be the unchanged blank cell.
+    # `answers` contains, for each part, the source that runs; this can be the unchanged blank cell.
     answers: Mapping[str, str]
     # For each part without an answer, the value is a text for the student with the reason.
     missing: Mapping[str, str] = field(default_factory=dict)

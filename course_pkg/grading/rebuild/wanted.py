@@ -29,7 +29,7 @@ class Wanted:
     blank: str  # `blank` is the blank cell in the student's notebook.
     first_line: str  # `first_line` is the cell magic in the first line, such as `%%writefile src/Area.srv`.
     names: frozenset[str]  # An answer defines these names at the top level.
-    # These lines are whole lines of the blank cell that define no name, such as rospy.Service(…).
+    # These are lines of the blank cell that define no name, such as rospy.Service(…).
     wiring: frozenset[str]
 
     @property

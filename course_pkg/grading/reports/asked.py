@@ -1,4 +1,4 @@
-"""The chapters that were assigned; each of them counts for a student even without a submission."""
+"""The assigned chapters; each assigned chapter counts for a student, even without a submission."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Asked:
 
     chapters: frozenset[str] = frozenset()
     columns: tuple[Column, ...] = ()
-    # The arguments are the student, or "" for others, and the chapter.
+    # The first argument is the student, or "" for all other students; the second argument is the chapter.
     due: Callable[[str, str], bool] = _always
 
     def counted(self, student: str, grades: Sequence[Grade], asked: Sequence[str]) -> list[str]:

@@ -23,8 +23,7 @@ ABSENT = "These results are from an earlier run. In the latest run, nothing was 
 class Book:
     """Grades by student, chapter and part.
 
-    The notes of a grade say whether it was made without a sandbox, and whether this run had no submission for
-    it.
+    The notes of a grade say whether there was no sandbox, and whether this run had no submission.
     """
 
     def __init__(

@@ -15,8 +15,8 @@ from course_pkg.grading.reports.gradebook import Book
 from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
-# These reports also contain empty folders and earlier results without a new submission. All other reports
-# leave such students out, so a platform keeps its own points for them.
+# These reports also contain students with an empty folder, or with earlier results but no new submission. All
+# other reports leave these students out, so a platform keeps its own points for them.
 WITH_ABSENT = ("class_page", "feedback", "records", "table")
 # A platform stores only one score for each report, so a report contains only the chapters of this run.
 OF_ASSIGNMENT = ("gradescope", "gradescope_table", "moodle_worksheet")

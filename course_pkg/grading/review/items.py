@@ -73,8 +73,8 @@ def items_of(grades: Sequence[Grade]) -> list[Item]:
 def is_unfinished(item: Item, overrides: Overrides) -> bool:
     """Return whether an instructor has to examine an answer.
 
-    An answer is unfinished if its check gave no result and no instructor reviewed it, or if it changed after
-    the review.
+    An answer is unfinished if its check gave no result and no instructor reviewed it, or if the answer
+    changed after the review.
     """
     if row := overrides.rows.get(item.key):
         return is_outdated(row, item.grade)

@@ -2,7 +2,7 @@
 
 The columns are student, chapter, part, points, comment and answer. Other columns and empty lines do not
 change. A part is written as "Part 05.10", because a spreadsheet would change 05.10 to 5.1. `answer`
-identifies the reviewed answer; it is empty in a row that was typed in a spreadsheet.
+identifies the reviewed answer; the cell is empty in a row that was typed in a spreadsheet.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class Overrides:
     digest: str = ""  # `digest` is a digest of the file's bytes.
 
     def require_students(self, names: Collection[str]) -> None:
-        """Raise GradingError if a row is about another student."""
+        """Raise GradingError if a row is about a student who is not in `names`."""
         for row in self.rows.values():
             if row.student not in names:
                 raise self._wrong(row, f"there is no submission of the student {clean.line(row.student, 80)}")
@@ -124,7 +124,7 @@ class Overrides:
 
 
 def read_overrides(out: Path) -> Overrides:
-    """Return the overrides in the folder `out`; without a file, there are none.
+    """Return the overrides in the folder `out`; without a file, the result is empty.
 
     Raises GradingError with the number of the line if the file is not a table of overrides.
     """

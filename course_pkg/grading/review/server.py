@@ -1,4 +1,4 @@
-"""The server of the review page: it answers only requests with its token, from its own page."""
+"""The server of the review page: it answers only requests that contain its token and come from its page."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ WAIT = 0.05  # s
 
 
 def application(session: Session, token: str, port: Callable[[], int]) -> Application:
-    """Return the application; `port` returns the port at which it listens."""
+    """Return the application; `port` returns the port at which the server listens."""
     shared = {"session": session, "token": token, "port": port, "templates": templates_in(HERE)}
     return Application(
         [
@@ -149,7 +149,7 @@ class Rows(Handler):
     """The rows, after another program has changed the file."""
 
     async def get(self) -> None:
-        """Send all rows if another program has changed them since the last request of the page.
+        """Send all rows if another program has changed the rows since the last request of the page.
 
         Otherwise, send none.
         """

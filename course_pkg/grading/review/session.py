@@ -30,7 +30,7 @@ Rows = Mapping[Key, Override | None]
 
 @dataclass(frozen=True)
 class Step:
-    """One change that can be undone: the rows before and after it."""
+    """One change that can be undone: the rows before and after the change."""
 
     before: Rows
     after: Rows
@@ -115,7 +115,7 @@ class Session:
     def undo(self) -> dict[str, Plain]:
         """Restore the rows before the last change; `shown` is the number of a changed answer.
 
-        Raises ValueError if there is nothing to undo, or if another program has changed a row since.
+        Raises ValueError if there is nothing to undo, or if another program has changed a row since then.
         """
         if not self._steps:
             raise ValueError("there is no change to undo")

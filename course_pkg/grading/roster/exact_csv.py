@@ -70,5 +70,5 @@ def records(text: str, separator: str) -> Iterator[Record]:
 
 
 def text_of(found: list[Record], separator: str) -> str:
-    """Return the text of the records. Without changed cells, it equals the original text."""
+    """Return the text of the records. Without changed cells, the result equals the original text."""
     return "".join(separator.join(record.cells) + record.end for record in found)

@@ -1,8 +1,8 @@
 """Finds the row of a list that belongs to a student, from the data in a submission.
 
-For each known field (a number, an address or a name), the rows with the same value are found. A field without
-such a row is ignored. A row belongs to the student only if it is the only row that matches all remaining
-fields.
+For each known field (a number, an address or a name), the rows with the same value are found. A field is
+ignored if no row has the same value. A row belongs to the student only if it is the only row that matches all
+remaining fields.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def orders(name: str) -> set[str]:
 
 
 def _agree(one: str, other: str) -> bool:
-    """Return whether two names can belong to one student; Moodle may write a group before the name."""
+    """Return whether two names can belong to one student; Moodle may write a group's name before a name."""
     return not one or not other or any(folded(one).endswith(order) for order in orders(other))
 
 

@@ -39,11 +39,11 @@ class Regrade:
         return merged(base, grade) if parts and base else grade
 
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
-        """Store a new grade for later runs; it does not contain a student yet.
+        """Store a new grade for later runs; the grade does not contain a student yet.
 
         The submissions in `alike` get this grade. If only `parts` were graded, their reports replace the
         reports in the stored grade. A stored grade with other options or from another version of the checks
-        is removed. Otherwise, the next complete run would use its old points.
+        is removed. Otherwise, the next complete run would use the old points of this grade.
         """
         if not parts:
             store.keep(graded)

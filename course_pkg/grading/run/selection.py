@@ -14,7 +14,8 @@ from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 from course_pkg.grading.grade import IN_PACKAGES, Grade, Submission
 
-PLATFORM_ID = re.compile(r"_\d+$")  # Moodle and Canvas add such a number to the end of a student's name.
+# Moodle and Canvas add a number of this form to the end of a student's name.
+PLATFORM_ID = re.compile(r"_\d+$")
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """The files of the students' edition: the files that the course needs to run, and the students' notebooks.
 
-The edition does not contain solutions, tests, example answers, grading fixtures, private checks, and the
+The edition does not contain solutions, tests, example answers, grading fixtures, private checks, or the
 site's recordings. The edition contains the checks, because `check()` runs on the student's computer. The
 checks are packed, because their source contains answers.
 """
@@ -96,7 +96,7 @@ def tracked_files(root: Path, is_wanted: Callable[[str], bool]) -> Iterator[tupl
 
 def _released_paths(root: Path) -> Iterator[str]:
     listed = _git_listing(root, "--cached")
-    if listed is None:  # In this case, the checkout was downloaded without git's data.
+    if listed is None:  # `listed` is None if the checkout was downloaded without git's data.
         listed = [
             f"{folder}/{path.relative_to(root / folder)}"
             for folder in FOLDERS

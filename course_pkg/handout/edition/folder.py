@@ -20,7 +20,7 @@ SHOWN = 5  # A message lists at most this many names.
 
 @dataclass(frozen=True)
 class Release:
-    """The short name of the new commit, or "" if nothing changed."""
+    """The short name of the new commit ("" if nothing changed), and the number of changed files."""
 
     commit: str
     changed: int  # files
@@ -32,7 +32,7 @@ class ReleaseFolder:
     def __init__(self, path: Path) -> None:
         """Read the list of files from an earlier release.
 
-        Raises HandoutError if the folder contains files, but no such list.
+        Raises HandoutError if the folder contains files, but no list of an earlier release.
         """
         self.path = path
         self._before = self._released_before()

@@ -13,7 +13,7 @@ SETTINGS = {
     "core.fileMode": "true",
     "core.hooksPath": os.devnull,
     "commit.gpgSign": "false",
-    "safe.directory": "*",  # The instructor chose the folder, so git accepts any owner of it.
+    "safe.directory": "*",  # The instructor chose the folder, so git accepts any owner of this folder.
 }
 # This identity is used if the user has configured no name and address in git.
 NO_IDENTITY = {"user.name": "course release", "user.email": "course@localhost"}

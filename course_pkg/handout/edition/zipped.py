@@ -31,14 +31,14 @@ def zip_path(folder: Path) -> Path:
 
 
 def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
-    """Write `files` to the zip at `path`, in a folder with the name `folder`, or in no folder if it is ""."""
+    """Write `files` to the zip at `path`, in a folder called `folder`, or in no folder if `folder` is ""."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.comment = MARK
         for name, file in files.items():
             entry = zipfile.ZipInfo(f"{folder}/{name}" if folder else name, TIME)
             entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.create_system = 3  # The value 3 means Unix; with it, unzip sets the permissions.
+            entry.create_system = 3  # The value 3 means Unix; with this value, unzip sets the permissions.
             entry.external_attr = (0o100755 if file.executable else 0o100644) << 16
             archive.writestr(entry, file.content)
     try:

@@ -1,1 +1,1 @@
-"""Finds students' work in home folders, reads it with the rights of its owner, and stores it."""
+"""Finds students' work in home folders, reads it with the rights of each student, and stores it."""

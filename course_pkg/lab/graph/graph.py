@@ -1,4 +1,4 @@
-"""A command's part of a graph: it joins the running graph, or starts one, and leaves it at the end."""
+"""How a command joins the running graph or starts a new graph, and leaves the graph at the end."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from course_pkg.ros.process.master import OTHER_ADDRESSES
 from course_pkg.state import locked, state_folder
 
 PROGRAM = Path(__file__).with_name("holder.py")
-ANSWER = 60.0  # s; the holder answers within this time, even on a busy machine
+ANSWER = 60.0  # The holder has to answer within this time in s, even on a busy machine.
 
 
 class Which(Enum):
     """The graph that a command uses."""
 
-    RUNNING = "running"  # the newest one that is running; a new private one if there is none
-    NEW = "new"  # a new private one, which only later commands with RUNNING join
-    ALONE = "alone"  # a new private one, which no other command joins
-    SHARED = "shared"  # a new one in the network of the machine, which later commands with RUNNING join
+    RUNNING = "running"  # the newest running graph, or a new private graph if no graph is running
+    NEW = "new"  # a new private graph; later commands with RUNNING join it
+    ALONE = "alone"  # a new private graph that no other command can join
+    SHARED = "shared"  # a new graph in the network of the machine; later commands with RUNNING join it
 
 
 class Graph:
-    """A graph, as long as this object is open.
+    """A graph that this command uses until leave() is called.
 
     `uri` is the address of the master. `files` are the open files of the private network. If `files` is
-    empty, the graph uses the network of this machine. Then `reason` says why, or is empty if the user asked
-    for the network of this machine. `outgoing` tells, after wait_for_master(), whether programs in a private
-    network can connect to other computers.
+    empty, the graph uses the network of this machine. In this case, `reason` says why; it is empty if the
+    user asked for the network of this machine. After wait_for_master(), `outgoing` is true if programs in the
+    private network can connect to other computers.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class Graph:
         self.outgoing = facts["outgoing"]
 
     def leave(self) -> None:
-        """Leave the graph; if no other command uses it, return when its processes have ended."""
+        """Leave the graph; if no other command uses the graph, wait until its processes have ended."""
         received = b""
         with self._connection, suppress(OSError):
             self._connection.shutdown(socket.SHUT_WR)
@@ -79,7 +79,8 @@ class Graph:
         if self._holder and received.endswith(LAST):
             self._holder.wait()
         elif self._holder:
-            self._holder.returncode = 0  # It continues for other commands, so this process does not wait.
+            # The holder continues to run for other commands, so this process does not wait for it.
+            self._holder.returncode = 0
         if not received.endswith(LAST) and (left := _connected(self._path)):
             left.close()  # Other commands use the graph. If the holder was killed, its socket is now removed.
         for file in self.files:
@@ -91,8 +92,8 @@ class Graph:
 def graph_of_this_command(which: Which) -> Iterator[Graph | None]:
     """Run the block on a graph, whose address is in ROS_MASTER_URI.
 
-    If ROS_MASTER_URI is set and `which` is RUNNING, the block runs with None: it uses the master at this
-    address, in the network of this process. Raises GraphError if the graph cannot be started.
+    If ROS_MASTER_URI is set and `which` is RUNNING, the block gets None, and uses the master at this address
+    in the network of this process. Raises GraphError if the graph cannot be started.
     """
     if os.environ.get("ROS_MASTER_URI") and which is Which.RUNNING:
         yield None
@@ -129,14 +130,17 @@ def _running(folder: Path) -> Graph | None:
     sockets = sorted(folder.glob(f"{platform.node()}.*"), key=lambda path: path.stat().st_mtime, reverse=True)
     for path in sockets:
         if connection := _connected(path):
-            with suppress(OSError):  # the holder may have ended since
+            with suppress(OSError):  # The holder may have ended in the meantime.
                 return Graph(connection, path)
             connection.close()
     return None
 
 
 def _connected(path: Path) -> socket.socket | None:
-    """Return a connection to the holder at `path`; if it has ended, remove its socket and return None."""
+    """Return a connection to the holder at `path`.
+
+    If the holder has ended, remove the socket and return None.
+    """
     connection = socket.socket(socket.AF_UNIX)
     try:
         with _short(path) as name:

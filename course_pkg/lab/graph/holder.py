@@ -5,12 +5,13 @@ usage: holder.py LISTENER SOCKET KIND
 LISTENER is the descriptor of a listening Unix socket, SOCKET is its path, and KIND is "private" or "shared".
 `graph.py` runs this file as a script. Each command that uses the graph has a connection to the socket, until
 the command leaves the graph or ends, even by SIGKILL. When the last connection is closed, the holder ends the
-graph. No process id has to be checked: the operating system closes the connections of a process that has
-ended, and it refuses new connections to a holder that has ended.
+graph. The holder does not have to check process ids: the operating system closes the connections of a process
+that has ended, and it refuses new connections to a holder that has ended.
 
-The holder sends a line of JSON with the open files of the namespaces to each command. It sends a second line
-when the master answers, or cannot be started. When a command has left, the holder closes its connection: at
-once if other commands use the graph, otherwise when it has ended the graph and sent LAST.
+The holder sends a line of JSON with the open files of the namespaces to each command. The holder sends a
+second line when the master answers, or when the master cannot be started. When a command leaves and other
+commands still use the graph, the holder closes the command's connection at once. When the last command
+leaves, the holder ends the graph, sends LAST, and then closes the connection.
 """
 
 from __future__ import annotations
@@ -28,9 +29,9 @@ if TYPE_CHECKING:
     from course_pkg.ros.process.roscore import Roscore
 
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-LAST = b"ended"  # the last command receives this when the graph has ended
+LAST = b"ended"  # The last command receives this message when the graph has ended.
 PORT = 11311  # the usual port of a master
-FIRST = 30.0  # s; the command that started this holder connects within this time
+FIRST = 30.0  # The command that started this holder has to connect within this time in s.
 
 
 class Holder:
@@ -49,7 +50,7 @@ class Holder:
         self._greeting = _line(uri=self._master.uri, reason=reason)
 
     def run(self) -> None:
-        """Serve commands until the last one has left; then end the graph."""
+        """Serve commands until the last command has left; then end the graph."""
         from course_pkg.errors import CourseError
 
         self._listener.settimeout(FIRST)
@@ -71,7 +72,7 @@ class Holder:
             self._outgoing.end()
         with suppress(OSError):
             self._last.sendall(LAST)
-        # This connection closes when this process has ended.
+        # The connection to the last command is closed when this process ends.
 
     def _enter_network(self) -> str:
         """Enter a new private network; return the reason if this machine does not allow one."""
@@ -92,7 +93,10 @@ class Holder:
         return command
 
     def _serve(self, first: socket.socket) -> socket.socket:
-        """Accept commands, and close the connections of those that leave; return the last connection."""
+        """Accept commands, and close the connection of each command that leaves.
+
+        If no other command is connected, return this connection instead.
+        """
         with selectors.DefaultSelector() as selector:
             selector.register(self._listener, selectors.EVENT_READ)
             selector.register(first, selectors.EVENT_READ)

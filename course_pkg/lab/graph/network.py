@@ -2,8 +2,8 @@
 
 Programs in a private network can connect only to each other. Their ports and abstract sockets do not exist
 for other users, or for other networks of the same user. root needs only a network namespace. Other users also
-need a user namespace; in it, each user keeps the own name and the rights on files, but has no other user's
-rights, so `sudo` does not work there. See network_namespaces(7) and user_namespaces(7).
+need a user namespace. In this namespace, users keep their names and file permissions, but cannot become
+another user, so `sudo` does not work. See network_namespaces(7) and user_namespaces(7).
 """
 
 from __future__ import annotations
@@ -17,13 +17,14 @@ from typing import NoReturn
 from course_pkg.sandbox.linux import namespaces
 
 ENTER = "nsenter"  # a program of util-linux
-KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}  # by the number of files
+# The key is the number of open files; the value contains the kind of each file's namespace.
+KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 
 def create() -> list[int]:
     """Return open files of a new user namespace, if one is necessary, and of a new network namespace.
 
-    The namespaces exist as long as a process uses them or has one of the files open. Raises OSError, with the
+    The namespaces exist as long as a process uses them or has their files open. Raises OSError, with the
     reason, if this machine does not allow them.
     """
     if not shutil.which(ENTER):
@@ -32,7 +33,9 @@ def create() -> list[int]:
         try:
             return _create(namespaces.NETWORK)
         except OSError:
-            pass  # root of a container may lack this right, but may still create a user namespace
+            # In a container, root may not be allowed to create a network namespace alone, but may be allowed
+            # to create it together with a user namespace.
+            pass
     return _create(namespaces.USER | namespaces.NETWORK)
 
 
@@ -40,14 +43,15 @@ def enter(files: Sequence[int]) -> None:
     """Enter the namespaces of these open files, if any; the calling process must have only one thread."""
     for file, kind in zip(files, KINDS[len(files)], strict=True):
         namespaces.enter(file, kind)
-    # A change of the user namespace makes a process unreadable; other programs of the course read /proc/PID.
+    # A change of the user namespace makes a process unreadable, but other programs of the course read
+    # /proc/PID.
     namespaces.be_readable()
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return the start of a command that runs in the namespaces of these open files of the calling process.
+    """Return a prefix for a command that runs in the namespaces of these open files of this process.
 
-    The command works as long as this process has the files open.
+    The prefix works as long as this process has the files open.
     """
     paths = [f"/proc/{os.getpid()}/fd/{file}" for file in files]
     user = [f"--user={paths[0]}"] if len(paths) > 1 else []
@@ -55,7 +59,7 @@ def entering(files: Sequence[int]) -> list[str]:
 
 
 def _create(kinds: int) -> list[int]:
-    """Create namespaces in a child process, which sends their files and ends."""
+    """Create namespaces in a child process; the child sends the files of the namespaces, and ends."""
     ours, theirs = socket.socketpair()
     with ours, theirs:
         child = os.fork()

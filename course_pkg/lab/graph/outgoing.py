@@ -1,8 +1,9 @@
 """Connections from a private network to other computers, through slirp4netns.
 
-slirp4netns copies what the network sends to ordinary connections of the user. It accepts no connection from
-outside, and it does not forward to the loopback addresses of this computer, on which other users' servers
-listen. pasta does the same job, but pasta of Debian 12 cannot open a namespace by a descriptor in /proc.
+slirp4netns forwards each connection from the private network as an ordinary connection of the user.
+slirp4netns accepts no connection from outside, and does not forward to the loopback addresses of this
+computer, on which other users' servers listen. The program pasta could also be used, but pasta of Debian 12
+cannot open a namespace by a descriptor in /proc.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ class Outgoing:
 
     @classmethod
     def start(cls, files: Sequence[int]) -> Outgoing | None:
-        """Connect the network of these open files; return None if the program is not installed."""
+        """Connect the network of `files` to other computers; return None if slirp4netns is not installed."""
         if not shutil.which(FORWARDER):
             return None
         *user, network = (f"/proc/{os.getpid()}/fd/{file}" for file in files)
@@ -38,7 +39,10 @@ class Outgoing:
             os.close(writing)
 
     def works(self) -> bool:
-        """Wait until the network is connected, or until slirp4netns has failed; return whether it works."""
+        """Wait until the network is connected, or until slirp4netns has failed.
+
+        Return whether the network is connected.
+        """
         return os.read(self._ready, 1) == b"1"
 
     def end(self) -> None:

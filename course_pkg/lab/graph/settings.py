@@ -10,11 +10,13 @@ from course_pkg.lab.shell import SHELL
 
 
 def settings_for(graph: Graph | None) -> dict[str, object]:
-    """Return the settings, by the names of their traits, with which kernels and terminals are on `graph`.
+    """Return the settings that put kernels and terminals on `graph`.
+
+    The keys are the names of Jupyter's traits.
 
     The server stays outside of a private network, so it reaches a kernel by sockets that are files (transport
-    "ipc"). In the network of this computer, such sockets have another reason: another program could take a
-    TCP port before the kernel opens it.
+    "ipc"). In the network of this computer, such sockets are used for another reason: another program could
+    take a TCP port before the kernel opens the port.
     """
     if not graph or not graph.files:
         return {"KernelManager.transport": "ipc"}

@@ -68,7 +68,7 @@ class BreakIt(Panel):
         self.send({"kind": "taken"})
 
     def close(self) -> None:
-        """Remove the panel from every page and undo the current fault, which takes up to 0.3 s."""
+        """Remove the panel from every page and undo the current fault; this takes up to 0.3 s."""
         super().close()
         if hasattr(self, "_model"):  # The attribute is missing if the constructor raised an error.
             self._model.close()

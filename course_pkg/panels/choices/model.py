@@ -52,7 +52,7 @@ class ChoiceRecord:
 
     @property
     def standing(self) -> str:
-        """One sentence with the number of choices, or of expected options in the first choices."""
+        """One sentence: the number of choices, or how many of the first choices were the expected options."""
         if not self.compared:
             return f"{len(self.chosen)} of {self.cases} cases have an answer."
         return f"{self.fit} of {len(self.first)} of your first choices fit."

@@ -34,9 +34,9 @@ class _State(TypedDict):
 
 
 class Choices(Panel):
-    """A table of cases: the student chooses an option for each, and then reads the reasons.
+    """A table of cases: the student chooses an option for each case, and then reads the reasons.
 
-    The page does not get the expected options and the reasons before it shows them.
+    The page gets the expected options and the reasons only when the panel shows the reasons.
     """
 
     front_end: ClassVar[Path] = HERE / "choices.js"

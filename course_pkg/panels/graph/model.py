@@ -38,7 +38,7 @@ Describe = Callable[[Kind, str], list[Pair]]
 class Fact(TypedDict):
     """The details of a shape.
 
-    The page shows them after a click on the shape, and in a list below the drawing.
+    The page shows the details after a click on the shape, and in a list below the drawing.
     """
 
     key: str

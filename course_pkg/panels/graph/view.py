@@ -26,8 +26,8 @@ class GraphPanel(Panel):
     The panel updates the picture while a page shows the panel; with `live=False`, the first picture does not
     change. The picture shows the rates of topics and the latest callers of services. If `noise` is True, the
     picture also shows /rosout and the logger services of every node. `node` is the kernel's own node; the
-    reader can hide it. By default, `node` is the node of join(). The panel records all pictures, so that a
-    page without a kernel can play them.
+    reader can hide this node. By default, `node` is the node of join(). The panel records all pictures, so
+    that a page without a kernel can play them.
     """
 
     front_end: ClassVar[Path] = HERE / "graph.js"

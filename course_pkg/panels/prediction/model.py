@@ -18,7 +18,7 @@ class Prediction:
 
     Times are ISO 8601 in UTC; "" means that there is no answer or no comparison yet. `answer` is the latest
     answer. `first` is the answer at the time of the comparison. If `answer` differs from `first`, the student
-    changed it later.
+    changed the answer later.
     """
 
     key: str

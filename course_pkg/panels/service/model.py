@@ -60,7 +60,7 @@ class Offer:
 
 
 class _Fresh(TypedDict):
-    """The values of the state that a new form replaces."""
+    """A new form replaces these values of the panel's state."""
 
     form: FormState
     draft: Draft

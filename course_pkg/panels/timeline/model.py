@@ -191,7 +191,7 @@ def _arrows(part: dict[str, list[int]], events: Sequence[Event]) -> list[list[in
     """Return the arrows of one call or of one message.
 
     The arrow of a response or an error goes from the end of the handler to the caller. If the caller had
-    already stopped waiting, there is no such arrow.
+    already stopped waiting, there is no arrow for the response.
     """
     found = [[message, callback] for message in part[PUBLISH] for callback in part[CALLBACK]]
     for handler in part[HANDLER]:

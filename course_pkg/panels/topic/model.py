@@ -97,7 +97,7 @@ class TopicModel:
     def process_began(self) -> None:
         """Send the type and the plotted field to a new topic process.
 
-        A new process does not know them yet.
+        A new process does not know the type and the field yet.
         """
         with self._turn:
             self._own, self._log, self._subscription = "", MessageLog(), {"count": 0, "statistics": {}}

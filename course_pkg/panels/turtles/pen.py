@@ -48,7 +48,7 @@ class Finding(Enum):
 class Pen:
     """The pen of one turtle.
 
-    `colour` is its colour while it is down, and None while it is up.
+    `colour` is the colour of the pen while the pen is down, and None while the pen is up.
 
     `sure` is True if the latest observation proved the state of the pen.
     """

@@ -45,7 +45,11 @@ NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH. Therefore, the pane
 
 
 class FieldNode(TypedDict):
-    """A field. `fields` contains its inner fields if it is a message, a time, or an array of these."""
+    """A field.
+
+    `fields` contains the inner fields of a message or a time, or of one element of an array of messages or
+    times.
+    """
 
     name: str
     type: str

@@ -15,7 +15,7 @@ from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
 PAUSE = 3.0  # The browser checks the files every PAUSE s.
-# Reading all packages uses at most one SHARE-th of the time, because it is slow on a large machine.
+# Reading all packages uses at most one SHARE-th of the time, because this is slow on a large machine.
 SHARE = 50
 
 # The tuple contains the types and the time (ns) when the file of the open type was written.

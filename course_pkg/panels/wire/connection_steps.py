@@ -60,7 +60,7 @@ def new_step(
     bad: bool = False,
     connection: int = 0,
 ) -> Step:
-    """Return a step that happened `seconds` s after the first one."""
+    """Return a step that happened `seconds` s after the first step."""
     return {
         "title": title,
         "from": source,

@@ -17,7 +17,7 @@ import rospy
 from course_pkg.ros.node.type_lookup import Message
 
 END_TIMEOUT = 2.0  # After a goal was cancelled, wait up to this time in s for the end of `execute`.
-INTERVAL = 0.5  # The thread checks once in this time (s) whether rospy has been shut down.
+INTERVAL = 0.5  # This is the time in s between two checks whether rospy has been shut down.
 
 Execute = Callable[[Message, actionlib.SimpleActionServer], object]
 
@@ -25,8 +25,8 @@ Execute = Callable[[Message, actionlib.SimpleActionServer], object]
 class ActionServer:
     """Serves the action `name` of type `kind`: calls `execute(goal, server)` for each goal, one at a time.
 
-    `server` is an actionlib.SimpleActionServer: `execute` uses it to send feedback and the result, and to
-    check whether the goal was cancelled.
+    `server` is an actionlib.SimpleActionServer: `execute` uses this object to send feedback and the result,
+    and to check whether the goal was cancelled.
 
     An ActionServer ends when stop() is called, or when no variable refers to it any more, for example because
     its cell runs again.

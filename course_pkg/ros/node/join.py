@@ -196,8 +196,8 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            # All registrations have been removed. With the master's address, rospy would unregister again,
-            # without a time limit.
+            # All registrations have been removed. If this variable contained the master's address, rospy
+            # would unregister again, without a time limit.
             manager.master_uri = None
         if self._private is not None:
             self._private.stop()

@@ -73,7 +73,7 @@ class Node:
         full = rospy.resolve_name(topic)
         if full in self._subscriptions:
             self._subscriptions.pop(full).stop()
-        # The pause of a subscription ends at the next subscribe(), not when its cell runs again.
+        # The subscription ends at the next subscribe() to its topic, not when its cell runs again.
         with self._cells.paused():
             self._subscriptions[full] = Subscription(full, message_class(kind), callback)
         return self._subscriptions[full]
@@ -117,7 +117,7 @@ class Node:
             subscription.renew()
 
     def close(self, *, with_master: bool = True) -> None:
-        """End everything that this node has started; if `with_master` is true, unregister it."""
+        """End everything that this node has started; if `with_master` is true, unregister the node."""
         # All processes are interrupted at the same time, so they have one common deadline.
         deadline = time.monotonic() + GRACE
         for process in self._processes.values():
@@ -147,7 +147,8 @@ class Node:
 
     def _proxy(self, name: str, kind: ServiceKind) -> BoundedProxy:
         cls = service_class(kind)
-        # The stored proxy refers to the class, so the class exists, and no other class can have its id.
+        # The stored proxy has a reference to the class, so the class is not deleted, and no other class can
+        # get the same id.
         key = (str(rospy.resolve_name(name)), id(cls))
         if key not in self._proxies:
             self._require()

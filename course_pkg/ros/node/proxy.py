@@ -253,7 +253,7 @@ def settle_keepalive(master: MasterClient) -> None:
 
 
 def _hung_up(transport: TCPROSTransport) -> bool:
-    """Return whether the server has closed an idle connection (an open one has no data to read)."""
+    """Return whether the server has closed an idle connection (an open connection has no data to read)."""
     sock = transport.socket
     if sock is None:
         return True

@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable
 
-LINGER = 5.0  # The thread checks at least once in this time (s) whether any action is armed.
+LINGER = 5.0  # This is the longest time in s between two checks whether any action is armed.
 REPEAT = 0.02  # An armed action runs again after this time in s.
 
 

@@ -32,7 +32,7 @@ class CellRun:
     # The value is True for a check; objects of a check are ended when the check ends.
     temporary: bool = False
     error: str = ""  # This is the class name of the exception that ended the run.
-    # The dict maps each created object to the function that ends it, the oldest object first.
+    # The dict maps each created object to the function that ends this object; the oldest object comes first.
     created: dict[Hashable, Close] = field(default_factory=dict)
     threads: frozenset[int] = frozenset()  # These threads were running when the run began.
 
@@ -72,7 +72,7 @@ class Cells:
                 self._close_all(list(previous.created.values()))
 
     def end(self, error: BaseException | None = None) -> None:
-        """End the current run; `error` is the exception that ended it, or None."""
+        """End the current run; `error` is the exception that ended the run, or None."""
         if self._depth:
             self._depth -= 1
         elif self._current is not None:

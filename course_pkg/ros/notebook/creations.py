@@ -83,7 +83,7 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """If the master does not answer, prevent rospy from unregistering, which would wait for ever."""
+    """If the master does not answer, prevent rospy from unregistering, because rospy would wait for ever."""
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:

@@ -67,7 +67,7 @@ class PrivateMaster:
         """Start the master, wait until it answers, and return this object.
 
         Raises PortBusy if the given port is in use, SetupError if rosmaster is missing, and GraphError if the
-        master does not answer. If another program uses the selected free port first, start() tries other
+        master does not answer. If another program binds to the selected free port first, start() tries other
         ports.
         """
         for _ in range(1 if self._port_wanted else ATTEMPTS):

@@ -20,8 +20,8 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 TAIL = 2000  # An error message contains at most this many characters of the output.
-# wait_for_service() and wait_for_output() poll once in this time (s). Each poll takes some milliseconds in
-# this process and in the master.
+# This is the time in s between two polls of wait_for_service() and wait_for_output(). Each poll takes some
+# milliseconds in this process and in the master.
 INTERVAL = 0.05
 GRACE = 3.0  # A node has to end within this time in s after SIGINT; a node with rospy takes 0.6 s.
 
@@ -150,7 +150,8 @@ class NodeProcess:
 
     def _wait_until(self, condition: Callable[[], bool], timeout: float, never: str, not_yet: str) -> None:
         def settled() -> str:
-            # The order is important: a process may print the expected output just before it ends.
+            # Read `running` before the output, because a process may print the expected output just before it
+            # ends.
             ended = not self.running
             return "met" if condition() else "ended" if ended else ""
 

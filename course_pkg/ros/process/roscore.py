@@ -111,5 +111,5 @@ def _parameters(prefix: Path) -> dict[str, str]:
 
 
 def _receives(client: MasterClient) -> bool:
-    """Return whether /rosout subscribes to the log messages, which is the last step of its start."""
+    """Return whether /rosout subscribes to the log messages; this is the last step when /rosout starts."""
     return ROSOUT in client.system_state().subscribers.get(ROSOUT, ())

@@ -1,8 +1,8 @@
 """A process between an owner and a command: it ends the command after the owner has ended.
 
 `supervised.py` runs this file as a script, in an interpreter without site-packages. The script starts in 20
-ms, because it imports the course and its libraries only at its end, to clean up. To read /proc, the script
-does not use psutil, because the import of psutil is slow.
+ms, because it imports the course and the course's libraries only for the clean-up at the end. To read /proc,
+the script does not use psutil, because the import of psutil is slow.
 
 usage: supervisor.py OWNER REPORT FOREGROUND REMOVE MASTER NODE URI [COMMAND …]
 """
@@ -25,7 +25,7 @@ FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
 GRACE = 2.0  # The supervisor waits this time in s between SIGTERM and SIGKILL.
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
-# On a system without pidfd, the supervisor polls its parent's process id once in this time (ms).
+# On a system without pidfd, this is the time in ms between two polls of the parent's process id.
 INTERVAL = 200
 
 

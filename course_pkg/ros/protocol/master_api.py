@@ -24,7 +24,7 @@ def master_uri() -> str:
 
 @dataclass(frozen=True)
 class SystemState:
-    """The master's lists of the publishers and subscribers of each topic, and of each service's servers."""
+    """The master's lists: the publishers and subscribers of each topic, and the servers of each service."""
 
     publishers: Registered
     subscribers: Registered

@@ -71,7 +71,7 @@ def service_probe(name: str, uri: str) -> Probe:
 
 
 def node_probe(uri: str) -> Probe:
-    """Return a probe that checks if a node answers; it calls getPid of the slave API."""
+    """Return a probe that calls getPid of the slave API, to check whether a node answers."""
     return rpc_probe(uri, "getPid")
 
 
@@ -83,7 +83,7 @@ def rpc_probe(uri: str, method: str, *args: RpcValue) -> Probe:
 
 
 def rpc_answer(probe: Probe) -> RpcValue:
-    """Return the value of a node's response, or None without a response or if the node has no such method."""
+    """Return the value of a node's response, or None if the node did not respond or has no such method."""
     if not probe.answered:
         return None
     try:
@@ -94,7 +94,7 @@ def rpc_answer(probe: Probe) -> RpcValue:
 
 
 def encode_header(fields: dict[str, str]) -> bytes:
-    """Return a connection header, with its length before it (http://wiki.ros.org/ROS/Connection Header)."""
+    """Return the length and the bytes of a connection header (http://wiki.ros.org/ROS/Connection Header)."""
     header: bytes = encode_ros_handshake_header(fields)
     return header
 

@@ -95,7 +95,7 @@ def registered_at(ports: Collection[int]) -> list[Registration]:
 def remove_stale(
     uri: str | None = None, timeout: float = 2.0, nodes: Collection[str] | None = None
 ) -> list[Registration]:
-    """Unregister all ended nodes, or only those in `nodes`, and return the removed registrations."""
+    """Unregister ended nodes (only those in `nodes`, if given), and return the removed registrations."""
     master = MasterClient(uri or master_uri(), timeout)
     return withdraw(master, _stale(master, nodes, min(timeout, TIMEOUT)))
 

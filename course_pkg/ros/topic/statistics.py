@@ -13,7 +13,7 @@ WINDOW = 3.0  # A rate is measured over this time in s.
 FEW = 5  # At least this number of messages is used, even if they are older than WINDOW.
 MOST = 5000  # A rate is computed from at most this number of messages.
 SILENCE = 3.0  # If no message arrives for this multiple of the mean gap, no statistics are returned.
-SPAN = 20.0  # A series contains the values of this time in s.
+SPAN = 20.0  # A series contains only values that are at most this old (s).
 STEP = 0.1  # At most four values are stored for each time step of this length in s.
 
 Point = tuple[float, float]

@@ -19,7 +19,7 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
 TIMEOUT = 0.5  # This is the time limit of a poll in s.
-STATISTICS = "getBusStats"  # The third item of the response is for services; rospy leaves it empty.
+STATISTICS = "getBusStats"  # The third item of the response is for services; rospy leaves this item empty.
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
 # One of these errors is raised if a response has an unexpected structure.
@@ -56,8 +56,8 @@ class Activity:
     """All counts of one poll.
 
     `at` is a time of time.monotonic() (s). `silent` contains the nodes that returned no valid response.
-    `callers` maps each service to its callers, the latest caller first. Services whose servers do not count
-    callers are missing.
+    `callers` maps each service to its callers, the latest caller first. `callers` omits services whose
+    servers do not count callers.
     """
 
     at: float

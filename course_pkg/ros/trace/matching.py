@@ -1,4 +1,4 @@
-"""Combine the records of several nodes: match each handler with its request, each callback with its message.
+"""Combine the records of several nodes: match handlers with requests, and callbacks with messages.
 
 The publisher and the subscriber both count the messages of a connection. Two records describe one message if
 they have the same connection, name and number. A later connection may use the same ports again. Records are

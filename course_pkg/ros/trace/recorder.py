@@ -94,8 +94,9 @@ class CallPart:
 class CallSpan:
     """A call with all its phases.
 
-    A call is only one object, because recording must not make calls slower. `result` is RESPONSE or ERROR,
-    and empty until the call has ended. `transfer` is the connection and number of the request.
+    All phases of a call are stored in one object, because recording must not make calls slower. `result` is
+    RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number of the
+    request.
     """
 
     __slots__ = (

@@ -158,7 +158,7 @@ class Relay:
 def _copy(
     source: socket.socket, sink: socket.socket, from_client: bool, connection: RelayedConnection
 ) -> None:
-    """Forward the bytes from `source` to `sink`; when the stream ends, close it at `sink` too."""
+    """Forward the bytes from `source` to `sink`; when `source` ends the stream, end it at `sink`, too."""
     kept = 0
     # A reset connection, or a connection that close() ended, is not an error.
     with suppress(OSError):

@@ -1,8 +1,8 @@
 """The outer sandbox: the files of the machine that a submission and its processes can see.
 
-bubblewrap (https://github.com/containers/bubblewrap) creates this view of the file system. If root starts the
-sandbox, the command runs as an unprivileged user. For all other users, the machine must allow unprivileged
-user namespaces.
+bubblewrap (https://github.com/containers/bubblewrap) limits the visible files. If root starts the sandbox,
+the command runs as an unprivileged user. For all other users, the machine must allow unprivileged user
+namespaces.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from course_pkg.errors import SandboxUnavailable
 from course_pkg.sandbox.linux.confinement import MEMORY_FOLDERS, SHADOW, SHADOWED
 from course_pkg.setup import PACKAGE_PARTS, Places, environment
 
-# If root starts the sandbox, the command runs with this uid and gid of a user without files.
+# If root starts the sandbox, the command runs with this uid and gid; this user owns no files.
 NOBODY = 65534
 READABLE = (
     "/usr",
@@ -39,8 +39,8 @@ INVENTED = {
     "/etc/nsswitch.conf": "passwd: files\ngroup: files\nhosts: files\n",
 }
 WRITABLE = 512 << 20  # The trusted processes can write at most this number of bytes.
-# The inner sandboxes can mount their own /proc only if no other mount covers a folder of this /proc. After
-# this, the process drops all privileges.
+# The inner sandboxes can mount their own /proc only if no mount covers a folder of the outer sandbox's /proc.
+# After this, the process drops all privileges.
 AS_ROOT = (
     "mount -t proc proc /proc && exec setpriv --reuid {0} --regid {0} --clear-groups --inh-caps=-all "
     '--bounding-set=-all --no-new-privs -- "$0" "$@"'

@@ -20,7 +20,7 @@ PROCESSES = 200
 # The total size of all files in each of the folders /student and /tmp has this limit in bytes.
 DISK = 128 << 20
 MEMORY_FOLDERS = ("/tmp", "/dev/shm")  # noqa: S108 -- each sandbox has its own
-# This folder contains copies of files, and this variable lists the paths of the files.
+# SHADOW is a folder with copies of files, and the variable SHADOWED lists the paths of these files.
 SHADOW, SHADOWED = "/run/shown", "COURSE_SHOWN"
 FILES = 20_000  # Each of the folders /student and /tmp may contain at most this number of files.
 FILE = 64 << 20  # A file has at most this size in bytes.
@@ -148,7 +148,7 @@ def _wait_and_exit(child: int) -> NoReturn:
 
 
 def _reap_until(child: int) -> NoReturn:
-    """Be the first process of a process namespace: reap orphans, and exit when `child` has ended."""
+    """Act as the first process of a process namespace: reap orphans, and exit when `child` has ended."""
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     while os.wait()[0] != child:
         pass

@@ -62,7 +62,7 @@ def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
 
 
 def become_root() -> None:
-    """Become root in a new user namespace and a new mount namespace, without rights outside them."""
+    """Become root only inside a new user namespace and a new mount namespace."""
     outside = os.getuid(), os.getgid()
     unshare(USER | MOUNT)
     become(0, 0, outside=outside)

@@ -65,7 +65,7 @@ def become(uid: int) -> None:
     os.setresuid(uid, uid, uid)
     namespaces.give_up_privileges()
     namespaces.be_unreadable()
-    # Linux has cancelled this setting because the user changed, so it is set again.
+    # The change of the user has cancelled the earlier call of die_with_parent().
     namespaces.die_with_parent()
 
 
@@ -85,7 +85,8 @@ def run_confined(work: Callable[[], None], uid: int) -> NoReturn:
 def make_folder(users: Users) -> str:
     """Make the folders of a part, and return the student's work folder.
 
-    The folder `commands` next to the work folder belongs to the command runner, also for its temporary files.
+    The folder `commands` next to the work folder belongs to the command runner, which also stores its
+    temporary files there.
     """
     base = Path(tempfile.mkdtemp(prefix="course-grading-"))
     base.chmod(0o755)
@@ -125,7 +126,7 @@ def clear(users: Users) -> None:
 
 
 def _kill_all(uid: int, killer: int) -> None:
-    """Kill all processes of `uid` in one system call, so that no process can fork in time.
+    """Kill all processes of `uid` in one system call, so that no process can fork before it is killed.
 
     Only the effective user of the killing process is `uid`, so the killed processes cannot send signals to
     it.
@@ -151,7 +152,7 @@ def _processes_of(uid: int) -> Iterator[int]:
 
 
 def disk_is_full(folder: str, users: Users) -> bool:
-    """Return whether `users` have too many bytes or files in `folder`, next to it, or in shared folders."""
+    """Return whether `users` have too many bytes or files in the folders of a part or in shared folders."""
     size, count = 0, 0
     items = [item.path for shared in SHARED for item in _items_of(shared, set(users))]
     for path in _below([os.path.dirname(folder), *items]):

@@ -3,8 +3,9 @@
 The HTML contains the data of the figures, because a page must not load image files.
 
 A drawing (SVG) becomes part of the page's HTML, so readers can select and search its text. A drawing uses the
-page's colours if its text has the colour `currentColor`, and its white background is `<rect class="ground"
-…>`. The page does not fill such a rectangle. Any other drawing has a white background, even in dark mode.
+page's colours if two conditions are true: its text has the colour `currentColor`, and its white background is
+`<rect class="ground" …>`. The page does not fill such a rectangle. Any other drawing has a white background,
+even in dark mode.
 """
 
 from __future__ import annotations
@@ -77,7 +78,7 @@ def _drawing(path: Path, content: bytes, alt: str, prefix: str) -> str:
 
 
 def _width(root: ElementTree.Element) -> float:
-    """Return the width of a drawing in pixels, or 0 if the drawing does not define it."""
+    """Return the width of a drawing in pixels, or 0 if the drawing contains no width."""
     box = re.fullmatch(r"\s*\S+\s+\S+\s+([\d.]+)\s+\S+\s*", root.get("viewBox", ""))
     return float(box[1]) if box else 0.0
 

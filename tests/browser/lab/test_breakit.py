@@ -129,7 +129,8 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
     ):
         shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
         master = MasterClient(shown.strip().strip("'"))
-        before = master.system_state().nodes  # The list can include nodes of another panel's fault.
+        # The list can include nodes of a fault that another panel caused.
+        before = master.system_state().nodes
         begin(panel(page, LABEL), "stale")
         assert master.system_state().nodes != before
         page.goto("about:blank")

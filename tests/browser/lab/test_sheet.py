@@ -71,7 +71,7 @@ class Terminal:
 
 @pytest.fixture
 def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Lab]:
-    """Start JupyterLab in an empty folder."""
+    """Start JupyterLab; its root is an empty folder."""
     for name, value in {
         "ROS_PARALLEL_JOBS": "-j2",
         "GIT_AUTHOR_NAME": "You",

@@ -98,7 +98,7 @@ def test_the_traceback_of_a_handler_is_kept_once() -> None:
 
 
 def test_an_exception_without_a_line_of_the_student_has_no_traceback() -> None:
-    """If a handler has a wrong number of parameters, its error has no traceback."""
+    """If a handler has a wrong number of parameters, the error in the reply has no traceback."""
     agent = KernelAgent({})
     try:
         logging.getLogger("rosout").error("Error processing request: takes 0 positional arguments")

@@ -59,7 +59,7 @@ def answered(length: float) -> bool:
     ],
 )
 def test_planned_fault_affects_one_call(server: FaultyServer, fault: Json, text: str) -> None:
-    """A planned fault gives the client a real error message, and the next call succeeds."""
+    """With a planned fault, the client gets a real error message, and the next call succeeds."""
     server.plan.append(Fault(fault))
     with pytest.raises(rospy.ServiceException) as error:
         ask(1.0)
@@ -101,7 +101,7 @@ def test_registration_after_a_crash(server: FaultyServer, unregisters: bool, tex
 
 @pytest.mark.parametrize("worked", [True, False])
 def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None:
-    """The plan decides whether the server does the work of a failed call."""
+    """The plan decides whether the server does the work of a call that fails."""
     done: list[float] = []
 
     def work(request: Message) -> dict[str, Json]:
@@ -116,7 +116,7 @@ def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None
 
 
 def test_server_that_has_left_does_not_restart(node: Node) -> None:
-    """A server that was closed does not restart."""
+    """A server that was closed does not start again."""
     with FaultyServer(node, "/f", geometry, lambda _: {}) as server:
         server.plan.append(Fault(Crash(AWAY)))
         with pytest.raises(rospy.ServiceException):

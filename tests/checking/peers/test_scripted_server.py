@@ -107,7 +107,7 @@ def test_late_and_silent(node: Node) -> None:
     "take", [lambda node: ScriptedServer(node, "/t", geometry, lambda _: {}), lambda node: Absent(node, "/t")]
 )
 def test_the_former_server_serves_again(node: Node, take: Callable[[Node], ScriptedServer | Absent]) -> None:
-    """When the scripted server stops, the check registers the previous server again."""
+    """When the scripted server stops, the check registers the previous server with the master again."""
     former = Node("/student", "http://localhost:2/", node.master)
     node.master.register_service(former.name, "/t", "rosrpc://localhost:3", former.uri)
     with take(node):

@@ -122,7 +122,7 @@ def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) ->
 
 
 def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
-    """The report says if the message definition differs."""
+    """If the message definitions differ, the report says so."""
     student.run(
         "from course_pkg.types import message_type\n"
         "class Other(Float64): _type, _md5sum = 'std_msgs/UInt32', '0' * 32\n"
@@ -180,8 +180,8 @@ def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
         "somebody listens to /few",
         "no subscriber",
-        "No node is subscribed to this topic. Create a rospy.Subscriber for this topic, of type "
-        "std_msgs/UInt32.",
+        "No node is subscribed to this topic. Create a rospy.Subscriber of type "
+        "std_msgs/UInt32 for this topic.",
     ]
     student.run("subscription = node.subscribe('/few', UInt32)")
     check.run("p.listened()")

@@ -52,7 +52,7 @@ def test_days_late(submitted: str, grace: float, days: float) -> None:
 
 
 def test_one_second_late_costs_a_day() -> None:
-    """One second late counts as a whole day."""
+    """A submission that is one second late counts as one whole day late."""
     late = _deadlines().days_late("s01", "05", _at("2026-11-01T23:59:01+01:00"))
     assert late_policy(None, 10, None, [DUE]).factor(late) == pytest.approx(0.9)
 
@@ -149,7 +149,7 @@ def test_without_a_deadline_nothing_is_late() -> None:
 
 
 def test_the_last_attempt_by_time(tmp_path: Path) -> None:
-    """The last attempt is selected by its time, and a note contains the other attempt."""
+    """The program grades the attempt with the latest time, and a note names the other attempt."""
     content = raw(handed_out())
     source = folder(tmp_path, {f"s01/a/{FILE}": content, f"s01/b/{FILE}": content})
     (given,) = submissions(source)

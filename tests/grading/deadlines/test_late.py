@@ -118,7 +118,7 @@ def test_no_table(tmp_path: Path) -> None:
 
 
 def test_lateness_goes_to_the_submissions(tmp_path: Path) -> None:
-    """Each submission gets its student's number of late days."""
+    """Each submission gets the number of days by which its student is late."""
     table = late_table(_table(tmp_path, "student,days\ns01,2\ns99,1\n"))
     given = [Submission(name, "05", b"", "") for name in ("s01", "s02")]
     assert [each.late for each in table.applied(given)] == [2.0, 0.0]

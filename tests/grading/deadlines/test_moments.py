@@ -28,12 +28,12 @@ BERLIN = zone_of("Europe/Berlin")
         ("Sunday, 1 November 2026, 23:59", "2026-11-01T22:59"),
         ("Sunday, 1 November 2026, 12:05\u202fAM", "2026-10-31T23:05"),
         ("1 Nov 2026, 12:05 p.m.", "2026-11-01T11:05"),
-        # The local time 02:30 occurs twice on this day, and the result is the first of the two times.
+        # The local time 02:30 occurs twice on this day; the result is the earlier time.
         ("2026-10-25 02:30", "2026-10-25T00:30"),
     ],
 )
 def test_the_forms(written: str, utc: str) -> None:
-    """A time without a zone is in the given zone."""
+    """A time without a time zone is read as a time in the given zone."""
     moment = moment_of(written, BERLIN)
     assert moment is not None
     assert moment.astimezone(timezone.utc) == datetime.fromisoformat(utc).replace(tzinfo=timezone.utc)

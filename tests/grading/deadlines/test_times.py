@@ -101,7 +101,10 @@ def test_nbgrader(tmp_path: Path, outer: str) -> None:
 
 
 def test_a_table_of_the_instructor(tmp_path: Path) -> None:
-    """The row for a file is used first, then the row for a chapter, then the row for a student."""
+    """The program uses the row for the file.
+
+    Without it the row for the chapter, and then the row for the student.
+    """
     source = folder(tmp_path / "in", {f"{name}/{FILE}": NOTEBOOK for name in ("s01", "s02", "s03", "s04")})
     table = tmp_path / "times.csv"
     table.write_text(

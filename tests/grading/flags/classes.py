@@ -14,7 +14,7 @@ from tests.grading.handing_in import raw, reference
 
 @cache
 def solutions(chapter: str) -> Mapping[str, str]:
-    """Return the solutions of a chapter by the ids of the parts."""
+    """Return the solutions of a chapter; the keys are the ids of the parts."""
     return {part: cell["source"] for cell in code_cells(reference(chapter)) if (part := exercise_of(cell))}
 
 

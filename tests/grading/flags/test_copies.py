@@ -144,7 +144,7 @@ int main(int count, char** words)
 
 
 def _class(**answers: str) -> dict[str, tuple[str, ...]]:
-    """Return the students with similar answers to 05.4, for each student."""
+    """For each student, return the students with similar answers to 05.4."""
     handed_in = [submission(student, {"05.4": source}) for student, source in answers.items()]
     return {student: flags[0].others for student, flags in flags_of(["copies"], *handed_in).items()}
 
@@ -155,7 +155,7 @@ def test_identical_answers() -> None:
 
 
 def test_a_disguised_copy() -> None:
-    """A copy with other names, comments, types and another order gets a flag."""
+    """A copy gets a flag even if its names, comments, types and order differ from the original."""
     assert _class(s01=SWITCH, s02=OTHER, s03=DISGUISED) == {"s01": ("s03",), "s03": ("s01",)}
 
 

@@ -111,7 +111,7 @@ def test_the_solutions_have_no_flags() -> None:
 
 def test_right_example_answers() -> None:
     """Of all right example answers, only the answer with the command `rosservice find` gets a flag."""
-    # A key is a chapter and a number, and a value is a student's answers by part.
+    # A key is a chapter and a number; the value contains a student's answers, by part.
     students: dict[tuple[str, int], dict[str, str]] = {}
     for answer in every_answer():
         if answer.right:

@@ -130,7 +130,7 @@ def test_only_the_given_chapters_are_graded(tmp_path: Path, five: bytes, six: by
     "name", ["mine.ipynb", "Untitled.ipynb", "06_write_a_client.ipynb", "05 (1).ipynb", "5.ipynb.txt"]
 )
 def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> None:
-    """A renamed notebook belongs to the chapter of its exercises."""
+    """A renamed notebook belongs to the chapter of its exercises, whatever its file name is."""
     [found] = submissions(folder(tmp_path, {f"s01/{name}": five}))
     assert (found.chapter, found.problem) == ("05", "")
     assert any("chapter 06" in note for note in found.notes) == name.startswith("06")
@@ -207,7 +207,7 @@ def test_exercises_that_another_chapter_has_now(tmp_path: Path) -> None:
 def test_a_notebook_of_this_edition_under_a_name_of_the_first(
     tmp_path: Path, chapter: RenumberedChapter
 ) -> None:
-    """A notebook with exercises of this edition is graded, even under an old file name."""
+    """A notebook with this edition's exercises is graded, even if its name is from the first edition."""
     content = raw(handed_out(chapter.now))
     source = folder(tmp_path, {f"s01/{chapter.name}.ipynb": content, "s02/mine.ipynb": content})
     assert _kept(submissions(source)) == [("s01", chapter.now), ("s02", chapter.now)]

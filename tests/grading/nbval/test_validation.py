@@ -51,7 +51,7 @@ def test_each_cell_is_compared_with_its_stored_output() -> None:
 
 @pytest.mark.usefixtures("sandbox")
 def test_the_kernel_sees_neither_what_is_expected_nor_a_check() -> None:
-    """The kernel cannot read the notebook's file or the checks, and cannot use another network."""
+    """The kernel cannot read the notebook's file or the checks, and has no access to another network."""
     probe = """
 import glob, os, pathlib, socket
 import course_pkg.chapters as chapters

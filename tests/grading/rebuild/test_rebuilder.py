@@ -208,7 +208,7 @@ def test_a_helper_split_off_belongs_to_the_answer() -> None:
 
 
 def test_a_file_that_was_split() -> None:
-    """If a cell that writes a file was split, its two halves are joined."""
+    """If the code of a file is split into two cells, the program joins the two cells."""
 
     def change(cells: Cells) -> None:
         _copied(cells, W, "int16 b")

@@ -1,4 +1,4 @@
-"""A class with results of `course grade`, and a running `course review`."""
+"""A class with results of `course grade`, and a running `course review` for these results."""
 
 from __future__ import annotations
 

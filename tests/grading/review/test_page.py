@@ -68,7 +68,8 @@ def test_a_review_with_the_keyboard_only(browser: Browser, tmp_path: Path) -> No
         expect(page.locator("#part")).to_have_value("05.2")
         keys.press("g")
         keys.press("2")
-        keys.press("n")  # A letter is a keyboard command, even in the field for points.
+        # A letter key is a keyboard command, even while the cursor is in the field for points.
+        keys.press("n")
         expect(answer.get_by_role("heading", name="s02")).to_be_visible()
         expect(page.locator("#points")).to_be_focused()
         eventually(lambda: _rows(out).get(("s01", "Part 05.2")) == ("2", ""))
@@ -88,7 +89,7 @@ def test_a_folder_that_cannot_be_written(browser: Browser, tmp_path: Path) -> No
         page.keyboard.press("c")
         page.keyboard.type("Keep me.")
         for draft in _drafts(out):
-            # A folder with the name of the temporary file makes writing impossible, even for root.
+            # A folder with the name of the temporary file prevents writing, even for root.
             draft.mkdir()
         page.keyboard.press("Escape")
         expect(page.get_by_role("alert")).to_contain_text("Not saved: overrides.csv cannot be written")
@@ -131,8 +132,8 @@ def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colou
                     assert page.evaluate("document.documentElement.scrollWidth") <= width
                     picture(page, f"review-{width}-{colours}-{shown}")
                     page.keyboard.press("n")
-                # The page's policy allows scripts from the page's own origin, so the test adds axe-core with
-                # the debugger.
+                # The page's policy allows only scripts from the page's own origin, so the test uses the
+                # debugger to add axe-core.
                 page.evaluate(AXE)
                 assert violations(page) == []
                 assert words == []

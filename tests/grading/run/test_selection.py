@@ -143,7 +143,7 @@ def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
 
 
 def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
-    """If nobody handed in a chapter, its earlier results get no mark."""
+    """If no student handed in a chapter, the reports do not mark the earlier results of this chapter."""
     write_reports(class_of(2, ("05", "06")), tmp_path)
     earlier = read_earlier(tmp_path)
     now = [grade for grade in earlier.grades if grade.chapter == "06" and grade.student == "s01"]

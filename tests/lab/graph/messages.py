@@ -19,13 +19,17 @@ class Messages:
         self._folder = Path(variable(server, "JUPYTER_RUNTIME_DIR"))
 
     def run(self, code: str, until: str) -> str:
-        """Run a cell, and return what it prints up to a message of the type `until`, or its error's name."""
+        """Run a cell.
+
+        Return its output up to a message of the type `until`, or the name of the cell's error.
+        """
         [file] = eventually(lambda: list(self._folder.glob("kernel-*.json")))
         client = BlockingKernelClient(connection_file=str(file))
         client.load_connection_file()
         client.start_channels()
         try:
-            client.kernel_info(reply=True, timeout=30)  # A kernel that starts does not answer a heartbeat.
+            # A kernel that is starting does not answer a heartbeat.
+            client.kernel_info(reply=True, timeout=30)
             client.wait_for_ready(timeout=30)
             client.execute(code)
             printed = ""

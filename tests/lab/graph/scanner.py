@@ -1,10 +1,11 @@
-"""Scans the network that this program is in, and prints each way to the nodes of NAME.
+"""Scans the network in which this program runs, and prints each connection that reaches the nodes of NAME.
 
 usage: python3 scanner.py NAME [SOCKET …]
 
-The program asks each TCP port that listens here for the state of a master, for the address of a node, and for
-the service NAME, and each abstract socket whether it accepts connections. It also connects to each SOCKET,
-which is the path of a Unix socket. It uses only the standard library, because every user can run it.
+The program sends three requests to each listening TCP port: for a master's state, for a node's address, and
+for the service NAME. It also tests whether each abstract socket accepts connections. It also connects to each
+SOCKET, which is the path of a Unix socket. The scanner uses only the standard library, so that every user can
+run it.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 
-TIMEOUT = 2.0  # s for each request
+TIMEOUT = 2.0  # maximum time of a request in s
 BODY = (
     "<methodCall><methodName>{}</methodName><params><param><value>/scan</value></param></params></methodCall>"
 )
@@ -33,7 +34,7 @@ def ports() -> Iterator[int]:
 
 
 def answer(port: int, request: bytes) -> bytes:
-    """Return what a port answers to a request."""
+    """Send a request to a port, and return the reply."""
     received = b""
     with suppress(OSError), socket.create_connection(("localhost", port), TIMEOUT) as client:
         client.settimeout(TIMEOUT)
@@ -44,13 +45,13 @@ def answer(port: int, request: bytes) -> bytes:
 
 
 def call(port: int, method: str) -> bytes:
-    """Return what a port answers to an XML-RPC request."""
+    """Send an XML-RPC request to a port, and return the reply."""
     body = BODY.format(method).encode()
     return answer(port, b"POST /RPC2 HTTP/1.0\r\nContent-Length: %d\r\n\r\n%s" % (len(body), body))
 
 
 def probe(port: int, service: str) -> bytes:
-    """Return what a port answers to a client of a ROS service that only asks for its type."""
+    """Ask a port for the type of a ROS service, and return the reply."""
     fields = [b"probe=1", b"md5sum=*", b"callerid=/scan", b"service=" + service.encode()]
     header = b"".join(struct.pack("<I", len(field)) + field for field in fields)
     return answer(port, struct.pack("<I", len(header)) + header)
@@ -66,7 +67,7 @@ def accepts(name: str) -> bool:
 
 
 def asked(name: str, port: int) -> list[str]:
-    """Return what a port offers of NAME: a master, a node, the service, or several of them."""
+    """Return what is found at a port for NAME: a master, a node, the service, or several of these."""
     answers = {
         "master": f"/{name}".encode() in call(port, "getSystemState"),
         "node": f"/{name}".encode() in call(port, "getName"),

@@ -1,4 +1,4 @@
-"""Commands start, join and leave graphs."""
+"""Tests of commands that start, join and leave graphs."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ SHOW = "echo $ROS_MASTER_URI; readlink /proc/self/ns/net; rosnode list"
 
 @pytest.fixture
 def graph(tmp_path: Path) -> Iterator[Graph]:
-    """Start a graph in a private network, or skip the test if this machine does not allow one."""
+    """Start a graph in a private network, or skip the test if this machine does not allow such networks."""
     started = join_or_start(Which.RUNNING, tmp_path)
     try:
         if started.reason:
@@ -46,7 +46,7 @@ def sockets(folder: Path) -> list[str]:
 
 
 def test_the_master_has_the_usual_port_on_each_graph(graph: Graph, tmp_path: Path) -> None:
-    """Two graphs at the same time both have a master at port 11311, and each has only its own nodes."""
+    """Two graphs at the same time both have a master at port 11311, and each graph has only its own nodes."""
     other = join_or_start(Which.ALONE, tmp_path)
     other.wait_for_master()
     assert graph.uri == other.uri == URI
@@ -62,7 +62,10 @@ def test_the_master_has_the_usual_port_on_each_graph(graph: Graph, tmp_path: Pat
 
 
 def test_a_graph_ends_with_its_last_command(graph: Graph, tmp_path: Path) -> None:
-    """A second command joins; the graph continues without the first one, and ends with the last one."""
+    """A second command joins the graph.
+
+    The graph continues after the first command's end, and ends with the last command.
+    """
     second = join_or_start(Which.RUNNING, tmp_path)
     second.wait_for_master()
     processes = of_graphs(tmp_path)
@@ -75,7 +78,7 @@ def test_a_graph_ends_with_its_last_command(graph: Graph, tmp_path: Path) -> Non
 
 
 def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
-    """A later command joins the graph that is running, and not a newer one of --new-graph."""
+    """A later command joins the running graph, and not a newer graph of --new-graph."""
     alone = join_or_start(Which.ALONE, tmp_path)
     later = join_or_start(Which.RUNNING, tmp_path)
     names = [os.fstat(each.files[-1]).st_ino for each in (graph, alone, later)]
@@ -85,11 +88,14 @@ def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
 
 
 def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
-    """After SIGKILL of the holder, the master ends, and its socket is removed at the next start or leave."""
+    """After SIGKILL of the holder, the master ends.
+
+    The next start or the next end of a command removes the graph's socket.
+    """
     processes = of_graphs(tmp_path)
     os.kill(processes[0], signal.SIGKILL)
     assert all_gone(processes)
-    assert len(sockets(tmp_path)) == 1  # the socket of the killed holder, to which nobody can connect
+    assert len(sockets(tmp_path)) == 1  # the socket of the killed holder, which accepts no connections
     later = join_or_start(Which.RUNNING, tmp_path)
     later.wait_for_master()
     assert nodes(later) == ["/rosout"]
@@ -99,7 +105,7 @@ def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
 
 
 def test_without_namespaces_the_graph_is_in_the_machines_network(tmp_path: Path) -> None:
-    """If the machine forbids namespaces, the master has a free port of this machine, and a note says why."""
+    """If the machine forbids namespaces, the master uses a free port of this machine, and a note says why."""
     with pytest.MonkeyPatch.context() as patch:
         (tmp_path / "rosmaster").write_text('#!/bin/sh\nexec /usr/bin/rosmaster "$@"\n')
         (tmp_path / "rosmaster").chmod(0o755)
@@ -108,7 +114,7 @@ def test_without_namespaces_the_graph_is_in_the_machines_network(tmp_path: Path)
     assert "nsenter" in graph.reason
     assert graph.files == []
     assert graph.uri != URI
-    with pytest.raises(GraphError):  # PATH does not contain the programs of ROS either
+    with pytest.raises(GraphError):  # PATH does not contain the programs of ROS.
         graph.wait_for_master()
     assert EXPOSED in notes(graph, Which.RUNNING)
     graph.leave()
@@ -122,7 +128,10 @@ def test_a_shared_graph_is_in_the_machines_network() -> None:
 
 
 def test_a_command_in_a_graph_stays_in_it(graph: Graph) -> None:
-    """`course run` in `course run bash` uses the same network and master; --new-graph uses others."""
+    """`course run` inside `course run bash` uses the same network and master.
+
+    With --new-graph, it uses a new network and master.
+    """
     script = f"{SHOW}; ./course run sh -c '{SHOW}'; ./course run --new-graph sh -c '{SHOW}'"
     seen = course_run("sh", "-c", script).stdout.split()
     assert seen[::3] == [URI] * 3

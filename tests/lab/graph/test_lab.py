@@ -1,4 +1,7 @@
-"""A running `course lab`: its kernels and terminals are in a private network, and its server is outside."""
+"""Tests of a running `course lab`.
+
+Its kernels and terminals are in a private network, and its server is outside this network.
+"""
 
 from __future__ import annotations
 
@@ -21,18 +24,21 @@ SLEEP = "import time; print('begun', flush=True); time.sleep(1000)"
 
 
 def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
-    """Only the page's port is outside; a kernel, a terminal and `course run` use one master at port 11311.
+    """Only the page's port is outside the network.
 
-    Interrupt and Restart work.
+    A kernel, a terminal and `course run` use the same master at port 11311.
+
+    The commands Interrupt and Restart of JupyterLab work.
     """
     messages = Messages(served)
     uri, network, pid = messages.run(WHERE, "status").split()
     assert uri == "http://localhost:11311"
     assert network != own_namespace("net")
-    assert having(KERNEL, [int(pid)])  # the process that the server interrupts is the kernel itself
+    assert having(KERNEL, [int(pid)])  # The server interrupts the kernel itself, not a parent process.
     served.post("/api/terminals")
     [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(served.process)))
-    assert eventually(lambda: os.readlink(f"/proc/{shell}/ns/net") == network)  # nsenter becomes the shell
+    # The process of nsenter becomes the shell.
+    assert eventually(lambda: os.readlink(f"/proc/{shell}/ns/net") == network)
     assert course_run("sh", "-c", "readlink /proc/self/ns/net; rosnode list").stdout.split() == [
         network,
         "/rosout",
@@ -52,7 +58,7 @@ def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
 
 @pytest.mark.parametrize("victim", [HOLDER, KERNEL, b"rosmaster\0--core"])
 def test_nothing_is_left_after_a_kill_and_the_end(served: Service, victim: bytes) -> None:
-    """After SIGKILL of any process of the graph, and Ctrl-C, no process of the lab is left."""
+    """After SIGKILL of any process of the graph and Ctrl-C, no process of the lab remains."""
     eventually(lambda: having(victim, below(served.process)))
     family = below(served.process)
     os.kill(having(victim, family)[-1], signal.SIGKILL)
@@ -65,7 +71,7 @@ def test_nothing_is_left_after_a_kill_and_the_end(served: Service, victim: bytes
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
-    """After SIGKILL of `course run`, its master or its holder, 100 times, nothing is left."""
+    """After SIGKILL of `course run`, of its master or of its holder, 100 times, no process remains."""
     victims = [b"", b"rosmaster\0--core", HOLDER]
     left = []
     for number in range(100):
@@ -76,7 +82,10 @@ def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
 
 
 def killed(victim: bytes, state: Path) -> list[int]:
-    """Start a command, kill the process `victim` (if empty, `course run` itself), and return what is left."""
+    """Start a command, kill the process `victim`, and return the remaining processes.
+
+    If `victim` is empty, kill `course run` itself.
+    """
     with running("run", "sleep", "1000", XDG_STATE_HOME=str(state)) as process:
         eventually(lambda: "sleep" in names(below(process)), timeout=60)
         family = [process.pid, *below(process)]

@@ -1,4 +1,4 @@
-"""A private network: nobody outside can find or reach what is in it."""
+"""Tests of a private network: programs outside the network cannot find or reach its sockets."""
 
 from __future__ import annotations
 
@@ -47,14 +47,17 @@ def files() -> Iterator[list[int]]:
 
 
 def inside(files: list[int], *command: str) -> subprocess.CompletedProcess[str]:
-    """Run a command in the network to its end."""
+    """Run a command in the network until the command exits."""
     return subprocess.run(
         [*network.entering(files), *command], capture_output=True, text=True, timeout=30, check=False
     )
 
 
 def test_no_port_and_no_abstract_socket_is_visible_outside(files: list[int]) -> None:
-    """Another process finds none of the network's sockets in /proc/net, and cannot connect to its ports."""
+    """A process outside the network cannot find or reach the network's sockets.
+
+    It finds none of these sockets in /proc/net, and cannot connect to their ports.
+    """
     command = [*network.entering(files), sys.executable, "-c", LISTEN]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout
@@ -86,7 +89,7 @@ def test_two_networks_have_separate_ports(files: list[int]) -> None:
 
 
 def test_other_computers_can_be_reached_but_not_this_ones_loopback(files: list[int]) -> None:
-    """slirp4netns adds a route to other computers, but no way to a server at 127.0.0.1 of this computer."""
+    """With slirp4netns, a program can reach other computers, but not 127.0.0.1 of this computer."""
     reason, _ = outgoing_problem()
     if reason:
         pytest.skip(reason)

@@ -1,4 +1,4 @@
-"""Another user, and another lab of the same user, find nothing of a running `course lab` but its page."""
+"""Another user, and another lab of the same user, find only the page of a running `course lab`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.lab.test_jupyterlab import Service
 from tests.support import terminal
 
 SCANNER = Path(__file__).with_name("scanner.py").read_text()
-# A node, its service, a panel, and an abstract socket, all with the same NAME.
+# This cell starts a node with a service and a panel, and opens an abstract socket; all have the same NAME.
 CELL = """
 import socket
 import rospy
@@ -34,7 +34,7 @@ OTHER_USER = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "/u
 
 
 def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noqa: B006 -- nothing changes it
-    """Run the scanner by `command`, and return what it found, without repetitions."""
+    """Run the scanner with the prefix `command`, and return its results without repetitions."""
     ended = terminal(*command, "-I", "-c", SCANNER, name, *sockets)
     assert ended.returncode == 0, ended.stderr
     return sorted(set(ended.stdout.split()))
@@ -43,8 +43,8 @@ def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noq
 def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
     """Return the names of the listening sockets of processes that are visible in the network of this process.
 
-    A name is the address of a TCP or UDP socket, or the path of a Unix socket. The addresses are those of
-    /proc/net.
+    A name is the address of a TCP or UDP socket, or the path of a Unix socket. The addresses have the format
+    of /proc/net.
     """
     owned: set[str] = set()
     for pid in pids:
@@ -65,7 +65,10 @@ def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
 
 
 def test_a_scan_finds_nothing_but_the_page(served: Service, tmp_path: Path) -> None:
-    """No master, node, service or socket is found, called or replaced; inside, the scan finds all."""
+    """A scan from outside finds, calls and replaces no master, node, service or socket.
+
+    A scan from inside finds all of them.
+    """
     name = f"hidden_{secrets.token_hex(4)}"
     messages = Messages(served)
     messages.run(CELL.format(name=name), "status")

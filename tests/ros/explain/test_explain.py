@@ -86,7 +86,7 @@ def test_pasted_text_is_explained(text: str, stretch: str) -> None:
 
 
 def test_an_exception_is_explained_by_its_own_message_first() -> None:
-    """explain() uses an exception's own message before the message of its cause."""
+    """For an exception with a cause, explain() explains the exception's own message first."""
     cause = ConnectionRefusedError(111, "Connection refused")
     told = RuntimeError("the robot did not move")
     told.__cause__ = cause

@@ -92,7 +92,7 @@ def test_another_program_at_the_uri(tmp_path: Path) -> None:
 
 
 def test_two_kernels_with_one_name(kernel: Kernel) -> None:
-    """If two kernels use the same name, the second kernel gets an error."""
+    """If two kernels use the same name at the same time, the second kernel gets an error."""
     kernel.run(JOIN)
     with Kernel() as second:
         reply = second.ask(JOIN)

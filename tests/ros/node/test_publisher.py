@@ -33,7 +33,7 @@ def joined(kernel: Kernel) -> Kernel:
 
 
 def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
-    """Each message to a connected subscriber is counted, and none is unheard."""
+    """A message to a connected subscriber is counted as sent, and no message is counted as unheard."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = Publisher("/numbers", UInt32)

@@ -182,7 +182,7 @@ def test_creation_in_a_thread_of_the_cell(notebook: NotebookKernel) -> None:
 
 
 def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> None:
-    """After the service was replaced, a persistent proxy of the old service raises an error with advice."""
+    """After the service was replaced, a call through an old persistent proxy raises an error with advice."""
     serve = "service = rospy.Service('/kept', Trigger, lambda r: (True, ''))"
     notebook.run(serve, "kept")
     notebook.run("proxy = rospy.ServiceProxy('/kept', Trigger, persistent=True)\nproxy()", "proxy")
@@ -191,7 +191,7 @@ def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> Non
 
 
 def test_cell_within_a_cell(notebook: NotebookKernel) -> None:
-    """With %%capture, the objects of the inner cell belong to the outer cell."""
+    """With %%capture, the objects that the inner cell creates belong to the outer cell."""
     cell = "%%capture\nservice = rospy.Service('/captured', Trigger, lambda r: (True, ''))"
     silent(notebook.run(cell, "captured"))
     silent(notebook.run(cell, "captured"))

@@ -99,14 +99,14 @@ def test_every_error_is_short(notebook: NotebookKernel, cell: str, tmp_path: Pat
 
 
 def test_error_while_handling_another(notebook: NotebookKernel) -> None:
-    """One line shows the earlier error that the student's code was handling."""
+    """If an `except` block raises an error, one line shows the earlier error that this block was handling."""
     shown = notebook.run("try:\n    {}['a']\nexcept KeyError:\n    raise ValueError('no a')")
     assert without_cell_numbers(shown.error_lines)[1] == "  (This cell, line 2, had raised KeyError: 'a')"
     assert shown.error_lines[-1] == "ValueError: no a"
 
 
 def test_error_in_a_handler(notebook: NotebookKernel) -> None:
-    """The calling cell shows its own line and the failing line of the handler."""
+    """The error in the calling cell shows the line of the call and the failing line of the handler."""
     notebook.run(
         "def handle(request):\n    return 1 / 0\nservice = rospy.Service('/bad', Trigger, handle)", "bad"
     )

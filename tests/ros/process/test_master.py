@@ -107,7 +107,7 @@ def test_unknown_host() -> None:
 
 
 def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
-    """A client can call a restarted master at the same address."""
+    """A client can call a master that was restarted at the same address."""
     with PrivateMaster() as former:
         client = MasterClient(former.uri)
         client.pid()

@@ -147,7 +147,7 @@ def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
 
 
 def test_running_again_replaces(kernel: Kernel) -> None:
-    """A second run() of a program ends the first process unless the second run has another name."""
+    """A second run() of a program ends the first process unless the second run has a different name."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")

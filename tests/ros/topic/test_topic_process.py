@@ -170,7 +170,7 @@ def test_a_channel_transfers_whole_messages() -> None:
 
 
 def test_the_numbers_of_a_message_have_paths() -> None:
-    """Number fields, also in nested messages and arrays, have paths."""
+    """Each number field has a path, even a field of a nested message or of an array."""
     assert numbers(message_type("std_msgs/Float64")) == ["data"]
     assert numbers(message_type("std_msgs/String")) == []
     assert numbers(message_type("geometry_msgs/Twist"))[:2] == ["linear.x", "linear.y"]
@@ -246,7 +246,7 @@ def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
 
 
 def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> None:
-    """A message before the connection is counted as unheard, and the next message is received."""
+    """A message that is sent before the connection counts as unheard, and the next message is received."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1.5")
     eventually(lambda: reports.published("deliveries"))
@@ -271,7 +271,7 @@ def test_a_latched_message_is_kept_for_its_subscriber(reports: Reports) -> None:
 
 
 def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master: PrivateMaster) -> None:
-    """A new queue size creates a new publisher, and the command `withdraw` unregisters the publisher."""
+    """A new queue size creates a new publisher, and the command `withdraw` unregisters this publisher."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)

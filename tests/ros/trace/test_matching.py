@@ -1,4 +1,4 @@
-"""Tests that find out which recorded spans of different nodes belong together."""
+"""Tests of matching recorded spans of different nodes to calls and messages."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_another_service_on_the_same_ports() -> None:
 
 
 def test_a_port_that_was_used_again() -> None:
-    """If two calls have the same ports and the same number, no handler is assigned to them."""
+    """If two calls have the same ports and the same number, no handler is assigned to these calls."""
     twice = events([*call(1, 1, 3), *call(2, 11, 13)], [span("handler", 2, 2.5), span("handler", 12, 12.5)])
     assert [key for kind, key in keys(twice) if kind == "handler"] == ["call 2", "call 4"]
     assert [key for kind, key in keys(twice) if kind == "request"] == ["call 1", "call 3"]
@@ -130,7 +130,7 @@ def test_events_outside_of_the_recording() -> None:
 
 
 def test_threads_of_one_name() -> None:
-    """If two threads of a node have the same name, the second name gets a number."""
+    """If two threads of a node have the same name, a number is added to the second name."""
     spans = [span("callback", start, start + 1, transfers=[], thread=["/x", start]) for start in (1, 2)]
     assert [event.thread for event in events(spans)] == ["/x", "/x (2)"]
 

@@ -70,8 +70,8 @@ def read_the_graph(context: CheckContext) -> None:
                 ),
                 (
                     matches("^/server_node/?$"),
-                    "Compare your answer with the name on the graph, letter by letter. Capital "
-                    "and small letters are different, and the only slash is at the start.",
+                    "Compare your answer with the name on the graph, letter by letter. Check the "
+                    "capital letters, and write only one slash, at the start of the name.",
                 ),
             ],
         )
@@ -106,8 +106,8 @@ def read_the_graph(context: CheckContext) -> None:
                 ),
                 (
                     matches("^/getgeometry/?$"),
-                    "Compare your answer with the name on the graph, letter by letter. Capital "
-                    "and small letters are different, and the only slash is at the start.",
+                    "Compare your answer with the name on the graph, letter by letter. Check the "
+                    "capital letters, and write only one slash, at the start of the name.",
                 ),
             ],
         )
@@ -159,7 +159,7 @@ def ask_a_question(context: CheckContext) -> None:
         sides = {"length": length, "width": width, "height": height}
         area, volume = (
             whole + 0.375 for whole in context.random.integers(2, 1000, 9000)
-        )  # These numbers are exact as a float32.
+        )  # A float32 stores these numbers exactly.
         server = context.serve(
             name, "course_pkg/geometry", lambda _, a=area, v=volume: {"area": a, "volume": v}
         )
@@ -204,7 +204,10 @@ def _other_sides(sides: dict[str, float]) -> Hints:
         ),
         (
             lambda actual: not same([*sorted(sides.values())], sorted(actual.values()), near=1e-4),
-            "The request contains other numbers than the arguments. Send the arguments unchanged.",
+            (
+                "The numbers in the request differ from the arguments of your function. Send the arguments "
+                "unchanged."
+            ),
         ),
         (
             ANYTHING,
@@ -215,7 +218,7 @@ def _other_sides(sides: dict[str, float]) -> Hints:
 
 
 def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
-    """Return hints for a value other than the `volume` of the response.
+    """Return hints for a result that differs from the `volume` of the response.
 
     `area` is the area in the response.
     """

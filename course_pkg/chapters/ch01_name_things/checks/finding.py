@@ -1,4 +1,4 @@
-"""Checks of functions that find services and publishers; a node can be running, or only registered."""
+"""Checks of functions that find services and publishers of nodes that run, or that are only registered."""
 
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -26,7 +26,7 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
     goals={FOUND: 2, "Return None if there is no such service.": 1},
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve the name and similar names in three namespaces.
+    """Serve a random name and similar names, three times in namespaces of different depths.
 
     After that, pass the name of a service that does not exist.
     """
@@ -142,8 +142,8 @@ def _in_a_random_order(context: CheckContext) -> None:
             actual=context.run("ask_wherever", last, 1.0, 2.0, 3.0, hints=_LOST + _NOBODY).returned(),
             near=1e-6,
             hints=(
-                "The result has to depend on the services that exist now, not on earlier "
-                "calls. Get the list of services in each call."
+                "The result has to depend on the services that exist now, not on earlier calls. Each "
+                "time your function is called, get the list of services again."
             ),
         )
 
@@ -178,13 +178,13 @@ _NOBODY = [
     goals={RUNNING: 3, "Return an empty list if no running node publishes the topic.": 1},
 )
 def who_really_publishes(context: CheckContext) -> None:
-    """Register running and killed publishers of two topics.
+    """Register publishers of two topics: some of their nodes run, and the others were killed.
 
     After that, pass topics without a running publisher.
     """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
-    # A dead node is between the running ones in each order, so a loop must not end at a dead node.
+    # In each order, a dead node is between running nodes, so a loop must not end at a dead node.
     living, dead = context.random.shuffled(sorted(names[:5])[::2]), sorted(names[:5])[1::2]
     for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]]):
         context.fake_node(name, topic, NUMBER, alive=number % 2 == 0, reused=number == 3)
@@ -226,7 +226,7 @@ def who_really_publishes(context: CheckContext) -> None:
             ),
             (
                 lambda actual: set(actual) & subscribers,
-                "One of these nodes only subscribes to the topic. Use the list of publishers.",
+                "One node in your list only subscribes to the topic. Use the list of publishers.",
             ),
             (
                 [],
@@ -270,8 +270,8 @@ def _living(context: CheckContext, topic: str) -> object:
             (
                 matches("TimesUp"),
                 (
-                    "rosnode_ping does not return, because rosnode_ping sends pings without "
-                    "end. Pass max_count=1 to rosnode_ping."
+                    "rosnode_ping sends pings forever, so your call of rosnode_ping does not return. "
+                    "Pass max_count=1 to rosnode_ping."
                 ),
             ),
             (

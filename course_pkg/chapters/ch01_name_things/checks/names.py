@@ -1,4 +1,4 @@
-"""Names of nodes: the check runs the student's commands and compares the names on the graph."""
+"""Checks of the names of nodes: they run the student's commands and compare the names on the graph."""
 
 from __future__ import annotations
 
@@ -125,7 +125,8 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         seen = context.look()
         service = seen.service(wanted)
         others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
-        new = new or others  # Keep the first result, because a busy server may not answer a later request.
+        # Keep the first result, because a busy server may not respond to a later request.
+        new = new or others
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
         found = new[0].name if new else ""
@@ -219,8 +220,8 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
                 ),
                 (
                     (f"/screen/{arm}/joint_states",),
-                    "Your new name is relative, so the topic is in the namespace /screen. Use "
-                    "a global name: it starts with a slash.",
+                    "The new name of the topic is relative, so the topic is in the namespace /screen. "
+                    "Use a global name, which starts with a slash.",
                 ),
                 (
                     ANYTHING,
@@ -242,8 +243,8 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
                 ),
                 (
                     (f"/{arm}/mirrored_joints",),
-                    "The topic of the viewer is outside of the namespace /screen. Use a "
-                    "relative name: it stays in the namespace of the node.",
+                    "The topic of the viewer is outside of the namespace /screen. Use a relative name: "
+                    "ROS adds the namespace of the node to this name.",
                 ),
                 (
                     ANYTHING,

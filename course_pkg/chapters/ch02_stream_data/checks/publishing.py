@@ -1,6 +1,6 @@
-"""Publishers: one node publishes at a rate and must not lose a message.
+"""Checks of two publishers. The first publisher publishes numbers at a rate and must not lose a number.
 
-Another node publishes each change.
+The second publisher publishes each change of a value.
 """
 
 import threading
@@ -10,17 +10,17 @@ from itertools import pairwise
 from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
-from course_pkg.waiting import wait_until
+from course_pkg.waiting import at_this_load, wait_until
 
 WAITS_FOR_EVER = (
-    "Wait for a subscriber for at most 2 s. Then publish the numbers, even if the topic has no subscriber."
+    "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
 )
 # These times in s are for a count without a subscriber. The student's function waits 2 s, and then publishes
-# 11 numbers in 1.1 s. The subscriber connects 2.3 s after the publisher.
+# ALONE (11) numbers in 1.1 s. The subscriber connects COMES (2.3) s after the publisher.
 NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "If there is no subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.
-AT_ONCE = 0.3  # AT_ONCE is the maximum duration in s of the fastest of several calls.
+AT_ONCE = 0.3  # The fastest of several calls may take at most this time in s.
 TOO_SOON = "The wait for a subscriber is too short. If there is no subscriber, wait for the full 2 s."
 TOO_EARLY = (
     "The first number was published before a subscriber was connected. Create the publisher, "
@@ -48,15 +48,15 @@ LATCHED = "Send the last value to every node that subscribes later."
     "02.1",
     points=2,
     goal=(
-        "Publish 0, 1, 2 and so on at a given rate. Begin when a subscriber is connected, and "
-        "after 2 s at the latest."
+        "Publish 0, 1, 2 and so on at a given rate. Begin when a subscriber is connected. If no "
+        "subscriber connects, begin after 2 s."
     ),
     needs=["count_aloud"],
     deadline=40.0,
     goals={COUNTS: 3, "Begin to publish after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
-    """Subscribe to two counts with different rates; then start a third count, which has no subscriber."""
+    """Subscribe to two counts with different rates; then start a third count without a subscriber."""
     for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
         topic = f"/{context.random.word()}"
         subscription = context.subscribe(topic, "std_msgs/UInt32")
@@ -71,7 +71,7 @@ def count_aloud(context: CheckContext) -> None:
         _keeps_time(context, arrivals, hertz)
         context.require(
             "it begins as soon as a subscriber is connected",
-            holds=counted.took < count / hertz + 1.2,
+            holds=counted.took < at_this_load(count / hertz + 1.2),
             expected="the first number immediately after a subscriber is connected",
             actual=f"the last number after {counted.took:.1f} s",
             hints=(
@@ -192,9 +192,11 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
 def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> None:
     """Assert that the average rate is right, and that the messages arrive at equal intervals."""
     seen = rate(arrivals)
+    # On a busy machine, each pause is longer. A program that pauses twice has half of the rate.
+    lowest = max(0.75 / at_this_load(1.0), 0.55)
     context.require(
         "the average rate is the given rate",
-        holds=0.75 * hertz < seen < 1.25 * hertz,
+        holds=lowest * hertz < seen < 1.25 * hertz,
         expected=f"about {hertz} per second",
         actual=f"{seen:.3g} per second",
         hints="The rate is too high. Pause after each number."
@@ -219,10 +221,10 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goal="Publish a value when it changes. A node that subscribes later has to receive the last value.",
     needs=["Notice"],
     deadline=30.0,
-    goals=[LATCHED, "Publish each change once. Do not publish a value again if it stays the same."],
+    goals=[LATCHED, "Publish each change once. Do not publish a value again if it has not changed."],
 )
 def a_notice(context: CheckContext) -> None:
-    """Set values without a subscriber, with a subscriber, and before a late subscriber.
+    """Set a value without a subscriber, with a subscriber, and before a late subscriber connects.
 
     One of the values may be 0.
     """
@@ -256,7 +258,8 @@ def a_notice(context: CheckContext) -> None:
     _set(context, topic, second)
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     _set(context, topic, third)
-    subscriber.wait(3, within=SOON)  # In a short queue, the next value would otherwise replace this one.
+    # With a short queue in the publisher, the next value would replace this value.
+    subscriber.wait(3, within=SOON)
     _set(context, topic, second)
     _receives(
         context,
@@ -290,7 +293,7 @@ def _subscribed(context: CheckContext, topic: str) -> Subscription:
 
 
 def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
-    """Assert that these values arrive, and that no other message arrives in the next 0.3 s."""
+    """Assert that these values arrive, and that no further message arrives in the next 0.3 s."""
     subscription.wait(len(values), within=SOON)
     subscription.during(0.3)
     received = [arrival.fields["data"] for arrival in subscription.arrivals]

@@ -1,4 +1,4 @@
-"""Subscribers: one publishes the mirror image of every message, and two others need different queues."""
+"""Checks of subscribers: one publishes mirrored messages, and two others need different queues."""
 
 import statistics
 import threading
@@ -50,7 +50,8 @@ def witness(message):
     witnessed.append(message)
 """
 FIELDS = ("name", "position", "velocity")
-DRAWING, PREPARING = 0.25, 0.02  # A drawing takes DRAWING s, and preparing an order takes PREPARING s.
+# A call of draw() takes DRAWING s, and a call of prepare() takes PREPARING s.
+DRAWING, PREPARING = 0.25, 0.02
 # A function must return within this time in s; on an idle machine, a function returns after some ms.
 RETURNS = 1.5
 OLDEST = 0.5  # OLDEST is the maximum age in s of an angle when a drawing begins.
@@ -101,15 +102,18 @@ class Work:
 
 
 MIRRORED = "Publish every message once, with the same header and with the opposite sign of each number."
-NEWEST, ALL_ORDERS = "Draw only the newest angle.", "Prepare each order once, in the order of arrival."
+NEWEST, ALL_ORDERS = (
+    "Draw only the newest angle.",
+    "Prepare each order only once, and begin with the oldest order.",
+)
 
 
 @part(
     "02.2",
     points=2,
     goal=(
-        "Receive every message of one topic, and immediately publish it on another topic with the "
-        "opposite sign of each number."
+        "Receive every message of one topic. Change the sign of each number, and immediately publish "
+        "the result on another topic."
     ),
     needs=["start_mirror"],
     deadline=30.0,
@@ -179,7 +183,10 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 
 
 def _stances(context: CheckContext, count: int) -> list[Fields]:
-    """Return `count` messages. The last ones have fewer joints, so a mirror must not keep earlier numbers."""
+    """Return `count` messages.
+
+    The last states have fewer joints, so a mirror must not keep the values of earlier states.
+    """
     names = [context.random.word() for _ in range(4)]
     counts = [4 if number < count / 2 else 3 for number in range(count)]
     return [
@@ -197,9 +204,9 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
 
 
 def _of_both_signs(context: CheckContext, count: int) -> list[float]:
-    """Return `count` random numbers, two of them positive and the others negative.
+    """Return `count` random numbers: two are positive, and the others are negative.
 
-    Each wrong sign then changes the result.
+    So each wrong sign in the mirror image changes the result.
     """
     return context.random.shuffled(
         [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(count - 2, -3.0, -0.1)]
@@ -236,7 +243,7 @@ def _begun(
 
 
 def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[Arrival]) -> None:
-    """Compare each mirrored message with the original message with the same time stamp."""
+    """Compare each mirrored message with the original message that has the same time stamp."""
     stamps = [message["header"]["stamp"] for message in messages]
     seen = [arrival.fields["header"]["stamp"] for arrival in heard]
     context.require(
@@ -247,8 +254,8 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         hints=[
             (
                 matches("nothing arrived"),
-                "No message arrived. Publish in the callback, and look for an error message of "
-                "the callback below the cell.",
+                "No message arrived. Publish in the callback, and look below the cell for an error "
+                "message of the callback.",
             ),
             (
                 matches("'secs': 0, 'nsecs': 0"),
@@ -277,8 +284,8 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         hints=[
             (
                 lambda actual: len(actual) == 1,
-                "Only one message was mirrored. Do not unregister the subscriber: rospy calls "
-                "the callback for each message.",
+                "Your callback published only one message. Do not unregister the subscriber: rospy "
+                "calls the callback for each message.",
             ),
             (
                 lambda actual: len(set(actual)) < len(actual),
@@ -359,7 +366,7 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
         holds=statistics.median(delays) < 0.15,
         expected="a mirrored message a few milliseconds after the original",
         actual=f"a delay of more than {statistics.median(delays):.2f} s for half of the mirrored messages",
-        hints="The mirrored messages are late. Publish in the callback, and do not wait in the callback.",
+        hints="Your messages are late. Publish in the callback, and do not wait in the callback.",
     )
 
 
@@ -447,8 +454,8 @@ def _drawn(
         expected="a later angle each time",
         actual=angles,
         hints=(
-            "An angle was drawn twice, or after a newer angle. Wait for a new angle before the "
-            "next call of draw()."
+            "An angle was drawn twice, or an old angle was drawn after a newer angle. Wait for a new "
+            "angle before the next call of draw()."
         ),
     )
     oldest = max(at - sent[angle] for at, angle in drawn)
@@ -509,7 +516,10 @@ def _prepared(context: CheckContext, at_once: int, prepared: list[Value], number
 
 
 def _one_at_a_time(context: CheckContext, function: str, at_once: int) -> None:
-    """Assert that calls did not overlap; `at_once` is the maximum number of simultaneous calls."""
+    """Assert that the calls did not overlap.
+
+    `at_once` is the measured maximum number of simultaneous calls.
+    """
     context.expect(
         f"one call of {function} at a time",
         expected=1,

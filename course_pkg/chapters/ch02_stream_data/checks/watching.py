@@ -30,7 +30,7 @@ def end():
 """
 WORDS = ("waiting", "running", "ended")
 LIMIT = 1.0  # After this time in s without a message, a stream has ended.
-AT_ONCE = 0.4  # AT_ONCE is the maximum duration in s of the fastest of several calls.
+AT_ONCE = 0.4  # The fastest of several calls may take at most this time in s.
 RUNS = 'Return "waiting" before the first message, and "running" while messages arrive.'
 
 
@@ -83,7 +83,7 @@ def _speaks(context: CheckContext, topic: str, number: int = 7) -> Publisher:
 
 
 def _runs(context: CheckContext, topic: str) -> None:
-    """Publish for some time, and stop, but stay registered as a publisher."""
+    """Publish for some time; then publish no more messages, but stay registered as a publisher."""
     publisher = _speaks(context, topic, number=0)
     time.sleep(0.5)
     assertion = 'while messages arrive, the state is "running"'
@@ -126,8 +126,8 @@ def _says(
 ) -> None:
     """Assert that state() returns `word` in each of `times` calls that end before the time `before`.
 
-    The check waits `pause` s between the calls. The duration of the fastest call shows whether state() waits,
-    because a busy machine makes only some of the calls slow.
+    The check pauses `pause` s between two calls. The duration of the fastest call shows whether state()
+    waits, because a busy machine makes only some of the calls slow.
     """
     took = []
     for _ in range(times):
@@ -193,8 +193,8 @@ _UNASKED: Hints = [
 _APART: Hints = [
     (
         ANYTHING,
-        "Only the other Watch object received messages. Store the data of each Watch object in "
-        "`self`, not in a global variable.",
+        "Another Watch object received messages, but this Watch object received no message. Store the "
+        "data of each Watch object in `self`, not in a global variable.",
     ),
 ]
 _WHILE: Hints = [
@@ -224,5 +224,8 @@ _END: Hints = [
         "No message has arrived for more than 1 s. The publisher is still registered, so use "
         "the time of the last message.",
     ),
-    ("waiting", 'Messages arrived before, but no message arrives now. Return "ended", not "waiting".'),
+    (
+        "waiting",
+        'Some messages have arrived, but no message arrives any more. Return "ended", not "waiting".',
+    ),
 ]

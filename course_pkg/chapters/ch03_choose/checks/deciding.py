@@ -82,7 +82,10 @@ def decide_and_defend(context: CheckContext) -> None:
         hints=[
             (
                 lambda actual: isinstance(actual, list),
-                "Your answer is a list. Write a dict, which has braces: {job: (design, reason), ...}.",
+                (
+                    "Your answer is a list. Write a dict in braces: each key is a job, and each value is a "
+                    "pair (design, reason)."
+                ),
             ),
             (
                 ANYTHING,

@@ -79,24 +79,33 @@ class Greetings:
             self._busy -= 1
 
 
-GREETED = "Greet each of five customers once, in order. Publish the number of a customer after the greeting."
+GREETED = (
+    "Greet five customers once each, in the order of the messages. After each greeting, publish the "
+    "customer's number."
+)
 
 
 @part(
     "03.2",
     points=2,
-    goal="Greet each customer of a topic once, in the order of the messages.",
+    goal=(
+        "Receive the numbers of customers from a topic. Greet each customer once, in the order of the "
+        "messages."
+    ),
     needs=["start_greeting"],
     deadline=30.0,
     goals={
         GREETED: 3,
-        "Also greet customers who come later, and customers after a second call of start_greeting().": 1,
+        (
+            "Also greet customers who come later, and customers who come after a second call of "
+            "start_greeting()."
+        ): 1,
     },
 )
 def greet_everyone(context: CheckContext) -> None:
     """Publish five customers quickly, two of them twice.
 
-    After a pause, publish two new customers and a customer that was already published.
+    After a pause, publish two new customers, and one customer that was already published.
     """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)
@@ -194,8 +203,8 @@ def _told(context: CheckContext, topic: str, numbers: list[int]) -> float:
         holds=publisher.has_subscriber(3.0),
         expected=f"a subscriber of {topic}",
         actual="no subscriber",
-        hints="No node is subscribed to the topic in `customers`. Create the subscriber, and do not "
-        "unregister the subscriber.",
+        hints="No node subscribes to the topic whose name is in `customers`. Create the subscriber, and do "
+        "not unregister the subscriber.",
     )
     publisher.finish(5.0)
     publisher.stop()
@@ -278,7 +287,7 @@ def _greeted(
 _NO_RETURN = [
     (
         matches("^(TimesUp|NothingHeard)"),
-        "start_greeting() does not return. Create a subscriber with a callback, and return "
-        "without a wait: rospy calls the callback in another thread.",
+        "start_greeting() does not return. Create a subscriber with a callback, and return immediately: "
+        "rospy calls the callback in another thread.",
     )
 ]

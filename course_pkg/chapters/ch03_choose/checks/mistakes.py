@@ -15,7 +15,7 @@ RIGHT = {
     "F": "stream for one value",
 }
 DECISIVE = {
-    "A": "The delay is as long as the pause between two calls.",
+    "A": "The delay of a greeting can be as long as the pause between two calls.",
     "B": "Nearly all calls return no new data.",
     "C": "The message was published before the tablet subscribed.",
     "D": "The subscriber sees no difference between a broken sensor and a free road.",
@@ -36,7 +36,7 @@ CASES = Cases(
     RIGHT,
     DECISIVE,
     ENTRIES,
-    missing="A case is missing in your dict. Write each letter from A to F as a key.",
+    missing="A case from the table is missing in your dict. Write each letter from A to F as a key.",
     keys="Some keys are wrong. Use the letters A to F as keys: strings with capital letters.",
     spelling="The name of a mistake is wrong. Copy each name exactly from the list of mistakes.",
     entry="mistake",

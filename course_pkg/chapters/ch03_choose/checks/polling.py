@@ -13,17 +13,17 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 DETECT = "course_pkg/DetectCustomer"
-SLACK = 0.7  # On a busy machine, a poll may take this many s longer.
+SLACK = 0.7  # On a busy machine, a poll may take this many s longer than on an idle machine.
 NO_NUMBER = "poll() returned None, although a customer was there. Return the number of the customer."
 NO_PAUSE = "Pause for 1 / rate seconds between two calls."
 NO_END = (
-    "poll() continues after the end of its time. The end is the start time plus `seconds`: "
-    "compare the current time with this end before each call."
+    "poll() continues after its time is over. Before each call, compare the current time with the start "
+    "time plus `seconds`."
 )
 
 COUNTED = (
-    "Each call also takes time, so do not count the calls. Before each call, compare the "
-    "current time with the end of the time."
+    "Each call also takes time, so do not count the calls. Before each call, compare the current time "
+    "with the time at which poll() has to end."
 )
 
 
@@ -86,8 +86,8 @@ def _one_who_is_there(context: CheckContext) -> None:
         expected=1,
         actual=len(counter.asked),
         hints=(
-            "poll() made another call, although the first response contained a customer. Store "
-            "the response, and return the number from the response."
+            "poll() called the service a second time, although the first response contained a customer. "
+            "Store the response, and return the number from the response."
         ),
     )
     context.require(
@@ -252,7 +252,7 @@ _NUMBER = [
     ),
     (
         ANYTHING,
-        "poll() returned a different number from the number in the response. Return the field "
-        "`number` without any change.",
+        "The number that poll() returned is not the number in the response. Return the field `number` "
+        "without any change.",
     ),
 ]

@@ -39,7 +39,8 @@ class Cashier:
         self._informed: deque[rospy.Time] = deque(maxlen=KEPT)
         self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
         self._detect = BoundedProxy("detect_customer", DetectCustomer)
-        rospy.on_shutdown(self._detect.cancel)  # Without this, the shutdown would wait for the end of a call.
+        # Without the cancellation, the shutdown would wait for the end of the current call.
+        rospy.on_shutdown(self._detect.cancel)
 
     def handle_report(self, _: object) -> CashierReportResponse:
         """Return the numbers and times of all greetings."""
@@ -75,7 +76,7 @@ class Cashier:
             except (rospy.ServiceException, CourseError) as error:
                 if rospy.is_shutdown():  # The shutdown has cancelled the call.
                     return
-                rospy.logwarn_throttle(10, f"No answer, so the next call follows soon: {error}")
+                rospy.logwarn_throttle(10, f"The call failed, so the cashier soon calls again: {error}")
                 rest = max(pause, AGAIN)
             due = max(due + rest, time.monotonic())
             rospy.sleep(due - time.monotonic())

@@ -1,4 +1,4 @@
-"""The node `shop_camera`: a shop with a counter, and a camera above the counter.
+"""The node `shop_camera`: a shop with a counter and a camera that observes the counter.
 
 The node publishes the numbers of the present customers on `counter` (std_msgs/UInt32MultiArray), at each
 change and ten times per second. The node also serves `let_in` (course_pkg/LetIn). If `~every` is above 0,

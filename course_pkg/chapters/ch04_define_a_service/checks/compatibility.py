@@ -20,7 +20,7 @@ NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
 
 @dataclass(frozen=True)
 class Pair:
-    """Two definitions, an assertion about their difference, and a hint."""
+    """Two definitions, an assertion about the difference between them, and a hint."""
 
     assertion: str
     server: str
@@ -114,8 +114,8 @@ def _pairs(context: CheckContext) -> list[Pair]:
         differs(
             "a field moved from request to response",
             _text(top, above[:2], [above[2], *below]),
-            "One field is on different sides of the line --- in the two texts, so the texts "
-            "are not compatible. The line --- separates the request from the response.",
+            "One field is in the request of one text, but in the response of the other text, so the "
+            "texts are not compatible. The line --- separates the request from the response.",
         ),
         differs(
             "another value of a constant",
@@ -134,8 +134,8 @@ def _pairs(context: CheckContext) -> list[Pair]:
             "one field fewer",
             _text(top, above, below[:1]),
             (
-                "One field is missing, so the texts are not compatible. Each field of the request "
-                "and of the response is part of the MD5 sum."
+                "One field is missing in one of the texts, so the texts are not compatible. Each field "
+                "of the request and of the response is part of the MD5 sum."
             ),
         ),
     ]

@@ -1,4 +1,4 @@
-"""The definition: the check parses it in the same way as ROS, compares each field, and builds it."""
+"""Checks of the definition: they parse it in the same way as ROS, compare each field, and build it."""
 
 from __future__ import annotations
 
@@ -78,7 +78,10 @@ def _about_names(half: str, wanted: list[str], found: list[str], text: str) -> s
     missing = [name for name in wanted if name not in found]
     extra = [name for name in found if name not in wanted]
     if not missing and not extra:
-        return "All fields are there, but they are in the wrong order. Use the order of the description."
+        return (
+            "Your file contains all fields, but in the wrong order. Write the fields in the same order as "
+            "in the description."
+        )
     if missing and (near := difflib.get_close_matches(missing[0], extra, n=1, cutoff=0.5)):
         return f"{_line(text, near[0])}{near[0]} should be {missing[0]}. Compare the names letter by letter."
     if missing and _line(text, missing[0]):
@@ -132,10 +135,10 @@ def _about_type(name: str, wanted: str, found: str, text: str) -> str:
         return f"{where}is an array in your file, but the exercise needs a single value: {wanted}."
     if base == "float64":
         return (
-            f"{where}has the type {found} in your file, which has twice as many bits. Use the "
-            f"type of the exercise: {wanted}."
+            f"{where}has the type {found} in your file, which has twice as many bits. Copy the type from "
+            f"the description: {wanted}."
         )
-    return f"{where}has the wrong type in your file. Write the type of the description: {wanted}."
+    return f"{where}has the wrong type in your file. Copy the type from the description: {wanted}."
 
 
 def _constants(context: CheckContext, asked: ServiceType, given: ServiceType, text: str) -> None:
@@ -158,7 +161,10 @@ def _about_constants(wanted: list[str], found: list[str], below: list[str], text
             "constant above the line ---."
         )
     if sorted(wanted) == sorted(found):
-        return "All constants are there, but they are in the wrong order. Use the order of the description."
+        return (
+            "Your file contains all constants, but in the wrong order. Write the constants in the same "
+            "order as in the description."
+        )
     wrong = [each for each in found if each not in wanted]
     if wrong:
         name = wrong[0].partition(" ")[2].partition("=")[0]

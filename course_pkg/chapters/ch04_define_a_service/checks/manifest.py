@@ -24,8 +24,8 @@ START = f"""%%writefile {FILE}
 """
 ACCEPTED = "Write a package.xml that catkin accepts."
 LISTED = {
-    "built": "List the packages that are needed to build.",
-    "run": "List the packages that are needed to run.",
+    "built": "List the packages that the build needs.",
+    "run": "List the packages that the program needs when it runs.",
 }
 
 
@@ -33,8 +33,8 @@ LISTED = {
     "04.3",
     points=2,
     goal=(
-        "Repair package.xml: catkin has to accept the file, and the file has to list all packages "
-        "that are needed."
+        "Repair package.xml: catkin has to accept the file, and the file has to list all packages that "
+        "the build and the program need."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
@@ -69,8 +69,8 @@ def _hint(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if elsewhere:
         return (
-            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add "
-            f"{_an(tag)} for this package."
+            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add {_an(tag)} "
+            f"for {package}."
         )
     if package == "rospy":
         return "The program lamp_server.py imports rospy. Add <exec_depend>rospy</exec_depend>."

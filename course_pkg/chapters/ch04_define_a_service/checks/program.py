@@ -1,4 +1,4 @@
-"""The server as a program of the package: rosrun must find it, and it must serve the new type."""
+"""Checks of the server as a program of the package: rosrun must find it, and it must serve the new type."""
 
 from __future__ import annotations
 
@@ -209,7 +209,10 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
         hints=[
             (
                 lambda actual: mode == 2 and not any(actual),
-                "The mode is BLINK, but rgb is 0. Set rgb to the colour of the request for this mode, too.",
+                (
+                    "The mode is BLINK, but rgb contains only zeros. For this mode, too, set rgb to the "
+                    "colour in the request."
+                ),
             ),
             (
                 [0.0, 0.0, 0.0],
@@ -234,7 +237,7 @@ def _answers(context: CheckContext, lamp: Service, mode: int) -> None:
         hints=[
             (
                 lambda actual: mode != 1 and not actual,
-                "The total is 0 for this mode. Set total to the sum of the seconds for each mode.",
+                "The total is 0 for this mode. For every mode, set total to the sum of request.seconds.",
             ),
             (
                 0.0,

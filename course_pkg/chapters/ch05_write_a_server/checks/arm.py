@@ -45,8 +45,8 @@ def close_for_maintenance(context: CheckContext) -> None:
         context,
         FILE,
         missing=(
-            "The shebang is missing, which names the program that runs the file. Begin line 1 with "
-            "#!/usr/bin/env python3."
+            "The shebang is missing: the first line has to name the program that runs the file. Begin "
+            "line 1 with #!/usr/bin/env python3."
         ),
     )
     folder = context.folder(files=[FILE])
@@ -126,7 +126,7 @@ def _works(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) -> None:
-    """Switch and move in a random order, so that a program that only counts its calls fails."""
+    """Close, open and move the arm in a random order, so that a program that only counts its calls fails."""
     closed = False
     for _ in range(context.random.integer(5, 8)):
         data = context.random.choice([True, False])
@@ -149,7 +149,10 @@ def _counts(context: CheckContext, messages: list[str], first: int) -> None:
                 "once, at the start.",
             ),
             (["0", "1"], "The first move returned 0. Add 1 to the count before you return the message."),
-            (["1", "1"], "The count stays 1. Store the count in an object or in a global variable."),
+            (
+                ["1", "1"],
+                "The count is 1 after every call. Store the count in an object or in a global variable.",
+            ),
             (
                 ANYTHING,
                 "The count is wrong. Add 1 in each call of /move_arm, and do not change the number "
@@ -210,7 +213,7 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
         expected="an import that ends",
         actual="an import that does not end" if done.status is None else telling_line(done.out + done.err),
         hints=(
-            "An import of the file starts the node. Move the start of the node below the line "
+            "An import of the file starts the node. Move the lines that start the node below the line "
             "`if __name__ == '__main__':`."
         )
         if done.status is None

@@ -11,7 +11,8 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# A message may contain at most this many numbers. With more numbers, one number may be right by chance.
+# A message may contain at most this many numbers. In a message with more numbers, one of the numbers may be
+# right by chance.
 MANY = 6
 # The pattern matches an error message from the student's handler, but no message of rospy itself.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
@@ -124,7 +125,7 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    # These numbers are exact as a float32.
+    # A float32 stores these numbers exactly.
     depths = [*(-depth / 2 for depth in context.random.integers(2, 3, 99)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})
@@ -173,8 +174,8 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
             ),
             (
                 matches("handler returned"),
-                "The handler returned a value that is not a response. Do not return the "
-                "exception: write raise rospy.ServiceException(...).",
+                "The handler returned a value that is not a response. Do not return the exception: "
+                "raise the exception.",
             ),
         ],
     )
@@ -200,8 +201,8 @@ def _unclear(named: list[str], side: str, reason: str) -> str:
         return "The message contains too many numbers. Write only the value of the negative side."
     if "{" in reason:
         return (
-            "The message contains braces. Write f before the string, so that Python writes the "
-            "values in place of the braces."
+            "The message contains braces. Write the letter f before the string, so that Python replaces "
+            "the names in braces with their values."
         )
     if len(named) > 1 and side in named:
         return (

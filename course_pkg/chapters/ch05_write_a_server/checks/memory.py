@@ -44,8 +44,8 @@ def another_client():
     return rospy.ServiceProxy("/count", Trigger)().message
 """
 NO_REFUSAL = (
-    "A request for the current position is not an error. Return success=False and the position in "
-    "the response."
+    "It is not an error if the switch already has the wanted position. Return success=False and the "
+    "position in the response."
 )
 STARTS_ON = "A new switch was not off. Set the position of the switch to False in `__init__`."
 SHARES = (
@@ -61,10 +61,10 @@ ELSEWHERE = {
         "The message is the position before the call. Change the position first, and then set the message."
     ),
 }
-COUNTED = "Return in the message how many calls have arrived since the last reset."
+COUNTED = "In the field `message`, return how many calls have arrived since the last reset."
 SUCCESS = "Return success=True."
-POSITION = "Return in the message the position after the call."
-MOVED = "Return in the field success whether the switch moved."
+POSITION = "In the field `message`, return the position after the call."
+MOVED = "In the field `success`, return whether the switch moved."
 
 
 @part(

@@ -157,7 +157,7 @@ def _in_a_random_order(context: CheckContext, program: str) -> None:
 
 
 _ENDS = [
-    (matches("^SystemExit"), "The function ends the program. Return None instead of the call of sys.exit."),
+    (matches("^SystemExit"), "The function ends the program. Return None, and do not call sys.exit."),
     (
         matches("."),
         "The function raised an exception for a wrong number of arguments. Return None in this case.",

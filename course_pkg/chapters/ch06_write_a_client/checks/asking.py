@@ -99,8 +99,8 @@ def the_geometry_client(context: CheckContext) -> None:
             expected=1,
             actual=len(server.requests) - 1,
             hints=(
-                "For the same sides, measure() returned an earlier response. Call the service in each "
-                "call of measure()."
+                "A second call of measure() with the same sides returned the response of the first "
+                "call. Call the service in each call of measure()."
             ),
         )
     context.fulfilled(CALLED)

@@ -55,7 +55,7 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
 
 
 def volumes(context: CheckContext, count: int) -> list[float]:
-    """Return volumes that are exact as a float32.
+    """Return volumes that a float32 stores exactly.
 
     The volumes are not whole numbers, so that the check notices rounding.
     """

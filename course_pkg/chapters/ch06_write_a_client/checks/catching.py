@@ -150,7 +150,7 @@ def _comes_out(context: CheckContext, wrong: Result, slip: str, hint: str = HIDD
 def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -> None:
     """Assert that a call of the service `name` returns None.
 
-    The function may wait up to 10 s for the service.
+    The student's function may wait up to 10 s for the service.
     """
     result = context.run(
         "volume_or_none",
@@ -161,7 +161,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
             (
                 matches("^ServiceException.*(responded with|transport)"),
                 "This failed call raised rospy.ServiceException, too. Return None for each "
-                "rospy.ServiceException, with any error message.",
+                "rospy.ServiceException, and ignore the text of its error message.",
             ),
             (
                 matches("^ServiceException"),

@@ -22,8 +22,8 @@ IMPORTED = 77  # An import has this exit status if it ends without sys.exit or o
 IMPORT = f"import sys; sys.argv = ['fits.py']; import fits; sys.exit({IMPORTED})"
 USAGE = "usage"
 ENDED_WITH_TEXT = (
-    "The exit status is 1, because sys.exit with a text always ends the program with 1. First "
-    "print the text, and then call sys.exit(3)."
+    "The exit status is 1, because sys.exit with a text always ends the program with exit status 1. "
+    "First print the text, and then call sys.exit(3)."
 )
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -44,7 +44,7 @@ class Case:
     # If `remapped` is True, getGeometry is remapped; otherwise, the program runs in another namespace.
     remapped: bool = False
     late: bool = False  # `late` is True if the service starts after the program.
-    ends: str = ""  # The goal `ends` is reached if this run and all earlier runs are right.
+    ends: str = ""  # If this run and all earlier runs are right, the student has fulfilled the goal `ends`.
 
 
 COMPARED = "Call getGeometry, and print whether the volume is at most LIMIT."
@@ -73,8 +73,8 @@ def does_it_fit(context: CheckContext) -> None:
         context,
         FILE,
         missing=(
-            "The shebang is missing, which names the program that runs the file. Begin line 1 "
-            "with #!/usr/bin/env python3."
+            "The shebang is missing: the first line has to name the program that runs the file. Begin "
+            "line 1 with #!/usr/bin/env python3."
         ),
     )
     folder = context.folder(files=[FILE])
@@ -297,8 +297,8 @@ def _about_calls(calls: int, case: Case, done: Finished, elsewhere: bool) -> str
         )
     if elsewhere and case.remapped:
         return (
-            "The program ignored the remapping of getGeometry. Call rospy.init_node before the "
-            "first use of a name."
+            "The program ignored the remapping of getGeometry. Call rospy.init_node before the program "
+            "uses the name of the service."
         )
     if elsewhere:
         return (

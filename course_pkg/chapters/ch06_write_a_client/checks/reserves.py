@@ -34,7 +34,7 @@ def ask_the_next_one(context: CheckContext) -> None:
 
     Finally, try only failing servers.
     """
-    # The name must not show the kind of the server.
+    # The name of a service must not show the kind of its server.
     names = {kind: f"/{context.random.word()}" for kind in KINDS}
     first, second, late, tardy = volumes(context, 4)
     primary = context.serve(names["first"], GEOMETRY, lambda _: {"volume": first})

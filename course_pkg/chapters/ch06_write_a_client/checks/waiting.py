@@ -6,7 +6,8 @@ from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops
 from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
-# A call for existing or missing services may take this many s; a busy machine connects within this time.
+# The function gets this time limit in s, for existing and for missing services; a busy machine connects
+# within it.
 SAME = 1.5
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
@@ -63,7 +64,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # This call has the same limit as the calls for services that do not exist.
+        ).returned(),  # This call has the same time limit as the calls for services that do not exist.
         hints=[
             (
                 False,
@@ -78,8 +79,8 @@ def is_anybody_there(context: CheckContext) -> None:
             expected="no request",
             actual=f"{len(server.requests)} request(s)",
             hint=(
-                "The function called the service, and this call started the server's work. "
-                "Wait for the service without a call."
+                "The function called the service, and this call started the server's work. Wait for the "
+                "service, but do not call the service."
             ),
         )
     _never_there(
@@ -91,7 +92,7 @@ def is_anybody_there(context: CheckContext) -> None:
         context,
         killed,
         "The service is still registered with the master, but its process has ended. Use "
-        "wait_for_service, which connects to the server itself.",
+        "wait_for_service, which also tries to connect to the server.",
     )
     context.fulfilled(THERE)
     Timer(1.3, context.serve, [later, GEOMETRY, lambda _: {}]).start()

@@ -1,6 +1,6 @@
 """The node `dying_server`.
 
-A call of its service `dying` ends the process without a response, like a crash.
+A call of the service `dying` ends the process without a response, like a crash.
 """
 
 from __future__ import annotations
@@ -23,4 +23,4 @@ def main() -> None:
 
 
 def _die(_: object) -> NoReturn:
-    os._exit(1)  # Without a clean-up, the registration at the master is not removed.
+    os._exit(1)  # The process ends without a clean-up, so the registration at the master remains.

@@ -35,8 +35,8 @@ EXPLAINED = "If the arguments are wrong, end with exit status 2."
     "07.5",
     points=3,
     goal=(
-        "Write client.py, which takes three numbers and prints the area and the volume. The "
-        "exit status is 0, or 1 without a response, or 2 for wrong arguments."
+        "Write client.py, which takes three numbers and prints the area and the volume. The exit status "
+        "is 0 after a response, 1 if there is no response, and 2 if the arguments are wrong."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
@@ -188,7 +188,7 @@ def _gives_up_without_a_server(context: CheckContext, package: BuiltPackage) -> 
         holds=done.status == 1 and "Traceback" not in done.err and done.took < WITHIN - 2,
         expected="an error message, and exit status 1",
         actual=_outcome(done),
-        hints="The client waits for the service without a limit. Call wait_for_service with a timeout."
+        hints="The client waits for the service without a time limit. Call wait_for_service with a timeout."
         if done.status is None
         else "wait_for_service raises rospy.ROSException after its timeout. Catch this exception, too."
         if "Traceback" in done.err

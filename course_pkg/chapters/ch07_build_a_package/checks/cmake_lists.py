@@ -35,18 +35,18 @@ WAITS = "Make the target my_geometry_programs depend on the generated type."
     points=3,
     goal=(
         "Complete CMakeLists.txt: generate the type my_geometry/geometry, and build the target "
-        "my_geometry_programs after this type. Pass message_runtime to the packages that use "
-        "this package."
+        "my_geometry_programs after this type. Declare that every package that uses this package also "
+        "needs message_runtime."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
-    goals=[GENERATED, WAITS, "Pass message_runtime to the packages that use this package."],
+    goals=[GENERATED, WAITS, "Declare that every package that uses this package also needs message_runtime."],
 )
 def the_build(context: CheckContext) -> None:
     """Build the package; then remove the generated classes, and build only the student's target."""
     text = context.source(f"file:{FILE}")
-    # With a random field, the CMakeLists.txt cannot contain the right MD5 sum.
+    # Because of a random field, the CMakeLists.txt cannot contain the right MD5 sum in advance.
     definition = f"float32 {context.random.word()}\n{GEOMETRY}"
     package = built(context, MY_GEOMETRY, examined=NAME, drawn={"srv/geometry.srv": definition})
     md5 = compile_service("my_geometry/geometry", definition).md5
@@ -126,8 +126,8 @@ def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: st
         holds=done.status == 0,
         expected="message_runtime in CATKIN_DEPENDS of catkin_package",
         actual="no message_runtime",
-        hints="In catkin_package, message_runtime is missing. Write CATKIN_DEPENDS, and then the "
-        "packages that are needed to run."
+        hints="In catkin_package, message_runtime is missing. Write CATKIN_DEPENDS, and then the packages "
+        "that your package needs at run time."
         if _has(text, "catkin_package")
         else "Without catkin_package, other packages cannot find this package. Add the command "
         "catkin_package.",

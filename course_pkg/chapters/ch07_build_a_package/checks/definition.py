@@ -62,8 +62,8 @@ def _examine(context: CheckContext, package: Package, file: str, name: str, text
         expected=asked.md5,
         actual=md5 or printed.rpartition("\n")[2],
         hints=(
-            "The MD5 sum is wrong, because constants are part of it, too. Write only the "
-            "fields of the exercise, without constants."
+            "The MD5 sum is wrong, because it depends on the constants, too. Write only the fields of "
+            "the exercise, without constants."
         ),
     )
 
@@ -104,7 +104,8 @@ def _hint(half: str, asked: MessageType, given: MessageType, other: MessageType)
     wrong = next((name for name in wanted if wanted[name] != found[name]), "")
     if wrong:
         return (
-            f"The field {wrong} has the type {found[wrong]}. Use the type of the exercise, {wanted[wrong]}."
+            f"The field {wrong} has the type {found[wrong]}. Copy the type from the exercise, "
+            f"{wanted[wrong]}."
         )
     return (
         "The order of the fields is wrong, and the MD5 sum depends on the order. Begin with "

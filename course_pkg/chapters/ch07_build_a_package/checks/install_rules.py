@@ -1,4 +1,4 @@
-"""07.6: the install rules; the installed files must work while the folder src is hidden."""
+"""07.6: the install rules. The installed files must work while the folder src is hidden."""
 
 from __future__ import annotations
 
@@ -95,8 +95,8 @@ def _why_not_there(text: str, script: str, places: list[str], *, there: bool) ->
     rules = [each.name for each in cmake_commands(text) if not each.is_comment]
     if there:
         return (
-            "The installed file is not executable, because install(FILES …) does not keep this "
-            "permission. Use catkin_install_python for scripts."
+            "The installed file is not executable, because install(FILES …) removes the permission to "
+            "execute a file. Use catkin_install_python for scripts."
         )
     if places:
         return (

@@ -39,7 +39,7 @@ START = f"""%%writefile {FILE}
   <exec_depend>std_msgs</exec_depend>
 </package>
 """
-COMPLETE = "List all packages that are needed, in a package.xml that catkin accepts."
+COMPLETE = "Write a package.xml that catkin accepts. List all packages that your package needs."
 
 
 @part(
@@ -94,8 +94,8 @@ def _about_dependency(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if elsewhere:
         return (
-            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add a line "
-            f"with {tag} for this package."
+            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add a line with "
+            f"{tag} for {package}."
         )
     if package == "message_runtime":
         return "The name of a package is missing. Look for this name in the warning of catkin_create_pkg."

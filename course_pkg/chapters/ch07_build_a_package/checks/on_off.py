@@ -86,7 +86,7 @@ def the_on_off_server(context: CheckContext) -> None:
                         lambda text: text in ("ON", "OFF"),
                         "The two states are exchanged. Return OFF for 0, and ON for 1.",
                     ),
-                    (ANYTHING, "The exercise does not have this state. Return only ON or OFF."),
+                    (ANYTHING, "This state is neither ON nor OFF. Return only ON or OFF."),
                 ],
             )
         context.fulfilled(ANSWERED)
@@ -188,8 +188,8 @@ def _why_not_sent(count: int, done: Finished) -> str:
         return f"{fault.problem} {fault.remedy}" if fault else own_line(CLIENT, printed)
     if done.status is None:
         return (
-            "The client does not end. Check the name of the service in wait_for_service, and "
-            "the end of the loop."
+            "The client does not end. Check the name of the service in wait_for_service, and check that "
+            "the loop ends."
         )
     if count == 1:
         return (

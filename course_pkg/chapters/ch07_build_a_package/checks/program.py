@@ -128,7 +128,7 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
 def _never_ends(done: Finished) -> bool:
     """Return whether an import that reached its time limit waits for ever or is in an endless loop.
 
-    A slow import on a busy machine is different: most of the time, it waits for the CPU.
+    A slow import on a busy machine is different, because it waits for the CPU most of the time.
     """
     return done.ran + done.queued < done.took / 2 or done.ran > MUCH
 

@@ -1,6 +1,6 @@
 """07.7: a README with commands.
 
-The commands tell another person how to build and start the server, and how to call the service.
+With these commands, another person can build the package, start the server, and call the service.
 """
 
 from __future__ import annotations
@@ -108,6 +108,6 @@ def _place_of_call(context: CheckContext, commands: str) -> int:
         hints="The call of the service is not complete. Write the name /getGeometry, and one number "
         "for each of the three sides."
         if others
-        else "The call of the service is missing. Write the command with rosservice from step 8.",
+        else "The call of the service is missing. Write the rosservice command from step 8.",
     )
     return found.start() if found else 0

@@ -14,13 +14,13 @@ def is_message(function, *args):
 ERRORS = [
     (
         matches("'str' object has no attribute '_request_class'"),
-        "Your function passed the name of the type, which is a string. Get the class with "
+        "Your function used the name of the type, which is a string, as the class. Get the class with "
         "get_service_class_by_name.",
     ),
     (
         matches("must be a Message"),
-        "Your function passed the class of the service type. Create an object of its "
-        "`_request_class`, and fill this object.",
+        "Your function passed an object of the wrong class to fill_message_args. Create an object of the "
+        "`_request_class` of the service type, and pass this object.",
     ),
     (
         matches(r"type object '\w+' has no attribute '_request_class'"),
@@ -29,12 +29,13 @@ ERRORS = [
     ),
     (
         matches(r"args are\(None,\)"),
-        "Your function sent the return value of fill_message_args, which is None. Send the "
-        "request that was filled.",
+        "Your function sent the return value of fill_message_args, which is None. Send the request that "
+        "you passed to fill_message_args.",
     ),
     (
         matches("No field name"),
-        "This service had another type before. Get the class of its type in each call, and don't store it.",
+        "This service had another type before. Do not store the class of the type: get the class again "
+        "in each call.",
     ),
     (matches("KeyError: 0"), "The second argument of fill_message_args has to be a list. Write [fields]."),
     (
@@ -48,8 +49,8 @@ FLAT = (
     "genpy.message.fill_message_args(request, [fields])."
 )
 NESTED = (
-    "The field `camera_info` needs a message, but it got a dict. Use "
-    "genpy.message.fill_message_args, which can read inner dicts."
+    "The field `camera_info` needs a message, but it got a dict. Use genpy.message.fill_message_args, "
+    "which also accepts a dict inside a dict."
 )
 CALLED = "Call services of three types, and return the fields of the response."
 
@@ -86,8 +87,8 @@ def call_of_any_type(context: CheckContext) -> None:
             ),
             (
                 ANYTHING,
-                "The function ignored a field name that the type does not have. Do not catch "
-                "the exception for this name.",
+                "The function ignored a field name that the type does not have. Do not catch the "
+                "exception that genpy raises for an unknown name.",
             ),
         ],
     )

@@ -44,27 +44,35 @@ ERRORS: Hints = [
 OTHER_RESULTS: Hints = [
     (
         "another type",
-        'The names of the types are equal, but your function reported "another type". Compare '
-        "the type with the whole name of `kind`, package/Type.",
+        'The names of the types are equal, but your function reported "another type". Compare the type '
+        "in the headers with the whole name of the type `kind`: package/Type.",
     ),
     (
         "another definition",
-        'The MD5 sums are equal, but your function reported "another definition". Compare the '
-        "MD5 sum with the MD5 sum of the service type in `kind`.",
+        'The MD5 sums are equal, but your function reported "another definition". Compare the MD5 sum in '
+        "the headers with the MD5 sum of the type `kind`.",
     ),
 ]
 WHY = {
-    "not registered": "The master has no address for this service, so get_service_uri returns None.",
-    "server is gone": "The master has an address for this service, but no server answers there. Test whether "
-    "get_service_headers raises an exception.",
+    "not registered": (
+        "The master has no address for this service, so get_service_uri returns None. Test for None "
+        "before you call get_service_headers."
+    ),
+    "server is gone": (
+        "The master has an address for this service, but no server responds at this address. Test "
+        "whether get_service_headers raises an exception."
+    ),
     "another type": (
-        "The names of the types are different, although sometimes only the package is "
-        "different. Compare the names before you compare the MD5 sums."
+        "The names of the types are different, perhaps only in the package. Compare the whole names "
+        "before you compare the MD5 sums."
     ),
     "another definition": (
         "The names of the types are equal, but the MD5 sums are different. Compare the MD5 sums, too."
     ),
-    "ok": "The type and the MD5 sum are equal, so a client can connect. Report no problem in this case.",
+    "ok": (
+        "The server and `kind` have the same type and the same MD5 sum, so a client can connect. Report "
+        "no problem in this case."
+    ),
 }
 
 

@@ -18,7 +18,7 @@ class ExampleCall:
     answer: Fields
 
     def given(self, received: Value) -> Value:
-        """Return only the fields of a received request that the call has set, also in nested messages."""
+        """Return the fields of a received request that the call has set, even in nested messages."""
         return _given(self.fields, received)
 
     def mixed_up(self, received: Fields) -> bool:

@@ -82,8 +82,8 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
         expected=True,
         actual=response.success,
         hints=(
-            "The lamp has the wanted state, but success is not True. Compare the state with ON for "
-            "True, and with OFF for False."
+            "The lamp has the wanted state, but success is not True. Compare the state with ON if the "
+            "request contains True, and with OFF if it contains False."
         ),
     )
     context.expect(
@@ -112,7 +112,7 @@ def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
         "the lamp has another state: the message is this state",
         expected=state,
         actual=response.message,
-        hints="The message is the wanted state. Return the state in the lamp's response instead.",
+        hints="The message is the wanted state. Set the message to the state in the lamp's response instead.",
     )
     _was_called_once(context, lamp)
     lamp.leave()

@@ -44,7 +44,7 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
     goal="Return a list with the names of all services of a type. Leave out services whose server has ended.",
     needs=["services_of"],
     deadline=25.0,
-    goals=[FOUND, "Leave out a service whose server has ended, and find a new service."],
+    goals=[FOUND, "Leave out services whose server has ended, and include services that started later."],
 )
 def find_by_type(context: CheckContext) -> None:
     """Serve two types and types with similar names.
@@ -100,7 +100,7 @@ def find_by_type(context: CheckContext) -> None:
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], ended: str = "") -> None:
     """Assert that the function returns all services of type `kind`; `mine` contains the check's services.
 
-    `incomplete` is the hint if a service is missing; the service `ended` was there before.
+    `incomplete` is the hint for a missing service; the service `ended` existed earlier.
     """
     names = context.run("services_of", kind, hints=ERRORS).returned()
     _is_a_list_of_names(context, names)
@@ -152,7 +152,7 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
 
 
 def _why_wrong(types: set[str | None], kind: str) -> str:
-    """Return the hint for wrong names; `types` contains the types of their services.
+    """Return the hint for wrong names; `types` contains the types of the services with these names.
 
     None means that the service does not exist, and "" means that the server is dead.
     """

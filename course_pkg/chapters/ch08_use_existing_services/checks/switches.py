@@ -51,8 +51,8 @@ CASES = (
         wrong_results=[
             (
                 "moved",
-                "The switch responded with success=False and is in the wanted position, so it "
-                'was there before the call. Return "was there".',
+                "The switch responded with success=False and is in the wanted position, so it was in "
+                'this position before the call. Return "was there".',
             ),
             (
                 "failed",
@@ -98,8 +98,8 @@ CASES = (
         wrong_results=[
             (
                 "was there",
-                "The switch responded with success=True and is in the wanted position. Use the "
-                "field `success`, not the position before the call.",
+                "The switch responded with success=True and is in the wanted position. To decide whether "
+                "the switch has moved, use the field `success`, not the position before the call.",
             ),
         ],
     ),
@@ -115,7 +115,7 @@ class FakeSwitch:
     message: str
 
     def handle_set(self, request: Message) -> Fields:
-        """Move and respond in the way that the case describes."""
+        """Move or do not move, and return the response that the case describes."""
         self.is_open = bool(request.data) if self.case.obeys else self.is_open
         return {"success": self.case.success, "message": self.message}
 
@@ -132,7 +132,7 @@ class FakeSwitch:
     deadline=25.0,
 )
 def move_and_verify(context: CheckContext) -> None:
-    """Try four kinds of switches, and move each of them in both directions."""
+    """Try four kinds of switches, and use each of them to move in both directions."""
     for case in CASES:
         for to_open in context.random.shuffled([True, False]):
             _move(context, case, to_open)
@@ -153,7 +153,8 @@ def _wrong_outcome(case: Case, switch: FakeSwitch) -> Hints:
         (None, NO_RETURN),
         (
             (lambda actual: isinstance(actual, bool)),
-            "Your function returned a bool, but there are three results. Return one of the three strings.",
+            "Your function returned a bool, but there are three possible results. Return one of the "
+            "three strings.",
         ),
         (
             (lambda actual: switch.message in actual),

@@ -1,7 +1,7 @@
-"""The node `add_two_floats_client`: calls `add_two_ints` with another definition, and the server refuses it.
+"""The node `add_two_floats_client`: the server of `add_two_ints` refuses it because of its definition.
 
 The client's definition has the same name, AddTwoInts, but its fields have the type float64 instead of int64.
-In practice, this happens if a definition was changed, and only the client was built again. When a client
+This happens in practice if a definition was changed, and only the client was built again. When a client
 connects, the server compares the MD5 sums.
 """
 

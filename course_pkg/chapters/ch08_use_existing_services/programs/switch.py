@@ -1,4 +1,4 @@
-"""The node `switch`: a client can open and close the switch, and read its position.
+"""The node `switch`: clients can open and close a switch, and read its position.
 
 The services are `~set` (std_srvs/SetBool: True opens and False closes the switch), `~toggle` and `~report`
 (std_srvs/Trigger), and `~reset` (std_srvs/Empty). The switch is closed at the start.

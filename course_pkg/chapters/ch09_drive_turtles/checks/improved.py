@@ -203,7 +203,8 @@ def _starts_and_stops(
         stream.becomes(
             STANDING,
             "data=False stops the turtle: the program publishes velocities of 0",
-            "A call of /toggle_forward started the turtle again. In its handler, change only the direction.",
+            "A call of /toggle_forward started the turtle again. In the handler of /toggle_forward, "
+            "change only the direction.",
         )
         _says(context, switch, moving=False, already=True)
         speed = context.random.number(2.0, 9.0)

@@ -20,7 +20,7 @@ from course_pkg.ros import Snapshot
 
 DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
 ALWAYS = {"/turtlesim", f"/{DRIVER}"}
-READY = 20.0  # READY is the maximum time in s until a launch file has started its nodes on a busy machine.
+READY = 20.0  # On a busy machine, a launch file must start its nodes within this time in s.
 # The script starts the course's program instead of the student's program from an earlier exercise.
 STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'
 
@@ -117,8 +117,8 @@ _UNREADABLE: Hints = [
     (
         ANYTHING,
         (
-            "roslaunch cannot read the file. The message above names the line or the tag with the "
-            "error: correct this place."
+            "roslaunch cannot read the file. The message above names the line or the tag with the error: "
+            "correct this line or tag."
         ),
     ),
 ]

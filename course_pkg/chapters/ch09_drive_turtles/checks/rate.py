@@ -13,9 +13,11 @@ from course_pkg.checking.peers.service_calls import Service
 PROGRAM = script("pubvel_toggle_plus")
 KIND = "course_pkg/ChangeRate"
 AT_FIRST = 2.0  # The first rate is in messages per second.
-# The check sets this rate (messages per second) at the end, because the next message then comes after 1000 s.
+# At the end, the check sets this rate (messages per second); the next message then comes after 1000 s.
 TINY = 0.001
-TURNS_BACK = "A call of /change_rate also changed the direction. In its handler, change only the rate."
+TURNS_BACK = (
+    "A call of /change_rate also changed the direction. In the handler of /change_rate, change only the rate."
+)
 ALLOWED = "The node refused an allowed rate. Accept every number above 0 and up to 100, such as 2.5."
 REFUSALS = [(REFUSED_BY_HANDLER, ALLOWED), (matches("responded with an error: b''"), ALLOWED)]
 
@@ -175,7 +177,9 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
-    """Assert that the node deliberately refuses a request.
+    """Assert that the node refuses a request on purpose.
+
+    With rospy, the node does this with a ServiceException.
 
     With rospy, the node does this with a ServiceException.
     """

@@ -96,7 +96,7 @@ def _served_late(context: CheckContext, world: World, running: Running) -> tuple
 
 
 def _prints_the_name(context: CheckContext, world: World) -> None:
-    """Respond with a name other than the requested one."""
+    """Respond with a name that differs from the requested name."""
     given = context.random.word()
     server = context.serve(world.name("spawn"), SPAWN, lambda _: {"name": given})
     with world.run() as running:

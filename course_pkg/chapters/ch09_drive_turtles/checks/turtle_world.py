@@ -71,7 +71,7 @@ class World:
     def appears(self, relative: str, within: float = STARTING) -> bool:
         """Wait at most `within` s until the service `relative` is registered.
 
-        Return whether it is registered.
+        Return whether the service is registered.
         """
         wanted = self.name(relative)
         return bool(wait_until(lambda: self._context.look().service(wanted), within, POLL))
@@ -135,20 +135,23 @@ class World:
 
 
 def outcome(done: Finished) -> str:
-    """Return how a program ended; the text contains the last line of its output."""
+    """Return a text that says how a program ended.
+
+    The text contains the last line of the program's output.
+    """
     ending = "a program that is still running" if done.status is None else f"exit status {done.status}"
     last = (done.out + done.err).strip().rpartition("\n")[2]
     return f"{ending}, and {last}" if last else f"{ending}, and no output"
 
 
 def why_it_ended(done: Finished) -> str:
-    """Return the hint for a program that has ended although it has to continue."""
+    """Return the hint for a program that has ended, but must continue to run."""
     if fault := explain(done.out + done.err):
         return f"{fault.problem} {fault.remedy}"
     if "rror" in done.out + done.err:
         return (
-            "The program stopped with an error. The last line of the output above describes the "
-            "error, and the lines before it show its place in your code."
+            "The program stopped with an error. The last line of the output above describes the error, "
+            "and the lines before it show where this error occurred in your code."
         )
     return (
         "The program reached its last line and ended. Publish in a loop that runs until the node is "

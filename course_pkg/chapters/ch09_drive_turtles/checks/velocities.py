@@ -18,12 +18,14 @@ KEEP_COMING = "the program publishes velocities all the time"
 # SILENCE is the maximum time in s without a message; during the check, the programs publish at least twice
 # per second.
 SILENCE = 4.0
-FLYING = 0.05  # Within this time in s after a response, a message from before the call may still arrive.
+# Within this time in s after a response, a message that was sent before the call may still arrive.
+FLYING = 0.05
 SILENT = (
-    "No velocity arrived for 4 s. In each round of the loop, publish a message, even if the "
-    "velocity is 0. Do not add other pauses to the loop."
+    "No velocity arrived for 4 s. Publish a message in each round of the loop, even if the velocity is "
+    "0, and do not add a second pause to the loop."
 )
-NEAR = 0.25  # A measured rate may differ by this fraction, because the machine may be busy.
+# A measured rate may differ from the right rate by this fraction, because the machine may be busy.
+NEAR = 0.25
 
 
 class Stream:
@@ -67,7 +69,7 @@ class Stream:
     def becomes(self, wanted: tuple[float, float], assertion: str, hints: Hints) -> None:
         """Assert that the velocity is `wanted` (m/s, rad/s) from now on.
 
-        Earlier messages are left out.
+        The assertion ignores messages that arrived earlier.
         """
         now = time.monotonic()
         arrival = self.next(1)[-1]
@@ -91,13 +93,13 @@ class Stream:
             holds=not others,
             expected=f"only the velocities {' and '.join(map(str, wanted))}",
             actual=others[0] if others else "no other velocity",
-            hints="A message contained another velocity. Publish in the loop, and not in the handler.",
+            hints="A message contained a wrong velocity. Publish only in the loop, not in the handler.",
         )
 
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
         """Assert that `wanted` messages per second arrive.
 
-        The first messages may still have the old rate.
+        The first messages may still arrive at the old rate.
         """
         count = max(2, int(wanted))
         measured = rate(self.next(count + 2)[1:])

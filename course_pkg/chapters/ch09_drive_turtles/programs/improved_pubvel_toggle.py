@@ -1,4 +1,4 @@
-"""The node `improved_pubvel_toggle`: it also serves `change_speed` and `start_stop`."""
+"""The node `improved_pubvel_toggle`: `pubvel_toggle_plus` with services for the speed and for stopping."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""10.3: a handler that waits until another handler has changed something."""
+"""10.3: a handler that waits for a change that another handler makes."""
 
 from __future__ import annotations
 
@@ -50,8 +50,8 @@ checked_basket = CheckedBasket()
 """
 )
 FOREVER = (
-    "The handler of /take waits longer than the limit. The time limit starts at the beginning of "
-    "the call, so pass only the remaining time to `wait` or `wait_for`."
+    "The handler of /take waits longer than the time limit. This limit starts at the beginning of the "
+    "call, so pass only the remaining time to `wait` or `wait_for`."
 )
 HELD = (
     "/put did not respond while a call of /take was waiting. Use the method `wait` or `wait_for` of "
@@ -98,14 +98,14 @@ ERRORS = [
     "10.3",
     points=3,
     goal=(
-        "Write a basket with /put and /take. A call of /take waits for an item, but not longer than "
-        "the limit."
+        "Write a basket with /put and /take. A call of /take waits for an item, but not longer than the "
+        "time limit."
     ),
     needs=["Basket"],
     deadline=45.0,
 )
 def wait_for_another_call(context: CheckContext) -> None:
-    """Take from a filled and an empty basket; put an item into the basket while a client is waiting.
+    """Take an item from a filled basket and from an empty basket; put an item into it while a client waits.
 
     At the end, let many clients call both services at the same time.
     """

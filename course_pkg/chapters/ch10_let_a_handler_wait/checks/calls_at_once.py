@@ -149,7 +149,7 @@ ERRORS = [
 def calls_at_once(context: CheckContext) -> None:
     """Respond only after all clients have called; use two different numbers of clients.
 
-    The calls of the first round are longer, so that a join() with a short limit ends before a call.
+    The calls of the first round take longer, so that a join() with a short timeout ends before a call ends.
     """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
@@ -237,8 +237,9 @@ def _returned(context: CheckContext, words: list[str], found: Json) -> None:
             (None, NO_RETURN),
             (
                 lambda actual: isinstance(actual, list) and sorted(map(str, actual)) == sorted(set(words)),
-                "Two clients got the same message, but it is only once in the result. Append each message "
-                "to a list, because a set and the keys of a dict contain each text only once.",
+                "Two clients got the same message, but the result contains this message only once. "
+                "Append each message to a list, because a set and the keys of a dict contain each text "
+                "only once.",
             ),
             (
                 lambda actual: isinstance(actual, list) and len(actual) < len(words),
@@ -261,8 +262,8 @@ def _returned(context: CheckContext, words: list[str], found: Json) -> None:
             (
                 ANYTHING,
                 (
-                    "The list does not contain the right messages. Return a list with the message of each "
-                    "response once."
+                    "The list does not contain the right messages. Return a list that contains the "
+                    "message of each response exactly once."
                 ),
             ),
         ],

@@ -21,13 +21,14 @@ LONG = 2.0
 LATER = 0.6  # A customer comes after this many s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this many s, the customers change although no client waits.
-SELDOM = 8  # A handler with fewer calls of watch.next() in LONG s, but no real wait, is too slow.
+# A handler that makes fewer calls of watch.next() in LONG s, but does not really wait, is too slow.
+SELDOM = 8
 LOOKS = 3000  # A loop without a pause makes many more calls of watch.next() in LONG s than this.
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"
 AT_ONCE = (
-    "A customer was there before the call, but the handler waited. Check first, and wait only if no "
-    "customer is there: `wait_for` does both."
+    "A customer was there before the call, but the handler waited. First check for a customer, and wait "
+    "only if none is there: `wait_for` does both."
 )
 BUSY = (
     "Your loop has no pause, so it calls watch.next() thousands of times per second. Use "
@@ -35,15 +36,15 @@ BUSY = (
     "notification."
 )
 CHANGED = (
-    "The handler returned before the time was over. A change can also mean that a customer has "
-    "left: check again after each change, or use `wait_for`."
+    "The handler returned before the time was over. A change can also mean that a customer has left: "
+    "check for a customer again after each change, or use `wait_for`."
 )
 FOREVER = (
     "The handler waits longer than request.patience seconds. Use request.patience as the timeout of the wait."
 )
 RESTARTED = (
-    "The time limit started again from the beginning when the customers changed. Calculate the end "
-    "of the wait only once, or use `wait_for`."
+    "The time limit started again from the beginning when the customers changed. Calculate before the "
+    "loop at which time the wait ends, or use `wait_for`."
 )
 LEFT = (
     "The handler called watch.next() twice, but the customer left before the second call. Use the "
@@ -90,13 +91,18 @@ ERRORS = [
         ),
     ),
 ]
-FOUND = "Respond as soon as a customer is there, and after request.patience at the latest."
+FOUND = (
+    "Respond as soon as a customer is there. If no customer comes, respond after request.patience seconds."
+)
 
 
 @part(
     "10.2",
     points=3,
-    goal="Respond as soon as a customer is there, and after request.patience seconds at the latest.",
+    goal=(
+        "Respond as soon as a customer is there. If no customer comes, respond after request.patience "
+        "seconds."
+    ),
     needs=["handle_detect"],
     deadline=45.0,
     goals={FOUND: 2, "Respond to several clients at the same time.": 1},
@@ -315,7 +321,10 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
 
 
 def _at_once(context: CheckContext, assertion: str, took: float, after: float = 0.0, hint: str = "") -> None:
-    """Assert that the response came at once when the customer came, `after` s after the request."""
+    """Assert that the response came immediately after the customer.
+
+    The customer came `after` s after the request.
+    """
     context.require(
         assertion,
         holds=took < after + SLACK,

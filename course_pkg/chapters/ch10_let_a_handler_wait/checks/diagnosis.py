@@ -21,16 +21,18 @@ DECISIVE = {
     ),
     "B": "Each of the two threads holds the lock of one shelf and waits for the lock of the other shelf.",
     "C": "The clients have ended, but the number of waiting threads still grows.",
-    "D": "No thread waits, and no call fails. Only the numbers are wrong.",
+    "D": "No thread waits, and no call fails. Only the returned numbers are wrong.",
     "E": "The item came after two seconds, but the handler returned only when its time limit was over.",
     "F": "Only one item came, but several threads woke up, and each of them took an item.",
 }
 ENTRIES = {
     "lock across a call": (
-        'With the cause "lock across a call", threads wait in two services. One of these services '
-        "calls the other."
+        'With the cause "lock across a call", threads wait in two services. One of the two services '
+        "calls the other service."
     ),
-    "lock order": 'The cause "lock order" needs two threads and two locks.',
+    "lock order": (
+        'The cause "lock order" means that two threads acquire the same two locks in opposite orders.'
+    ),
     "no limit": 'The cause "no limit" means that a wait never ends, even after the client has ended.',
     "race": "In a race, no thread waits, but the data is wrong.",
     "no notify": 'The cause "no notify" means that a thread sleeps although an item is there.',

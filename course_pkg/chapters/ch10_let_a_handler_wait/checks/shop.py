@@ -24,15 +24,15 @@ from course_pkg.ros.node.proxy import BoundedProxy
 
 CHARGE = "course_pkg/Charge"
 MEETING = 2.0  # A call to the till waits at most this many s for another call.
-ABSENT = 4.0  # Without a till, a sale may take this many s on a busy machine.
+ABSENT = 4.0  # If no till runs, a sale may take this many s on a busy machine.
 CALL_BACK = 2.0  # After this many s, the till continues without a response from the shop.
 LOCKED = (
-    "Your handler holds the lock while it calls the till, so /left gets no response. Release the "
-    "lock before you call the till."
+    "Your handler holds the lock while it calls the till, so /left cannot respond. Release the lock "
+    "before you call the till's service."
 )
 SERIAL = (
-    "The till never had two calls at the same time, because your handler holds a lock during the "
-    "call. Release the lock before you call the till."
+    "The till never had two calls at the same time, because your handler holds a lock during the call. "
+    "Release the lock before you call the till's service."
 )
 STUCK = (
     "A client waits forever, because a lock was not released. Use `with`, which releases the lock "
@@ -53,8 +53,8 @@ NOT_CAUGHT = (
 )
 
 NO_TILL = (
-    "The till has no server, but the handler waits for this service without a limit. Call the till "
-    "immediately: without a server, the call raises rospy.ServiceException."
+    "No server offers the till's service, but the handler waits for this service without a time limit. "
+    "Call the service immediately: without a server, the call raises rospy.ServiceException."
 )
 
 
@@ -75,7 +75,7 @@ class Till:
         self._changed = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next call wait until there is another call, but only for a limited time."""
+        """Let the next call wait for a second call, but only for a limited time."""
         self._meets = True
 
     def __call__(self, request: Message) -> Act:
@@ -114,16 +114,16 @@ class Till:
             return f"{type(error).__name__}"
 
 
-SOLD = "Sell one thing, and call the till without the lock."
-PUT_BACK = "Put the thing back if the till fails."
+SOLD = "Sell one thing, and do not hold the lock while you call the till's service."
+PUT_BACK = "Put the thing back if the call of the till's service fails."
 
 
 @part(
     "10.5",
     points=3,
     goal=(
-        "Sell a thing for money. Reserve the thing while you hold the lock, and call the till without "
-        "the lock. Put the thing back if the till fails."
+        "Sell a thing for money. Hold the lock while you take the thing from the shelf, but not while "
+        "you call the till's service. Put the thing back if the call of the till's service fails."
     ),
     needs=["Shop"],
     deadline=60.0,
@@ -188,8 +188,8 @@ def _has_no_till(context: CheckContext, cents: int) -> None:
             expected="success=False and a message, because the till does not run",
             actual=response,
             hints=(
-                "The till has no server, so the client did not pay. Return success=False and the "
-                "text of the error."
+                "No server offers the till's service, so the client did not pay. Return success=False, "
+                "and the text of the error as the message."
             ),
         )
         context.expect(
@@ -197,8 +197,8 @@ def _has_no_till(context: CheckContext, cents: int) -> None:
             expected=str(count),
             actual=context.service(left, TRIGGER, hints=ERRORS, timeout=ONE)().message,
             hints=(
-                "The till has no server, so the thing is not sold. Put the thing back on the shelf "
-                "while you hold the lock."
+                "No server offers the till's service, so the thing is not sold. Put the thing back on "
+                "the shelf while you hold the lock."
             ),
         )
     finally:
@@ -361,8 +361,8 @@ def _sells_to_fifty(
         expected=count - sold,
         actual=shelf.things,
         hints=(
-            "The number on the shelf is different from the number that /left returns. Use the "
-            "methods read() and write(count) of the shelf, and do not replace them."
+            "The number on the shelf is different from the number that /left returns. Use the methods "
+            "read() and write(count) of the shelf, and do not replace these methods."
         ),
     )
 

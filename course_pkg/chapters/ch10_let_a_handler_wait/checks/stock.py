@@ -41,15 +41,15 @@ TWICE = (
     "Two handlers read the same number, so one sale was lost. In all calls, hold the same lock "
     "while you read, decide and write."
 )
-EMPTIED = 'Sell the things to one client after the other, and then respond with "sold out".'
+EMPTIED = 'Sell the things to one client after the other. When the shelf is empty, respond with "sold out".'
 
 
 @part(
     "10.4",
     points=2,
     goal=(
-        "Sell the things on a shelf to 50 clients at the same time. Sell each thing only once, and "
-        'then respond with "sold out".'
+        "Sell the things on a shelf to 50 clients at the same time. Sell each thing only once. When the "
+        'shelf is empty, respond with "sold out".'
     ),
     needs=["Stock"],
     deadline=60.0,
@@ -182,7 +182,7 @@ def _takes_all(context: CheckContext, take: Service, shelf: CheckedShelf, count:
         expected=0,
         actual=shelf.things,
         hints=(
-            "The number on the shelf is wrong. After each sale, write the number of things that are "
-            "left to the shelf."
+            "The number on the shelf is wrong. After each sale, call write() of the shelf with the "
+            "number of remaining things."
         ),
     )

@@ -52,7 +52,7 @@ class Deadlock(Exception):
 
 
 class CheckedLock:
-    """A lock; `acquire` returns when another thread has acquired the second lock, or after a short time.
+    """A lock; `acquire` returns when another thread has acquired the other lock, or after a short time.
 
     Therefore, two threads that acquire the two locks in opposite order always block each other. A thread that
     waits too long gets an error, so that all threads end.
@@ -138,7 +138,7 @@ class CheckedShelf:
 class CheckedPair:
     """Two shelves.
 
-    The object records how many locks a thread held when the thread read or changed a count.
+    Two shelves with locks; the object records how many locks a thread held when it read or changed a count.
     """
 
     def __init__(self, numbers: Sequence[int], counts: Sequence[int], *, crowd: bool = False) -> None:
@@ -214,8 +214,8 @@ ERRORS = [
     (
         matches("TimesUp|in vain"),
         (
-            "The function did not return. If you try again in a loop, release the first lock before "
-            "each new try."
+            "The function did not return. If your code tries in a loop to acquire the second lock, "
+            "release the first lock before each repetition."
         ),
     ),
     (
@@ -231,8 +231,8 @@ CROSSED = (
     "Acquire the locks in the same order in every call, for example by the shelves' numbers."
 )
 UNLOCKED = (
-    "The function changed a count while it did not hold both locks, so another thread can read a "
-    "wrong total. Hold both locks while you read and write."
+    "The function changed a count while it did not hold both locks, so another thread can read a wrong "
+    "total. Hold both locks while you read and write the counts."
 )
 
 UNLOCKED_READ = (

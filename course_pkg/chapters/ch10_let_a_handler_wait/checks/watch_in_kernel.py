@@ -1,4 +1,4 @@
-"""Code that runs in the kernel. A Watch records how a handler uses it, and a shop serves the handler."""
+"""Code for the kernel. A Watch records the calls of a handler, and a shop serves the handler."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An object of the student's client class in the kernel, and functions that disturb its connection."""
+"""An object of the student's client class in the kernel, and functions that break its connection."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Client:
 
 
 class ResettingPort:
-    """A program at the old address of a server.
+    """A program that listens at the old address of a server.
 
     The program is not a ROS server, and resets each connection.
     """

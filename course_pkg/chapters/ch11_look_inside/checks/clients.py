@@ -13,8 +13,8 @@ ERRORS = [
     (
         matches("TransportTerminated|TransportInitError|AttributeError"),
         (
-            "A broken connection can raise three kinds of errors, and your method does not catch this "
-            "kind. Catch all three kinds, create a new proxy, and call the service once more."
+            "A broken connection can raise three kinds of errors, but your method does not catch all of "
+            "them. Catch all three kinds, create a new proxy, and call the service once more."
         ),
     ),
     (
@@ -31,10 +31,14 @@ AGAIN = (
     "Your method called the service again and again. After an error, call the service only once "
     "more, and raise the error of the second call."
 )
-WAITED = "Without a server, your method did not return. Call only once more, and do not wait for the service."
+WAITED = (
+    "Your method did not return after the server had ended. Call the service only once more, and do not "
+    "wait for the service."
+)
 NOT_MEASURED = "The second call also failed, so there is no response. Raise the error of the second call."
 REFUSED = (
-    "The server refused the call and sent an error message. Raise this error.",
+    "The server refused the call, but your method did not raise the proxy's exception. Do not catch this "
+    "exception, or raise it again.",
     (
         "The server refused the call, but the connection works. Call the service again only if the "
         "connection broke."
@@ -92,7 +96,7 @@ def persistent_client(context: CheckContext) -> None:
 
 
 def _next_act(acts: list[Act]) -> Act:
-    """Return the next act of the script. A refusal is repeated until the check removes it from the script.
+    """Return the next act of the list. A refusal is repeated until the check removes it from the list.
 
     After the last act, close the connection.
     """
@@ -118,13 +122,16 @@ def _measures(context: CheckContext, client: Client, assertion: str, volume: Jso
 
 
 def _sends_the_sides(context: CheckContext, client: Client, server: ScriptedServer, assertion: str) -> None:
-    """Assert that the last request contains the sides that `measure` got."""
+    """Assert that the last request contains the sides with which `measure` was called."""
     context.expect(
         assertion,
         expected=client.sides,
         actual=[server.requests[-1][side] for side in ("length", "width", "height")],
         near=1e-6,
-        hints="The request contains other sides. Pass length, width and height on in this order.",
+        hints=(
+            "The sides in the request are wrong. Pass the arguments length, width and height to the call "
+            "in this order."
+        ),
     )
 
 
@@ -169,9 +176,9 @@ def _reports_a_refusal(
 
 
 def _breaks_twice(context: CheckContext, client: Client, server: ScriptedServer) -> None:
-    """Close the first and the new connection.
+    """Close the client's first connection, and then its new connection.
 
-    The client must send another request, and then raise an error.
+    The client must send the request again, and then raise an error.
     """
     before = len(server.requests)
     result = client.measure(ERRORS)
@@ -223,8 +230,8 @@ MOVED = [
     (
         matches("refused|OSError|Connection"),
         (
-            "No server is at the old address any more. Catch the OSError, look up the address again, "
-            "and call `ask()` once more."
+            "No server responds at the old address any more. Catch the OSError, look up the address "
+            "again, and call `ask()` once more."
         ),
     )
 ]
@@ -247,8 +254,8 @@ SAID_NO = (
         "address again only after an OSError."
     ),
     (
-        "Your method called `ask()` twice, although a server was at the address. Call `ask()` again "
-        "only after an OSError."
+        "Your method called `ask()` twice, although a server responded at the address. Call `ask()` "
+        "again only after an OSError."
     ),
 )
 
@@ -283,7 +290,9 @@ def client_with_a_known_address(context: CheckContext) -> None:
     moved = context.serve(name, GEOMETRY, lambda _: answers[2])
     _measures_both(context, client, "a server that moved is found again", numbers[2], MOVED)
     context.absent(name)
-    kept = [(ANYTHING, "Also store the address of the second lookup.")]
+    kept = [
+        (ANYTHING, "Store every address that you look up: the second address replaces the first address.")
+    ]
     _measures_both(context, client, "the new address is also stored", numbers[2], kept)
     _finds_it_after_a_reset(context, name, client, moved, numbers[0])
 

@@ -44,14 +44,20 @@ ERRORS = [
 WITHIN = 3.0  # WITHIN is the time limit in s for one call.
 # Wait this many s before sending the next part to a client that peeks at the bytes without reading them.
 PEEKING = 0.4
-PAUSE = 0.5  # The pieces of one message may be this many s apart.
+PAUSE = 0.5  # Two consecutive pieces of a message are sent with this pause in s.
 CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 
 
 def _wrong_header(orders: list[dict[str, str]]) -> Hints:
     return [
         (None, NO_RETURN),
-        (b"", "The header without fields is wrong. Return only its length, which is 0, in 4 bytes."),
+        (
+            b"",
+            (
+                "For a header without fields, the result is wrong. Return only the length of the header, "
+                "which is 0, in 4 bytes."
+            ),
+        ),
         *(wrong for order in orders for wrong in _wrong_headers(order)),
         (
             (lambda actual: isinstance(actual, str)),
@@ -60,8 +66,8 @@ def _wrong_header(orders: list[dict[str, str]]) -> Hints:
         (
             ANYTHING,
             (
-                "Some bytes are wrong. Return the length of the header, and then, for each field, its "
-                "length and its text name=value."
+                "Some bytes are wrong. Return the length of the header, and then the length and the text "
+                "of each field: name=value."
             ),
         ),
     ]
@@ -177,7 +183,8 @@ def _wrong_headers(fields: Mapping[str, str]) -> list[tuple[list[int], str]]:
         ),
         (
             _packed({name: value for name, value in fields.items() if value}),
-            "A field with an empty value is missing. Its text is the name and the equals sign.",
+            "A field with an empty value is missing. Write this field, too: its text is the name and the "
+            "equals sign.",
         ),
         (
             _packed(fields, code="latin-1", count=len),
@@ -220,10 +227,10 @@ NOT_RAISED: Hints = [
     points=2,
     goal=(
         "Return exactly `count` bytes from a socket, even if the bytes arrive in pieces. Raise "
-        "ConnectionError if the connection ends earlier."
+        "ConnectionError if the connection ends before `count` bytes have arrived."
     ),
     needs=["receive"],
-    goals={RECEIVED: 3, "Raise ConnectionError if the connection ends earlier.": 1},
+    goals={RECEIVED: 3, "Raise ConnectionError if the connection ends before `count` bytes have arrived.": 1},
 )
 def exact_read(context: CheckContext) -> None:
     """Send the bytes in one piece, in several pieces, and with additional bytes.
@@ -274,8 +281,8 @@ class OtherEnd:
     """
 
     def __init__(self, pieces: Sequence[bytes], *, closes: bool = False, pause: float = 0.0) -> None:
-        # The socket is in Linux's abstract namespace. The socket needs no file, and only this network
-        # namespace can use the socket.
+        # The name of the socket is in Linux's abstract namespace. The socket needs no file, and can be used
+        # only in this network namespace.
         self.name = f"course-{secrets.token_hex(8)}"
         self._pieces, self._closes, self._pause = pieces, closes, pause
         self._listener = socket.socket(socket.AF_UNIX)
@@ -346,7 +353,7 @@ def _receives(
 
 
 def _not_received(count: int) -> Hints:
-    """Return hints for a function that did not return the next `count` bytes."""
+    """Return hints for a function that did not return exactly the next `count` bytes."""
     return [
         (None, NO_RETURN),
         (
@@ -373,8 +380,8 @@ def _receive_errors(count: int = 1) -> Hints:
         (
             matches("^TimesUp"),
             (
-                "The function waits for bytes that an earlier call has read and lost. Pass only the "
-                "number of missing bytes to recv() (with makefile(): buffering=0)."
+                "The function waits for bytes that an earlier call of the function has read and lost. "
+                "Pass only the number of missing bytes to recv(), or call makefile() with buffering=0."
             ),
         ),
         (

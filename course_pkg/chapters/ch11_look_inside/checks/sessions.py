@@ -35,14 +35,14 @@ class AnotherSessions:
 
 another_sessions = AnotherSessions()
 """
-TOTALS = "Keep a separate total for each session."
+TOTALS = "Store a separate total for each session."
 
 
 @part(
     "11.4",
     points=3,
     goal=(
-        "Keep a separate total for each session in the connection header. Refuse a call without a session."
+        "Store a separate total for each session in the connection header. Refuse a call without a session."
     ),
     needs=["Sessions"],
     goals={TOTALS: 2, "Refuse a call without a session.": 1},
@@ -73,7 +73,8 @@ def totals_of_sessions(context: CheckContext) -> None:
         kind,
         more,
         header,
-        "Another node may continue a session. Do not compare the names of the nodes.",
+        "A different node may continue a session. Do not refuse a call because the name of the node is "
+        "different.",
     )
     context.expect(
         "a session continues from another node",
@@ -175,14 +176,14 @@ def _is_right(
 NOT_REFUSED: Hints = [
     (
         matches("a total of"),
-        "A call without a session got a total. If the field is missing or empty, raise "
+        'A call without a session got a total. If the header field "session" is missing or empty, raise '
         "rospy.ServiceException.",
     ),
     (
         matches("error processing request: 'session'|NoneType"),
         (
-            "The missing field caused an exception of the wrong type. Read the field with .get(), and "
-            "raise rospy.ServiceException if it is missing."
+            'The header had no field "session", and this caused an exception of the wrong type. Read the '
+            "field with .get(), and raise rospy.ServiceException if the field is missing."
         ),
     ),
     (
@@ -259,7 +260,8 @@ def _why_refused(message: str, refused: str) -> str:
     if "cannot process request" in message:
         return refused
     return (
-        "The handler raised this error. Read the error message, and correct the line that caused the error."
+        "The handler raised the error that you see above. Read the error message, and correct the line "
+        "that caused the error."
     )
 
 

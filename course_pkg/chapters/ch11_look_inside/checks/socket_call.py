@@ -22,7 +22,7 @@ from course_pkg.waiting import wait_until
 # A float32 stores this fraction exactly, and the fraction has many decimals.
 BINARY = 65 / 512
 # On Linux, every address of 127.0.0.0/8 belongs to this computer. A client that always connects to localhost
-# does not reach a server at this address.
+# does not reach a server at OTHER_HOST.
 OTHER_HOST = "127.0.0.2"
 ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
 NO_PROXY = (
@@ -62,8 +62,8 @@ NO_LENGTH = (
 )
 MISTAKES = {
     "early request": (
-        "The request came before the server had sent its header. First receive the header of the "
-        'server, and check whether it contains the field "error".'
+        "Your function sent the request before the server had sent its header. First receive the header "
+        'of the server, and check whether it contains the field "error".'
     ),
     "nothing": "The function connected, but sent nothing. First send the connection header of the client.",
     "big-endian header": NO_HEADER,
@@ -76,14 +76,14 @@ MISTAKES = {
     "big-endian length": "The length of the request is big-endian. Use '<I' for little-endian numbers.",
     "no length of the request": NO_LENGTH,
     "a request of 24 bytes": (
-        "The request has 24 bytes, because it contains three float64. Use the format 'f' of struct, "
-        "not 'd': a float32 has 4 bytes."
+        "The request has 24 bytes, because it contains three float64 values. Use the format 'f' of "
+        "struct, not 'd': a float32 has 4 bytes."
     ),
     "a request of 16 bytes": NO_LENGTH,
     "short request": NO_LENGTH,
 }
 SLOWLY = (
-    "The function fails if the bytes arrive one after the other. Call `receive()` for all bytes, "
+    "The function fails if the bytes arrive one after the other. Use `receive()` to read all bytes, "
     "including the first byte and the lengths."
 )
 BYTES = "The error message is a bytes object, not a string. Convert the bytes with decode()."
@@ -250,7 +250,10 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
 WRONG_MD5: Hints = [
     (
         "*",
-        ('The value "*" matches every definition, even a wrong definition. Send the MD5 sum of your type.'),
+        (
+            'In the field `md5sum`, the value "*" matches every definition, even a wrong definition. '
+            "Send the MD5 sum of your type."
+        ),
     ),
     (
         "none",

@@ -1,7 +1,7 @@
 """The node `tcp_echo`: listens on the TCP port `~port`, and sends back all bytes that it receives.
 
-The program uses no protocol of ROS. Therefore, a round trip to this program is the shortest possible time of
-a service call.
+The program uses no protocol of ROS. Therefore, a round trip to this program shows the shortest time that a
+service call can take.
 """
 
 from __future__ import annotations

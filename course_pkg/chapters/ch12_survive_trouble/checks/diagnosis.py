@@ -20,11 +20,11 @@ DECISIVE = {
     "B": "Connections that are already open still work. Only the lookup of the name fails.",
     "C": "No service of this node responds, not even get_loggers.",
     "D": (
-        "The service get_loggers responds, so the process runs. The two services without a response "
+        "The service get_loggers responds, so the process runs. The two services that do not respond "
         "wait for the same object."
     ),
     "E": "Two handlers read the same number at the same time, but no call failed.",
-    "F": "The server did the work of the first try, but its response was lost.",
+    "F": "The server did the work of the first call, but the response to this call was lost.",
     "G": "Both servers work, but the master stores only the newest provider of a name.",
 }
 ENTRIES = {

@@ -8,16 +8,16 @@ from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
 TRY = 0.5  # TRY is the time limit in s for one attempt.
 PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
-# In the fastest payment, the first pause and a new connection may take at most this many s.
+# In the fastest payment, the first pause together with a new connection may take at most this many s.
 FIRST = 1.8 * PAUSE
 PAYMENTS = 5  # The check makes at most this many payments; the fastest payment counts.
-# The deadline comes after this many s. At this time, the client is in its fourth pause, which would end after
-# 1.5 s.
+# The deadline comes after this many s. At the deadline, the client is in its fourth pause, which would end
+# after 1.5 s.
 AT_END = 0.9
 ENDED = 1.3  # The fastest of these payments may take at most this many s.
 AT_WORK = 0.5  # A client must make attempts for at least this many s.
 GONE = (
-    "The till has no server, but pay() waits for this service without a time limit. Use the "
+    "No server offers the till's service, but pay() waits for this service without a time limit. Use the "
     "remaining time as the limit of each wait."
 )
 STOPPED = (
@@ -25,8 +25,7 @@ STOPPED = (
     "seconds) is over."
 )
 LONG_PAUSE = (
-    "The first pause is too long, because it has to be 0.1 s. Double the pause after the sleep, not "
-    "before it."
+    "The first pause is too long: it has to be 0.1 s. Double the pause after the sleep, not before the sleep."
 )
 OVERSLEPT = (
     "The last pause ended after the deadline. Sleep no longer than the time that remains until the deadline."
@@ -69,7 +68,7 @@ def pauses_after_a_timeout(context: CheckContext, name: str, till: FaultyServer)
         holds=max(pauses) > PAUSE / 2,
         expected=f"{PAUSE:g} s after the first try",
         actual=f"{max(pauses):.2f} s",
-        hints="There was no pause after a TimeoutError. Sleep after every failed try.",
+        hints="There was no pause after a TimeoutError. Sleep after every failed call.",
     )
 
 

@@ -18,24 +18,25 @@ ERRORS = [
         matches("TimesUp"),
         (
             "pay() waits forever if the till does not respond, because a proxy has no time limit. Use "
-            "`call_within()` for each try."
+            "`call_within()` for each call."
         ),
     ),
     (
         matches("^TimeoutError"),
-        "One try took too long, and its TimeoutError ended pay(). Catch TimeoutError, and try again.",
+        "One call took too long, and the TimeoutError ended pay(). Catch TimeoutError, and call the till "
+        "again.",
     ),
     (
         matches("^ServiceException"),
         (
-            "One failed try ended pay(). Catch rospy.ServiceException, and try again if the error is "
-            "not a refusal."
+            "One failed call ended pay(). Catch rospy.ServiceException, and call the till again if the "
+            "error is not a refusal."
         ),
     ),
 ]
 UNKNOWN = (
-    "At the deadline, it is not known whether the till has taken the money. Return None in this "
-    "case, and do not raise an error."
+    "At the deadline, pay() raised an error. If the till has sent no receipt before the deadline, return "
+    "None."
 )
 GIVEN_UP = [(matches("^TimeoutError|^ServiceException"), UNKNOWN), *ERRORS]
 
@@ -75,7 +76,7 @@ def pays_after(
 ) -> int:
     """Assert that a payment succeeds; return the number of requests.
 
-    `words` is a text about the state of the till.
+    `words` is a text that describes the state of the till.
     """
     before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
     result = pay(context, name, context.random.integer(100, 900), deadline)
@@ -87,8 +88,8 @@ def pays_after(
         expected="one request_id",
         actual=f"{len(ids)} different ids",
         hints=(
-            "The tries of one payment had different ids, so the till takes the money for each try. "
-            "Create the id once, before the first try."
+            "The calls of one payment had different ids, so the till takes the money for each call. "
+            "Create the id once, before the first call."
         ),
     )
     context.expect(
@@ -107,8 +108,8 @@ def _why_given_up(words: str, took: float, tries: int) -> str:
     begin = f"In this case, the till was {words}. "
     if took > DEADLINE / 2 and tries < 2:
         return begin + (
-            "The first try used the whole time until the deadline. Limit each try to half a second, or "
-            "to the remaining time if this is less."
+            "The first call used the whole time until the deadline. Limit each call to half a second, or "
+            "to the remaining time if less time remains."
         )
     return (
         f"{begin}The till worked again before the deadline, but pay() had already ended. Try again "

@@ -15,10 +15,14 @@ RIGHT = {
     "step": "look first",
 }
 DECISIVE = {
-    "refused": "The server has refused the request. Another try gets the same refusal.",
+    "refused": (
+        "The server has refused the request. If the client sends the same request again, the server "
+        "refuses it again."
+    ),
     "not started": "No server got the call, but the server will run in a few seconds.",
     "md5": (
-        "The two programs were built with different definitions. Another try does not change the definitions."
+        "The two programs were built with different definitions. A second call does not change the "
+        "definitions."
     ),
     "speed": "The request sets a state. A second request has the same effect as the first one.",
     "payment": "Perhaps the till has already taken the money. The till recognises a repeated request.",
@@ -28,11 +32,13 @@ DECISIVE = {
     ),
 }
 ENTRIES = {
-    "report": 'With the policy "report", the client does not try again, although another try can succeed.',
+    "report": (
+        'With the policy "report", the client does not repeat the call, although a second call can succeed.'
+    ),
     "wait for the service": 'The policy "wait for the service" helps only if no server is registered.',
     "try again": (
-        'The policy "try again" is right only if another try can succeed, and if it does no harm '
-        "to do the work twice."
+        'The policy "try again" is right only if a second call can succeed, and if it does no harm when '
+        "the server does the work twice."
     ),
     "same id": (
         'The policy "same id" helps only if the request has a field for an id, and if the server '
@@ -61,7 +67,10 @@ CASES = Cases(
 
 
 @part(
-    "12.6", points=2, goal="Choose the right policy of a client after each of six errors.", needs=["policies"]
+    "12.6",
+    points=2,
+    goal="Choose the right policy for a client after each of six errors.",
+    needs=["policies"],
 )
 def choose_a_policy(context: CheckContext) -> None:
     """Compare the student's choice for each situation with the right policy."""

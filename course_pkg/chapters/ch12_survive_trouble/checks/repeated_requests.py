@@ -19,7 +19,7 @@ AT_ONCE = 50
 ONE = 6.0  # ONE is the time limit in s for a single call.
 MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.
 MEETING = 0.05  # A call of take() waits at most this many s for another call with the same amount.
-FIRST_MEETING = 0.5  # The first of many calls waits at most this many s, so that the other calls can start.
+FIRST_MEETING = 0.5  # The first of many calls waits at most this many s, so that all other calls can start.
 BUYERS = 10  # This many clients each send their request five times.
 KERNEL_CODE = (
     SMALL_STACKS
@@ -47,8 +47,8 @@ AGAIN = (
     "a stored receipt before you take money."
 )
 RACE = (
-    "The same request came five times at the same time, and the till charged it more than once. "
-    "Hold one lock while you check for a receipt, take the money and store the receipt."
+    "Five calls with the same request came at the same time, and the till charged this request more than "
+    "once. Hold one lock while you check for a receipt, take the money and store the receipt."
 )
 TOO_SOON = (
     "A request failed and was repeated, but the till did not charge it. Store the request_id only "

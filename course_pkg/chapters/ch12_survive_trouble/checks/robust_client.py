@@ -29,7 +29,7 @@ TRY = 0.5  # TRY is the time limit in s for one attempt, as in the exercise.
 # The pause before the second attempt takes this many s; each further pause is twice as long as the previous
 # pause.
 PAUSE = 0.1
-SHORT = 1.0  # In the case where the client must give up, the deadline comes after this many s.
+SHORT = 1.0  # In the case in which the client must stop its attempts, the deadline comes after this many s.
 SLACK = 1.5  # On a busy machine, a payment may take this many s longer.
 AWAY = 0.5  # A killed till starts again after this many s, so the second attempt finds no server.
 A_LITTLE = 0.2  # This time in s is shorter than one attempt.
@@ -57,7 +57,14 @@ REPEATED = "Pay exactly once at a till that fails and recovers."
     ),
     needs=["pay"],
     deadline=60.0,
-    goals={PAID: 1, REPEATED: 2, "Limit each try, make each pause longer, and keep the deadline.": 1},
+    goals={
+        PAID: 1,
+        REPEATED: 2,
+        (
+            "Limit the time of each call, make each pause longer than the previous pause, and end before the "
+            "deadline."
+        ): 1,
+    },
 )
 def a_robust_client(context: CheckContext) -> None:
     """Pay at a till that works, refuses, fails and recovers, or never responds."""
@@ -195,7 +202,7 @@ def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, boo
 
 
 def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the handler do its work and return None; the error message is similar to that of a refusal."""
+    """Let the handler do its work and return None; the client gets an error message similar to a refusal."""
     till.plan.append(Fault(Refuse("service handler returned None"), worked=True))
     result = pay(context, name, context.random.integer(100, 900), DEADLINE)
     context.require(
@@ -204,14 +211,14 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
         expected="the receipt, after another try",
         actual=result.error,
         hints=(
-            'An error with "handler returned" is not a refusal, because the handler has perhaps '
-            "done its work. Try again after this error."
+            'An error that contains "handler returned" is not a refusal, because the handler has perhaps '
+            "done its work. After this error, call the till again."
         ),
     )
 
 
 def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
-    """Assert that there were several attempts at a slow till.
+    """At a slow till, assert that the client made several attempts.
 
     At a till that responds in time, the client must make only one attempt.
     """
@@ -220,7 +227,7 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
         holds=tries > 1,
         expected=f"a try that ends after {TRY:g} s, and another try",
         actual="one try that waited longer",
-        hints=f"A try took longer than {TRY:g} s. Pass this limit to `call_within()`.",
+        hints=f"A call took longer than {TRY:g} s. Pass this limit to `call_within()`.",
     )
     before = len(till.requests)
     till.plan.append(Fault(Late(A_LITTLE, {}), worked=True))
@@ -232,8 +239,8 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
         expected=f"one request to a till that takes {A_LITTLE:g} s",
         actual=f"{tries} requests within {result.took:.1f} s",
         hints=(
-            f"A try had a limit below {TRY:g} s, so pay() called the till again too early. Give "
-            f"each try {TRY:g} s."
+            f"A call had a limit below {TRY:g} s, so pay() called the till again too early. Give "
+            f"each call a limit of {TRY:g} s."
         ),
     )
 
@@ -251,7 +258,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         expected=f"{PAUSE:g} s or more",
         actual=f"{min(pauses):.3f} s",
         hints=(
-            "The pause after the first failed try was missing or too short. Sleep for 0.1 s after this try."
+            "The pause after the first failed call was missing or too short. Sleep for 0.1 s after this call."
         ),
     )
     context.require(
@@ -260,7 +267,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         expected=f"{4 * PAUSE:g} s before the fourth try",
         actual=f"{pauses[2]:.2f} s",
         hints=(
-            "The pauses do not grow fast enough. After each failed try, make the next pause at least "
+            "The pauses do not grow fast enough. After each failed call, make the next pause at least "
             "twice as long."
         ),
     )
@@ -285,8 +292,8 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
         expected=f"an end after {SHORT:g} s or slightly more",
         actual=f"an end after {result.took:.1f} s",
         hints=(
-            "pay() was still running after the deadline. Check the remaining time before each try "
-            "and before each pause."
+            "pay() was still running after the deadline. Check the remaining time before each call and "
+            "before each pause."
         ),
     )
     context.require(
@@ -318,7 +325,7 @@ def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) ->
         expected=None,
         actual=returned[-1],
         hints=(
-            "The deadline was 0.05 s, but pay() waited 0.3 s for the till. Do not let a try take "
-            "longer than the remaining time."
+            "The deadline was 0.05 s, but pay() waited 0.3 s for the till. Limit each call to the "
+            "remaining time."
         ),
     )

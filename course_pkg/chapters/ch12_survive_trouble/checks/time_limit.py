@@ -47,8 +47,8 @@ ERRORS = [
     (
         matches("^TimeoutError"),
         (
-            "The response came in time, but the function raised TimeoutError. Wait until the thread "
-            "ends or the time is over."
+            "The response came in time, but the function raised TimeoutError. Wait until the thread ends "
+            "or the time limit is reached."
         ),
     ),
     (
@@ -59,7 +59,7 @@ ERRORS = [
 
 
 class Adder:
-    """Adds two numbers, or does `act` instead."""
+    """Returns the sum of two numbers, or does `act` instead."""
 
     def __init__(self) -> None:
         self.act: Act | None = None
@@ -104,7 +104,7 @@ def a_call_with_a_limit(context: CheckContext) -> None:
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
     """Mix the cases with the same limit.
 
-    A function that depends on the limit or counts its calls then fails.
+    So a function that depends on the limit, or that counts its calls, fails.
     """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses
@@ -237,7 +237,7 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         expected="almost no processor time",
         actual=f"{context.read('checked_call.busy', float):.1f} s of processor time in {limit:g} s",
         hints=(
-            "The function uses the processor while it waits. Use join(seconds), which waits without "
-            "processor time."
+            "The function uses the processor while it waits. Use join(seconds), which uses no processor "
+            "time while it waits."
         ),
     )

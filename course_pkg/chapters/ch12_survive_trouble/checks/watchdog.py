@@ -15,12 +15,13 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
 EVERY = 0.1  # EVERY is the time in s between two polls of the watchdog.
-SELDOM = 0.5  # Even on a busy machine, at least one of several pauses is shorter than this many s.
+SELDOM = 0.5  # Even on a busy machine, the shortest of several pauses takes less than this many s.
 CALLS = 4  # CALLS is the maximum number of calls to the master in one poll.
 SOON = 5.0  # SOON is the time limit in s for a few polls on a busy machine.
-AWAY = 3.0  # If the check cannot see the polls of a watchdog, the check stops the master for this many s.
+# If the check cannot observe the polls of a watchdog, the check stops the master for this many s instead.
+AWAY = 3.0
 LEFT_ALONE = 0.8  # A wrong watchdog would register the name again within this many s.
-LATE = 0.5  # LATE is the time in s for which the check waits for a wrong registration after stop().
+LATE = 0.5  # After stop(), the check waits this many s for a wrong registration.
 READY = 15.0  # READY is the time limit in s for the start of a master.
 
 ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread that you start in __init__."
@@ -144,8 +145,8 @@ def _registers_again(
         uri,
         "a name that is free again is registered",
         (
-            "The name is free again, but the watchdog does not register its own service. Continue to "
-            "poll after each result."
+            "The name is free again, but the watchdog does not register its own service. After a poll "
+            "that finds another provider, continue to poll."
         ),
     )
 
@@ -166,7 +167,9 @@ def _is_registered(
         holds=seen != "nobody",
         expected="a registered service",
         actual="no provider of this name",
-        hints=hint if asked else "The watchdog did not call the given master. Use self.master.",
+        hints=hint
+        if asked
+        else "The watchdog did not call the master that was passed to it. Call the methods of self.master.",
     )
     context.require(
         "the service is registered with its own address",
@@ -174,8 +177,8 @@ def _is_registered(
         expected="the argument `uri`",
         actual="another address",
         hints=(
-            "The addresses are in the wrong order. First pass the address of the service (it begins "
-            "with rosrpc), and then the address of the node."
+            "registerService() got the addresses in the wrong order. First pass the address of the "
+            "service (it begins with rosrpc), and then the address of the node."
         ),
     )
 
@@ -205,7 +208,10 @@ def _registers_both_addresses(context: CheckContext, watched: CheckedMaster, uri
         holds=given == [uri, node_uri],
         expected="the address of the service, and then rospy.get_node_uri()",
         actual=", ".join(given) or "no registration by the given master",
-        hints="The last argument is wrong. Pass rospy.get_node_uri(), which is the address of the node.",
+        hints=(
+            "The last argument of registerService() is wrong. Pass rospy.get_node_uri(), which is the "
+            "address of the node."
+        ),
     )
 
 

@@ -1,4 +1,7 @@
-"""A master that the check can pause during a poll. The student's watchdog in the kernel uses this master."""
+"""A master that the check can pause during a poll of the student's watchdog.
+
+The watchdog runs in the kernel and uses this master.
+"""
 
 from __future__ import annotations
 
@@ -50,9 +53,9 @@ checked_watch = CheckedWatch()
 class CheckedMaster:
     """Calls a master for the watchdog, and records these calls.
 
-    After hold(), the master reports that it knows no service, so the watchdog registers its service. The
-    registration waits until stop() has returned. If stop() itself waits for the end of the registration, the
-    registration waits for at most `slow` s.
+    After hold(), the master reports that it knows no services, so the watchdog registers its service again.
+    The registration waits until stop() has returned. If stop() itself waits for the end of the registration,
+    the registration waits for at most `slow` s.
     """
 
     def __init__(self, uri: str, slow: float) -> None:
@@ -61,7 +64,7 @@ class CheckedMaster:
         # `registered` contains the times of the registrations (s, time.monotonic()).
         self.registered: list[float] = []
         self.looks = 0  # `looks` is the number of calls to the master.
-        self.gap = 60.0  # `gap` is the shortest time in s between two calls of the same kind.
+        self.gap = 60.0  # `gap` is the shortest time in s between two consecutive calls of the same method.
         self.inside = threading.Event()  # This event is set while a registration waits.
         self.stopped_at: float | None = None  # `stopped_at` is the time when stop() returned.
         self._uri, self._slow = uri, slow
@@ -100,7 +103,7 @@ class CheckedMaster:
         self._release()
 
     def hold(self) -> None:
-        """From now on, respond that the master knows no service, and let a registration wait."""
+        """From now on, report that the master knows no services, and let the next registration wait."""
         self._holds = True
 
     def close(self) -> None:
@@ -112,7 +115,7 @@ class CheckedMaster:
         self._go.set()
 
     def _note(self, method: str) -> None:
-        """Record the time of a call other than a registration."""
+        """Record the time of a call that is not a registration."""
         now = time.monotonic()
         if method != "registerService":
             self.gap = min(self.gap, now - self._times.get(method, now - self.gap))

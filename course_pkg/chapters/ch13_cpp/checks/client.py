@@ -1,4 +1,4 @@
-"""13.3: a C++ client that limits its wait and the number of its calls."""
+"""13.3: a C++ client that limits its waiting time and the number of its calls."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
 def _prints_a_volume_of_0(context: CheckContext, folder: Folder) -> None:
     """Respond with the volume 0.
 
-    In this case, only the return value of call() shows whether there was a response.
+    Then only the return value of call() shows whether the client got a response.
     """
     name, sides, _ = _random_box(context)
     context.serve(name, BOX, lambda _: {"volume": 0.0})
@@ -232,7 +232,7 @@ def _gives_up_without_a_server(context: CheckContext, folder: Folder, shapes: se
 
 
 def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
-    """Return a random name, three sides, and a volume that differs from the product of the sides."""
+    """Return a random service name, three sides, and a volume that differs from the product of the sides."""
     sides = [round(side, 2) for side in context.random.numbers(3, 0.5, 9.0)]
     return f"/{context.random.word()}", sides, float(context.random.integer(1000, 9000))
 
@@ -257,7 +257,7 @@ def _run(folder: Folder, name: str, sides: list[float]) -> Finished:
 
 
 def _numbers(out: str) -> list[float]:
-    """Return the printed numbers; numbers in roscpp's log messages are left out."""
+    """Return the printed numbers, without the numbers in roscpp's log messages."""
     return [float(text) for line in _lines(out) for text in NUMBER.findall(line)]
 
 
@@ -272,7 +272,7 @@ def _volumes(out: str, shapes: set[str]) -> list[str]:
     A line contains a volume if it is only a number, if it is "volume" and a number, or if it matches a text
     in `shapes`.
 
-    Numbers in all other lines, such as a number of attempts or seconds, are not volumes.
+    A number in any other line, such as a number of attempts or of seconds, is not a volume.
     """
     volume = rf"(?i)(.*\bvolume\W*(is|was)?\W*)?{NUMBER.pattern}"
     return [line for line in _lines(out) if re.fullmatch(volume, line) or NUMBER.sub("#", line) in shapes]

@@ -17,7 +17,7 @@ FILE = f"{PACKAGE}/CMakeLists.txt"
 BUILDING = 75.0  # The build may take this many s; it takes 4 s on an idle machine.
 NO_ROSCPP = (
     "The variable catkin_LIBRARIES contains only the libraries of the packages in "
-    "find_package(catkin … COMPONENTS …). Add roscpp to this list."
+    "find_package(catkin … COMPONENTS …). Add roscpp after the word COMPONENTS."
 )
 RULE = "catkin_make builds the package"
 BUILT = "devel/lib/cpp_boxes/box_server"
@@ -134,12 +134,12 @@ def _why_not_there(text: str) -> str:
         )
     if "catkin_package" not in found:
         return (
-            "The command catkin_package is missing. Write this command below find_package, because "
-            "it sets the folder for programs."
+            "The command catkin_package is missing. Write catkin_package() below find_package, "
+            "because catkin_package() sets the folder for programs."
         )
     if found["catkin_package"].line > found["add_executable"].line:
         return (
-            "The command catkin_package is in the wrong place. Move it above add_executable, "
-            "because it sets the folder for programs."
+            "The command catkin_package is in the wrong line. Move catkin_package() above "
+            "add_executable, because catkin_package() sets the folder for programs."
         )
     return "The program has the wrong name. The first word in add_executable has to be box_server."

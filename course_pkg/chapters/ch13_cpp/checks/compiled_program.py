@@ -20,7 +20,7 @@ COMPILING = 60.0  # The compilation may take this many s; it takes 2 s on an idl
 # The program's node must be on the graph within this many s; it takes 0.1 s on an idle machine.
 STARTING = 6.0
 REGISTERING = 1.5  # After its node is on the graph, the program must serve within this many s.
-STAYING = 0.4  # The program must continue to run for this many s; without ros::spin(), it ends within 0.1 s.
+STAYING = 0.4  # The program must still run after this many s; without ros::spin(), it ends within 0.1 s.
 POLL = 0.05  # POLL is the time in s between polls.
 SERVED = "the program offers /{0} and continues to run"
 
@@ -90,19 +90,19 @@ def _does_not_serve(context: CheckContext, running: Running, assertion: str, cod
 def _why_not(status: int | None, code: str) -> str:
     if _drops_the_service(code):
         return (
-            "The service ends, because the object that advertiseService returns is deleted. Store "
-            "this object in a variable: ros::ServiceServer server = …"
+            "advertiseService returns an object, and the service ends when this object is "
+            "deleted. Store the object in a variable: ros::ServiceServer server = …"
         )
     if status is None:
         return (
             "The node does not offer a service with the right name. Compare the name with the "
-            "exercise, and create the NodeHandle without an argument."
+            "name in the exercise, and create the NodeHandle without an argument."
         )
     if status < 0 or status > 100:
         return "The program crashed. Call ros::init before you create the first NodeHandle."
     if "Spinner" in code:
         return (
-            "The program ends, because main ends after the spinner was started. Call "
+            "The program ends, because main starts the spinner and then returns. Call "
             "ros::waitForShutdown() at the end of main."
         )
     return "The program ends, so its service also ends. Call ros::spin() at the end of main."

@@ -12,7 +12,7 @@ from course_pkg.waiting import wait_until
 
 FILE = f"{PACKAGE}/src/number_server.cpp"
 CALLERS = 6
-THINKING, COUNTING = 0.4, 0.05  # The times in s are the same as in the file that the exercise gives.
+THINKING, COUNTING = 0.4, 0.05  # These times in s are the same as in the file that the exercise provides.
 # The time between two responses may be at most this many s. If all calls overlap, this time is shorter. If a
 # call has to wait for a thread, this time is longer.
 APART = 0.15
@@ -58,8 +58,8 @@ ONE_THREAD = (
     "MultiThreadedSpinner, because they use several threads."
 )
 TOO_FEW = (
-    "The spinner has too few threads. Create it with at least six threads, one for each call (0 "
-    "means one thread for each processor core)."
+    "The spinner has too few threads for six calls at the same time. Create the spinner with at "
+    "least six threads (the number 0 means one thread for each processor core)."
 )
 LOCKED_TOO_LONG = (
     "The handler holds the lock during think(), so the other calls have to wait. Hold the lock only "
@@ -67,8 +67,8 @@ LOCKED_TOO_LONG = (
 )
 NOT_STARTED = "The AsyncSpinner executes no callbacks, because it was not started. Call its method start()."
 NOT_ATOMIC = (
-    "Two threads can read the same number before one of them writes, even if the variable is "
-    "atomic. Hold a mutex from the read to the write."
+    "Two threads can read the same number before one of them writes the new number, even if the "
+    "variable is atomic. Hold a mutex from the read to the write."
 )
 NO_LOCK = (
     "Two threads read the same number, and both threads add 1 to it. Hold a mutex from the read to "
@@ -76,7 +76,8 @@ NO_LOCK = (
 )
 LET_GO = (
     "The lock is not held between the read and the write, so two threads read the same number. "
-    "Create a lock_guard with a name before the read."
+    "Before the read, create a lock_guard variable: without a variable name, the lock is released "
+    "immediately."
 )
 OWN_LOCK = (
     "Each call creates its own mutex, so no call waits for another call. Move the mutex out of the function."
@@ -102,7 +103,7 @@ def number_server(context: CheckContext) -> None:
         quiet = (
             NOT_STARTED
             if "Spinner" in code
-            else "No spinner executes the callbacks. Call ros::spin(), or start another spinner."
+            else "No spinner executes the callbacks. Call ros::spin(), or start an AsyncSpinner."
         )
         number = context.service(name, "std_srvs/Trigger", hints=[(matches("TimesUp"), quiet)], timeout=4.0)
         alone = _number(number().message)
@@ -119,7 +120,7 @@ def number_server(context: CheckContext) -> None:
 def _still_thinks(context: CheckContext, code: str, took: float) -> None:
     """Assert that the code of think() and count() is unchanged.
 
-    The duration `took` of a call (s) must also be unchanged.
+    A call must also take as long as in the given file; `took` is its duration in s.
     """
     context.require(
         "think() and count() take as long as before",
@@ -131,8 +132,8 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
         if took >= THINKING + COUNTING
         else f"{took:.2f} s for a client",
         hints=(
-            "The functions think() and count() replace real work, so do not change their times. Use "
-            "several threads, so that the calls run at the same time."
+            "The functions think() and count() simulate long calculations, so do not change the "
+            "duration of their sleep. Use several threads, so that the calls run at the same time."
         ),
     )
 

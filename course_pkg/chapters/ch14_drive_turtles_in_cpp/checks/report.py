@@ -13,7 +13,8 @@ from course_pkg.checking.peers.service_calls import Service
 THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
-FEW, MANY = 3, 8  # The check uses these numbers of simultaneous clients.
+GROUPS = 3  # The check calls this many times with all clients at the same time.
+FEW, MANY = 3, 8  # The numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
     "The handler of /report waits for /battery, but no free thread can execute the handler of "
@@ -83,8 +84,8 @@ def more_threads(context: CheckContext) -> None:
         THREADS,
         FEW,
         (
-            "One call works, but three calls at the same time do not end. Each call of /report needs "
-            "one thread, so add one more thread for /battery."
+            "One call works, but three calls at the same time do not end. Each call of /report "
+            "uses one thread until the call ends, so add one more thread for /battery."
         ),
     )
 
@@ -148,7 +149,9 @@ def _reports(context: CheckContext, program: TurtleProgram, clients: int, too_fe
         world.serves(running, *SERVICES)
         _answers(context, world.service("report", "std_srvs/Trigger", _why(HANGS)), level)
         report = world.service("report", "std_srvs/Trigger", _why(too_few))
-        for reply in report.at_once([{}] * clients):
+        # On a busy machine, the calls of one group may arrive one after another.
+        replies = [reply for _ in range(GROUPS) for reply in report.at_once([{}] * clients)]
+        for reply in replies:
             context.require(
                 f"{clients} clients at the same time get their responses",
                 holds=reply.response.message == f"battery: {level}",
@@ -179,8 +182,8 @@ def _answers(context: CheckContext, report: Service, level: int) -> None:
             (
                 "battery: 80",
                 (
-                    "The level in the message is wrong. Read it from the parameter ~level: keep the "
-                    "line with ros::param::param in main."
+                    "The level in the message is wrong. Read the level from the parameter ~level, "
+                    "and do not change the line with ros::param::param in main."
                 ),
             ),
             (ANYTHING, 'The message is wrong. Write the word "battery", a colon, a space and the level.'),

@@ -22,8 +22,8 @@ COUNTED = "Count the calls of each session separately."
     "14.9",
     points=3,
     goal=(
-        "Write session_counter.cpp: /count returns the number of calls in the session that the "
-        "connection header contains."
+        "Write session_counter.cpp: /count reads the session from the connection header, and "
+        "returns the number of calls in this session."
     ),
     needs=[f"file:{PROGRAM.path}"],
     deadline=150.0,
@@ -70,15 +70,16 @@ def _counts(
             (
                 lambda _: bool(caller),
                 (
-                    'The handler uses the node\'s name. Use only the value of the field "session", '
-                    "because another node can continue a session."
+                    "The handler uses the name of the calling node. Use only the value of the "
+                    'field "session", '
+                    "because several nodes can make calls in one session."
                 ),
             ),
             (
                 str(sum(counts.values())),
                 ("The response contains the number of all calls. Store a separate count for each session."),
             ),
-            ("1", "The count starts again in each call. Create the map outside the handler."),
+            ("1", "In each call, the count starts at 0 again. Create the map outside the handler."),
             (
                 str(counts[session] - 1),
                 (
@@ -91,7 +92,7 @@ def _counts(
                 ANYTHING,
                 (
                     "The response does not contain the number of calls in the session. Read the session "
-                    "from the connection header, and count its calls."
+                    "from the connection header, and count the calls of this session."
                 ),
             ),
         ],

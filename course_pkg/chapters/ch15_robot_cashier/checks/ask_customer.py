@@ -35,13 +35,13 @@ PARAMETER = (
     'rospy.get_param("~wait", 2.0).'
 )
 DEFAULT = (
-    "Without a parameter, the field `patience` has to be 2 s. The second argument of "
+    "If the parameter ~wait is not set, the field `patience` has to be 2 s. The second argument of "
     "rospy.get_param is this default value."
 )
 ONCE = "The program called the service more than once. Make only one call, and print its result."
 NEVER = (
-    "The program did not call the service. After rospy.init_node, call detect_customer; write the name "
-    "without a slash."
+    "The program did not call the service. After rospy.init_node, call detect_customer; write no "
+    "slash at the beginning of this name."
 )
 NO_END = (
     "The program called the service, but the program did not end. Remove rospy.spin(), because the "
@@ -94,7 +94,10 @@ ASKED = 'Wait for detect_customer, call it once, and print "customer" or "nobody
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
-    goals={ASKED: 3, "End with the right exit status after a refusal, or if the service does not exist.": 1},
+    goals={
+        ASKED: 3,
+        "End with exit status 1 if the service refuses the call, or if the service does not exist.": 1,
+    },
 )
 def the_client(context: CheckContext) -> None:
     """Start the program before its service. The service responds, refuses, or does not exist."""
@@ -137,7 +140,7 @@ class Run:
         return self._running.status is not None
 
     def is_on_the_graph(self) -> None:
-        """Wait until the node is on the graph or the program has ended."""
+        """Wait until the node is on the graph, or until the program has ended."""
         wait_until(
             lambda: (
                 self.has_ended()
@@ -150,7 +153,8 @@ class Run:
     def end(self, within: float = ENDING) -> Run:
         """Wait until the program ends.
 
-        Stop the program `within` s after its node was on the graph; in this case, the status is None.
+        If the program still runs `within` s after its node was on the graph, stop the program; `status` is
+        then None.
         """
         self.is_on_the_graph()
         wait_until(self.has_ended, within, 0.05)
@@ -176,7 +180,10 @@ class Run:
 
 
 class _Detector:
-    """Returns a customer only if `patience` equals `wait`; refuses a call with the `patience` REFUSED."""
+    """A detector that finds a customer only if `patience` is equal to `wait`.
+
+    It refuses the `patience` REFUSED.
+    """
 
     def __init__(self, wait: float) -> None:
         self.wait = wait

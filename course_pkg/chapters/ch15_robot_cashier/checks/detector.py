@@ -36,13 +36,13 @@ REMEMBERED = (
     "newest message, and no older message."
 )
 NO_WAIT = "The response came too early. If no customer is there, wait for request.patience seconds."
-TOO_LONG = "The response came too late. Use request.patience as the limit of the wait."
+TOO_LONG = "The response came too late. Wait for at most request.patience seconds."
 ONE_BY_ONE = (
     "One call had to wait for another call. Do not hold a lock while the handler waits "
     "(Condition.wait_for releases its lock during the wait)."
 )
 NOT_WOKEN = (
-    "The customer came while several calls were waiting, but one of these calls responded too late. "
+    "The customer came while several calls were waiting, but one of these calls ended too late. "
     "In the callback, call notify_all() to wake up all waiting calls."
 )
 UNREFUSED = (
@@ -69,15 +69,18 @@ FAILED: Hints = [
     (matches("error processing"), BUG),
     (matches("TimesUp"), TOO_LONG),
 ]
-WAITED = "Wait for a customer, but not longer than the limit."
-SEVERAL = "Respond to several callers at the same time."
-SILENT_CAMERA = "Refuse a call before the first message, and after 1 s without a message."
+WAITED = "Wait for a customer, but for at most `patience` seconds."
+SEVERAL = "Respond to several clients at the same time."
+SILENT_CAMERA = "Refuse a call if no message has arrived yet, or if no message arrived in the last second."
 
 
 @part(
     "15.2",
     points=3,
-    goal="Write customer_detector.py: detect_customer waits for a customer, but not longer than a limit.",
+    goal=(
+        "Write customer_detector.py: detect_customer waits for a customer, but for at most "
+        "`patience` seconds."
+    ),
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME),
@@ -197,7 +200,10 @@ TOO_SOON = (
     "The node refused the call too early. Wait for request.patience seconds, because a new message "
     "can still arrive."
 )
-BEFORE = "A message that arrived before the call is valid, too. Compare its age with one second."
+BEFORE = (
+    "A message can also be valid if it arrived before the call. Check whether the message is less "
+    "than 1 s old."
+)
 FRESH = "The node did not use the last message. A message is valid if it is less than 1 s old."
 CAME_BACK = (
     "The camera stopped for some time, but new messages came before the end of the call. Use the "
@@ -217,10 +223,13 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
-    goals={SILENT_CAMERA: 3, "During a call, notice when the camera stops or starts to send messages.": 1},
+    goals={
+        SILENT_CAMERA: 3,
+        "During a call, notice if the camera stops sending messages, or if the camera starts again.": 1,
+    },
 )
 def the_silent_camera(context: CheckContext) -> None:
-    """Call before the first message, shortly and long after the last message, and during new messages."""
+    """Call before the first message, shortly and long after the last message, and while messages arrive."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)
@@ -261,7 +270,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
 
 
 def _counts_before_the_call(context: CheckContext, name: str, vision: SeenCustomers) -> None:
-    """Call once after the last message, which is still valid and contains no customer."""
+    """Make one call after the last message, which is still recent and says that no customer is there."""
     if vision.silent_for() > 0.5:
         return  # The machine is too busy for this assertion.
     detect = context.service(name, AWAIT, timeout=LONG, hints=[(matches("camera"), BEFORE), *FAILED[1:]])

@@ -77,7 +77,7 @@ def joint_states(context: CheckContext) -> list[JointState]:
     states[14].velocity = states[14].velocity[:2]
     states[17].velocity = [*states[17].velocity[:-1], math.inf]
     states[19].velocity = [*states[19].velocity, 0.5]
-    # The following joint states are valid.
+    # The joint states that are changed below are still valid.
     states[EFFORT].effort[0] = math.inf
     states[FEW_EFFORTS].effort = states[FEW_EFFORTS].effort[:2]
     states[EMPTY].name, states[EMPTY].position, states[EMPTY].velocity, states[EMPTY].effort = [], [], [], []

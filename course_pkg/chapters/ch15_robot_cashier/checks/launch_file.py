@@ -18,8 +18,7 @@ START = f"%%writefile {FILE}\n..."
 HARDWARE = ("counter_camera", "robot", "receipt_printer")
 READING = 20.0  # READING is the time limit in s for roslaunch to read the file on a busy machine.
 OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
-# This code prints the nodes and the parameters that roslaunch reads from a launch file with the given
-# arguments.
+# This code reads a launch file with the given arguments, and prints its nodes and parameters.
 READER = """
 import re, sys
 from roslaunch.config import load_config_default
@@ -57,12 +56,13 @@ NO_HARDWARE = (
     'nodes into a <group> tag with the attribute "if".'
 )
 DEFAULT_HARDWARE = (
-    'Without an argument, the hardware has to start. Write default="true", and use the attribute '
+    'If the user sets no argument, the nodes of the hardware have to start. Write default="true", '
+    "and use the attribute "
     '"if", not "unless".'
 )
 PROGRAMS = (
-    'A node starts the wrong program. Check the attributes "pkg" and "type" of each <node> tag. '
-    "In my_cashier, the type is the node's name with .py at its end."
+    'A <node> tag starts the wrong program. Check the attributes "pkg" and "type" of each <node> tag. '
+    "In the package my_cashier, the type is the node's name with .py at its end."
 )
 NO_PARAMETER = (
     'The node robot_cashier has no parameter "wait". Add a <param> tag with name="wait" and '
@@ -72,13 +72,19 @@ PLACE = (
     'The parameter "wait" does not belong to robot_cashier. Write the <param> tag inside the '
     "<node> tag of robot_cashier."
 )
-TEXT = 'The parameter is a text. Remove the attribute "type", so that roslaunch stores a number.'
-DEFAULT_WAIT = 'Without an argument, the value of "wait" has to be 2 s. Write default="2.0" in its <arg> tag.'
+TEXT = (
+    'The value of the parameter "wait" is a string. Remove the attribute "type" of the <param> '
+    "tag, so that roslaunch stores a number."
+)
+DEFAULT_WAIT = (
+    'If the user sets no argument, the value of "wait" has to be 2 s. Write default="2.0" in the '
+    '<arg> tag of "wait".'
+)
 NOT_PASSED = (
     "The parameter always has the same value, even if the user passes another value. Write "
     'value="$(arg wait)".'
 )
-LISTED = "Start all nodes, but start the nodes of the hardware only with hardware:=true."
+LISTED = "Start the nodes of the hardware only with hardware:=true. Always start all other nodes."
 
 
 @part(

@@ -1,4 +1,4 @@
-"""15.5: a node that publishes the mirror image of each valid joint state, and ignores invalid ones."""
+"""15.5: a node that publishes the mirror image of each valid joint state, and ignores invalid states."""
 
 from __future__ import annotations
 
@@ -29,9 +29,10 @@ NOT_HEARD = (
 )
 NONE_CAME = "No mirror image arrived. In the callback, publish the mirror image of each valid joint state."
 OTHER_TIME = (
-    "The stamp of an image is different from the stamp of its joint state. Copy the header of the message."
+    "The time stamp of a mirror image is different from the time stamp of the joint state. Copy "
+    "the header of the joint state."
 )
-LATE = "The images arrive late. Publish each image in the callback, without a wait or a pause."
+LATE = "The mirror images arrive late. Publish each mirror image in the callback, without a wait or a pause."
 ZEROS = (
     "The node published zeros for an invalid joint state, so the arm would move to these positions. "
     "Publish nothing in this case."
@@ -123,8 +124,8 @@ def _why_invalid(state: JointState) -> tuple[str, str]:
         return (
             f"an image of {len(state.position)} positions for {len(state.name)} joints",
             (
-                "The numbers of names and positions are different. Compare both lengths, and ignore a "
-                "message with different lengths."
+                "The number of names is different from the number of positions. Compare the "
+                "lengths of these two lists, and ignore the message if the lengths are different."
             ),
         )
     if state.misses_velocities:
@@ -148,8 +149,8 @@ def _is_image(context: CheckContext, state: JointState, image: JointState) -> No
             expected=state.header_text,
             actual=image.header_text,
             hint=(
-                "The header is not the same. Copy the whole header, with stamp and frame_id: "
-                "header=joints.header."
+                "The header of the mirror image is different from the header of the joint state. "
+                "Copy the whole header: header=joints.header."
             ),
         )
     for field, values, actual in (("name", state.name, image.name), ("effort", state.effort, image.effort)):
@@ -158,8 +159,8 @@ def _is_image(context: CheckContext, state: JointState, image: JointState) -> No
             expected=values,
             actual=actual,
             hints=(
-                f"The field `{field}` has changed, but it has to stay the same. Copy the list from the "
-                "joint state."
+                f"The field `{field}` of the mirror image is different from this field of the "
+                "joint state. Copy the list from the joint state."
             ),
         )
     for field, values, actual in (
@@ -177,11 +178,11 @@ def _is_image(context: CheckContext, state: JointState, image: JointState) -> No
 
 def _wrong_signs(field: str, values: list[float]) -> Hints:
     return [
-        (values, f"The list `{field}` has not changed. Give each number the opposite sign."),
+        (values, f"The list `{field}` is the same as in the joint state. Change the sign of each number."),
         (
             [],
             (
-                f"The list `{field}` is empty in the image, but not in the joint state. Copy the list "
+                f"The list `{field}` is empty in the mirror image, but not in the joint state. Copy the list "
                 "with opposite signs."
             ),
         ),
@@ -197,12 +198,13 @@ def _wrong_selection(stamps: list[int]) -> Hints:
     return [
         (
             lambda actual: len(set(actual)) < len(actual),
-            "Some images arrived more than once. Publish one image for each joint state.",
+            "Some mirror images arrived more than once. Publish one mirror image for each joint state.",
         ),
         (
             lambda actual: actual and actual == stamps[: len(actual)] and len(actual) < 5,
             (
-                "No image arrived after the first invalid joint state. Ignore only the invalid message, "
+                "No mirror image arrived after the first invalid joint state. Ignore only the "
+                "invalid message, "
                 "and continue with the next message."
             ),
         ),
@@ -215,7 +217,9 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         ),
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + FEW_EFFORTS},
-            "The conditions do not mention the number of efforts. Remove this test.",
+            "The node ignored a joint state in which the number of efforts is different from the "
+            "number of names. Publish its mirror image, because the exercise does not limit the "
+            "number of efforts.",
         ),
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + EMPTY},
@@ -231,8 +235,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         (
             ANYTHING,
             (
-                "Some images are missing. Publish each image in the callback, because a loop with a "
-                "pause misses messages."
+                "Some mirror images are missing. Publish each mirror image in the callback, "
+                "because a loop with a pause misses messages."
             ),
         ),
     ]

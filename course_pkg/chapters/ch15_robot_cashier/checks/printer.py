@@ -14,7 +14,8 @@ JAM = "paper jam: two lines at once"
 class Printer:
     """Serves print_line; while the error message `fault` is not empty, it refuses each line.
 
-    `lines` contains the printed lines. While the event `held` is not set, each line waits at most 10 s.
+    `lines` contains the printed lines. While the event `held` is not set, the printing of each line waits,
+    but at most 10 s.
     """
 
     def __init__(self) -> None:
@@ -23,7 +24,7 @@ class Printer:
         self.jams = 0
         # `calls` is the number of printed lines and of lines that were refused because of `fault`.
         self.calls = 0
-        self.began = threading.Event()  # This event is set when the first line begins.
+        self.began = threading.Event()  # This event is set when the printing of the first line begins.
         self.held = threading.Event()
         self.held.set()
         self._busy = threading.Lock()

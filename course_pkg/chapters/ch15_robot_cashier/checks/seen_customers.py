@@ -25,7 +25,7 @@ class SeenCustomers:
         threading.Thread(target=self._publish, daemon=True).start()
 
     def is_heard(self, context: CheckContext) -> None:
-        """Assert that the node receives the messages."""
+        """Assert that the student's node receives the messages."""
         context.require(
             "the node subscribes to customer_seen with the type std_msgs/Bool",
             holds=bool(wait_until(self._publisher.get_num_connections, 5.0)),
@@ -38,7 +38,7 @@ class SeenCustomers:
         )
 
     def show(self, customer: bool | None) -> None:
-        """From now on, publish `customer`; return when the first message has arrived."""
+        """From now on, publish `customer`; return when the first message with this value has arrived."""
         with self._lock:
             self.customer = customer
             self._send()
@@ -51,7 +51,7 @@ class SeenCustomers:
         timer.start()
 
     def silent_for(self) -> float:
-        """Return the time since the last message (s)."""
+        """Return the time in s since the last message."""
         return time.monotonic() - self.last
 
     def _send(self) -> None:

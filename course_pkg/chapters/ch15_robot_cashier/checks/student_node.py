@@ -26,7 +26,8 @@ from course_pkg.workspace import explain
 
 # A node must be on the graph within this many s; it takes 1 s on an idle machine.
 STARTING = 40.0
-# All names of a node must exist this many s after its first name, or later if the node started late.
+# All names of a node must exist this many s after its first name; if the node started late, it gets more
+# time.
 COMPLETE = 3.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 WITH_SLASH = "with_slash"  # The check remaps global names to names in this namespace.
@@ -138,7 +139,7 @@ def complete(
 
 
 def still(started: float, least: float) -> float:
-    """Return how long a check waits for missing names, as a point in time, if the first name exists now.
+    """Return the time until which a check waits for missing names, if the first name exists now.
 
     The check waits `least` s, or longer on a busy machine. `started` and the result are in s of
     time.monotonic().

@@ -49,8 +49,8 @@ SET_HINTS: Hints = [
     ),
 ]
 BROKEN = (
-    "After a refused call, the next call got no response. Use `with`, which releases the lock after "
-    "an exception."
+    "After a refused call, the next call got no response. Use `with`, which also releases the "
+    "lock after an exception."
 )
 
 
@@ -92,7 +92,9 @@ TWICE = (
     "replace its old price."
 )
 FREE = "An item that costs 0 cents is missing. Store this item like all other items."
-CASE = "The items milk and MILK are two different items. Do not change the names in the requests."
+CASE = (
+    "The items milk and MILK are two different items. Do not convert the names to small or capital letters."
+)
 COUNT = "The field `items` is wrong. Return the number of different items."
 SUM = (
     "The field `cents` of till/total is wrong. Return the same sum as the total in the last response of "
@@ -104,13 +106,14 @@ NEGATIVE_TEXT = (
 )
 NAMELESS = "The till accepted an item with an empty name. Raise rospy.ServiceException in this case."
 CHANGED = (
-    "The till refused the call, but its content has changed. Check the request before you store anything."
+    "The till refused the call, but the stored items have changed. Check the request before you "
+    "store the price."
 )
 BIG = (
-    "The till returned a wrong sum above 2147483647. Do not convert the numbers, because an int in "
-    "Python has no limit."
+    "The till returned a wrong sum when the sum was above 2147483647. Do not convert the numbers "
+    "to another type, because an int in Python has no limit."
 )
-SUMMED = "Store the price of each item, and return the sum."
+SUMMED = "Store the price of each item, and return the sum of all prices."
 EMPTIED = "Remove all items, and return the sum that was paid."
 PRINTED = "Print one line for each item, and store the price only after the line was printed."
 
@@ -176,31 +179,30 @@ def _totals(context: CheckContext, total: Service, prices: dict[str, int], count
 # -- 15.8
 
 REASON = "out of paper"
-LINE = (
-    "The printed line is wrong. It has to be the name of the item, one space, and the cents, such as "
-    '"milk 120".'
-)
+LINE = 'The printed line is wrong. Print the name of the item, one space, and the cents, such as "milk 120".'
 NOT_PRINTED = "The till printed nothing. Call print_line in the handler of till/set."
 NOT_REFUSED = (
-    "The printer refused the line, but the till accepted the item. If the printer refuses, raise "
-    "rospy.ServiceException."
+    "The printer refused the line, but the till accepted the item. If the printer refuses the "
+    "line, raise rospy.ServiceException."
 )
 REASONLESS = (
     "The error message does not contain the printer's message. Use the text of the exception that you caught."
 )
 COUNTED = (
-    "The line was not printed, but the till counts the item. Store the price only after print_line has "
+    "The line was not printed, but the till stored the price of the item. Store the price only "
+    "after print_line has "
     "returned."
 )
 NO_PRINTER = (
-    "There is no printer, and the till did not refuse the call within 5 s. Do not wait for the "
-    "service without a limit."
+    "The service print_line does not exist, and the till did not refuse the call within 5 s. Do "
+    "not wait for this service without a time limit."
 )
 ILLEGAL = (
     "The till printed a line for a refused item. Check for negative cents and an empty name before you print."
 )
 ORDER = (
-    "A total is not the sum of the lines printed before, because another call changed the till. "
+    "A total is not the sum of the prices that were printed so far, because another call changed "
+    "the till at the same time. "
     "Hold one lock while you print the line, store the price and calculate the total."
 )
 
@@ -250,8 +252,8 @@ def the_printed_till(context: CheckContext) -> None:
             expected="one line for each call, even if the price did not change",
             actual=f"{len(till.printer.lines) - before} lines",
             hints=(
-                "The item already had this price, and the till did not print one line. Print "
-                "exactly one line for each call of till/set."
+                "A call of till/set did not print exactly one line, because the item already had "
+                "this price. Print exactly one line for each call of till/set."
             ),
         )
         _prints_no_illegal_item(context, till)
@@ -282,7 +284,7 @@ def _refuses_without_print(
             expected="one call of print_line",
             actual=f"{till.printer.calls - before} calls",
             hints=(
-                "The till called print_line again after the printer had refused. Call print_line "
+                "The till called print_line again after the printer had refused the line. Call print_line "
                 "only once for each call of till/set."
             ),
         )
@@ -347,13 +349,16 @@ FREE_ITEM = (
 )
 KEPT = "The till still has items after a reset. Remove all items in the handler of till/reset."
 NOT_COUNTED = (
-    "The printer was printing a line during the reset, but this item is missing in the sum. Let the "
-    "reset wait for the lock."
+    "The printer was printing the line of an item during the reset, but the sum does not contain "
+    "this item. In the handler of till/reset, acquire the lock of till/set first."
 )
-TOO_EARLY = "The reset did not wait for the line that was being printed. Hold the same lock as in till/set."
+TOO_EARLY = (
+    "The handler of till/reset did not wait until the line was printed. In this handler, hold the "
+    "lock that till/set holds while it prints."
+)
 LEFT = (
-    "The printer was printing a line during the reset, but this item was in the till after the "
-    "reset. Hold one lock while you print the line and store the price."
+    "The printer was printing the line of an item during the reset, and this item was in the till "
+    "after the reset. Hold one lock while you print the line and store the price."
 )
 
 
@@ -366,11 +371,14 @@ LEFT = (
     start=start_of(NAME, "# Your program of exercise 15.8, extended.\n..."),
     goals={
         EMPTIED: 3,
-        "Wait for a line that is being printed. Reset the till even if there is no printer.": 1,
+        "If a line is being printed, wait for its end. Reset the till even if there is no printer.": 1,
     },
 )
 def the_reset(context: CheckContext) -> None:
-    """Reset a till with items, without items, with a free item, and during the printing of a line."""
+    """Reset a till with items, a till without items, and a till with a free item.
+
+    Then reset during the printing of a line.
+    """
     with running_till(context, TOTAL, RESET) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         reset = till.service(context, RESET, TRIGGER, [(ANYTHING, SUCCEEDS)])

@@ -31,9 +31,10 @@ NOISE = (
     "Only a twentieth of the points is dark, so this frame shows no customer. A frame shows a "
     "customer if at least a tenth of all points is dark."
 )
-TENTH = "Exactly a tenth of the points is dark, and this is enough. Compare with >=, not with >."
+TENTH = "Exactly a tenth of the points is dark, so this frame shows a customer. Compare with >=, not with >."
 ROUNDED = (
-    "The number of dark points is one less than a tenth, so this frame shows no customer. Compare "
+    "The number of dark points is one less than a tenth of all points, so this frame shows no "
+    "customer. Compare "
     "without rounding: 10 * dark >= width * height."
 )
 LIMIT = (
@@ -41,10 +42,10 @@ LIMIT = (
     "not with <=."
 )
 PADDING = (
-    "Each row has frame.step bytes, but only the first frame.width bytes are points. Begin row r at "
-    "byte r * frame.step."
+    "Each row has frame.step bytes, but only the first frame.width bytes are points. The row with "
+    "the index r begins at byte r * frame.step."
 )
-EMPTY = "All points are light, so this frame shows no customer. Publish False."
+EMPTY = "No point is dark, so this frame shows no customer. Publish False."
 NOTHING = (
     "The node published nothing for a valid frame. Check whether the callback reaches the line that "
     "publishes."
@@ -69,7 +70,7 @@ SHOWN = "For each valid frame, publish whether the frame shows a customer."
     goals={SHOWN: 3, "Publish nothing for malformed frames.": 1},
 )
 def the_vision(context: CheckContext) -> None:
-    """Send frames with about as many dark points as the limit, frames with padding, and malformed frames."""
+    """Send frames with about as many dark points as the limit, padded frames, and malformed frames."""
     with student_node(context, NAME, INTERFACE) as space:
         seen = context.subscribe(f"{space}/{SEEN}", BOOL)
         seen.published()
@@ -95,7 +96,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Style:
-    """The brightness of dark points, the number of padding bytes in a row, and their value."""
+    """The brightness of dark points, the number of padding bytes in a row, and the value of these bytes."""
 
     dark: tuple[int, int] = field(default=(0, DARK - 1))
     padding: int = 0
@@ -109,7 +110,7 @@ class Camera:
         self._publisher = rospy.Publisher(topic, Image, queue_size=10, tcp_nodelay=True)
 
     def is_heard(self, context: CheckContext) -> None:
-        """Assert that the node receives the frames."""
+        """Assert that the student's node receives the frames."""
         context.require(
             "the node subscribes to the frames with the type sensor_msgs/Image",
             holds=bool(wait_until(self._publisher.get_num_connections, 5.0)),
@@ -128,7 +129,7 @@ class Camera:
 
 
 def image_of(context: CheckContext, width: int, height: int, dark: int, style: Style | None = None) -> Image:
-    """Return a frame with `dark` dark points at random places; all other points are very bright."""
+    """Return a frame with `dark` dark points at random positions; all other points are very bright."""
     style = style or Style()
     points = [context.random.integer(*style.dark) for _ in range(dark)]
     points += [context.random.integer(230, 255) for _ in range(width * height - dark)]
@@ -226,12 +227,13 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
         (
             "no points and no bytes",
             frames[4],
-            "A frame of 0 by 0 points is malformed. Check width and height, and publish nothing.",
+            "A frame of 0 by 0 points is malformed. Publish nothing if frame.width or frame.height is 0.",
         ),
         (
             "no points in a row",
             frames[5],
-            "The width of this frame is 0, so all its bytes are padding. Check width and height.",
+            "The width of this frame is 0, so all its bytes are padding. Publish nothing if "
+            "frame.width or frame.height is 0.",
         ),
     ]
 
@@ -263,7 +265,7 @@ def _leaves_out(
 
 
 def _once(context: CheckContext, seen: Subscription, before: int) -> None:
-    """Assert that there is exactly one message after the first `before` messages."""
+    """Assert that exactly one message arrives after the first `before` messages."""
     seen.until(lambda arrivals: len(arrivals) > before + 1, AGAIN)
     context.require(
         "the node publishes one message for each frame",

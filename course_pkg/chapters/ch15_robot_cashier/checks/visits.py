@@ -64,7 +64,7 @@ STEPS = (
     Step(True, Late(0.3, found(False)), "False"),
 )
 # These calls of detect_customer end a visit; the first call has the number 1. A call of till/reset follows
-# each of them.
+# each of these calls.
 VISITS_END = [number for number, step in enumerate(STEPS, 1) if not step.waits and step.name == "False"]
 NO_CALL = (
     "No call arrived. In the main thread, call detect_customer in a loop until rospy.is_shutdown() "
@@ -83,9 +83,12 @@ RESET_FAILED = (
 )
 NO_TILL = (
     "The service till/reset does not exist, and the node stopped calling detect_customer. Do not "
-    "wait for till/reset without a limit, and catch rospy.ServiceException."
+    "wait for till/reset without a time limit, and catch rospy.ServiceException."
 )
-NO_DEFAULT = 'Without a parameter, the field `patience` has to be 2 s. Use rospy.get_param("~wait", 2.0).'
+NO_DEFAULT = (
+    "If the parameter ~wait is not set, the field `patience` has to be 2 s. Use "
+    'rospy.get_param("~wait", 2.0).'
+)
 PARAMETER = (
     'The field `patience` has a wrong value. Read the private parameter "~wait" of the node: '
     'rospy.get_param("~wait", 2.0).'
@@ -122,14 +125,15 @@ NOT_FOUND = (
     "`found` was False, but the node acted as if a customer was there. Test the field `found`: in "
     "an if statement, a response object always counts as true."
 )
-TEXT = "The text of the greeting is wrong. Compare it with the text in the exercise, letter by letter."
+TEXT = "The text of the greeting is wrong. Compare this text with the text in the exercise, letter by letter."
 NO_RESET = "The visit is over, but the node did not call till/reset. Call this service when `found` is False."
 EARLY_RESET = (
     "The node called till/reset before the visit had ended. Call this service when `found` is False."
 )
 RESETS = "The node called till/reset more than once after a visit. Call this service once after each visit."
 STANDS_STILL = (
-    "The node publishes no mirror image while a call waits. Make the call in the main thread, and "
+    "The node publishes no mirror image while it waits for the response of detect_customer. Make "
+    "the call in the main thread, and "
     "publish in the callback of the subscriber."
 )
 GREETED = "Greet each customer once, and publish mirror images of the arm at the same time."
@@ -145,7 +149,10 @@ GREETED = "Greet each customer once, and publish mirror images of the arm at the
     needs=[f"file:{file_of(NAME)}"],
     deadline=60.0,
     start=start_of(NAME, "# Your program of exercise 15.5, extended.\n..."),
-    goals={GREETED: 3, "Call detect_customer in a loop. Without the parameter, set `patience` to 2 s.": 1},
+    goals={
+        GREETED: 3,
+        "Call detect_customer in a loop. If the parameter ~wait is not set, set `patience` to 2 s.": 1,
+    },
 )
 def the_visits(context: CheckContext) -> None:
     """Serve a detector that responds, refuses and closes a connection, and a till that refuses once."""
@@ -191,7 +198,7 @@ def the_visits(context: CheckContext) -> None:
 
 
 class Alone:
-    """Serves a node without a till: a customer comes, and leaves after one call."""
+    """Tests a node without a till: a customer comes, and leaves after one call."""
 
     def __init__(self) -> None:
         self.patiences: list[float] = []
@@ -244,7 +251,7 @@ class Till:
 
 
 def _called(detector: Detector, times: int) -> bool:
-    """Wait for the call number `times` of the detector; return whether it came in time."""
+    """Wait for call number `times` of the detector; return whether this call came in time."""
     return bool(wait_until(lambda: len(detector.calls) >= times, NEXT_CALL))
 
 
@@ -320,7 +327,10 @@ def _mirrors_in_visit(context: CheckContext, mirrored: Subscription, calls: list
         holds=len(meanwhile) > 2,
         expected="an image every 50 ms during a visit, too",
         actual=f"{len(meanwhile)} images during a visit",
-        hints="During a visit, the node mirrored nothing. Publish in the callback at all times.",
+        hints=(
+            "During a visit, the node published no mirror images. Publish each mirror image in "
+            "the callback, even during a visit."
+        ),
     )
 
 

@@ -28,11 +28,12 @@ from course_pkg.waiting import wait_until
 
 # On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
 STARTING = 40.0
-# All other nodes must exist this many s after the first node, or later if the first node started late.
+# All other nodes must exist this many s after the first node; if the first node started late, they get more
+# time.
 COMPLETE = 6.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 REACTION = 5.0  # A greeting, a reset, or the detector's reaction to a change may take this many s.
-# Killed nodes must run again within this many s, or within twice the start time if that is longer.
+# Killed nodes must run again within this many s, or within twice the start time if this is longer.
 BACK = 8.0
 EVERY = 0.1  # EVERY is the time in s between two frames.
 WAIT = 1.5  # The argument `wait` has this value in s.
@@ -151,7 +152,7 @@ class Counter:
 
 
 def _comes_up(context: CheckContext, running: Running, space: str) -> float:
-    """Wait until all services and topics exist; otherwise, report the name of a missing one.
+    """Wait until all services and topics exist; otherwise, report one missing name.
 
     Return the time in s that the system needed to start.
     """
@@ -170,8 +171,8 @@ def _comes_up(context: CheckContext, running: Running, space: str) -> float:
                 hint=NOT_LAUNCHED
                 if status is not None
                 else (
-                    f"The node {node} is missing, or the node has no {name}. Repeat the check of "
-                    "the exercise for this node."
+                    f"The node {node} is missing, or the node has no {name}. Go to the exercise in "
+                    "which you wrote this node, and run the check of that exercise again."
                 ),
             )
         time.sleep(POLL)
@@ -193,7 +194,7 @@ def _missing(seen: Snapshot, space: str) -> list[tuple[str, str]]:
 
 @dataclass
 class Shop:
-    """The whole system, as a customer uses it."""
+    """The whole system, from the point of view of a customer."""
 
     context: CheckContext
     space: str
@@ -227,7 +228,10 @@ class Shop:
         return bool(wait_until(told, REACTION, POLL))
 
     def serves_two_customers(self, mirrored: Subscription, arm: Publisher) -> None:
-        """Let a customer come and leave. In between, two clients buy at once, and the printer fails."""
+        """Let a customer come and leave.
+
+        Between these two events, two clients buy at the same time, and the printer fails.
+        """
         context = self.context
         total = self.service("till/total", "course_pkg/TillTotal", COUNTED)
         put = self.service("till/set", "course_pkg/TillSet", REFUSED_ITEM)

@@ -26,7 +26,7 @@ STAY = 4.0  # An additional customer stays for STAY s.
 
 
 class CounterCamera:
-    """The counter with its customers, and the camera that publishes images of it."""
+    """The counter with its customers, and the camera that publishes images of this counter."""
 
     def __init__(self, every: float) -> None:
         self._counter = Counter()
@@ -58,7 +58,7 @@ class CounterCamera:
                 return
 
     def _there(self) -> int:
-        """Return the number of customers at the counter, and plan a customer if no customer is planned."""
+        """Return the number of customers at the counter; if no customer is planned, plan one."""
         with self._lock:
             now = time.time()
             if self._every and self._counter.next_change(now) == math.inf:

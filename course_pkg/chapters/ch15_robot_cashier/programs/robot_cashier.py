@@ -39,7 +39,8 @@ class RobotCashier:
         self._reset = BoundedProxy("till/reset", Trigger)
         self._over = threading.Event()
         for proxy in (self._detect, self._reset):
-            rospy.on_shutdown(proxy.cancel)  # Without this, the shutdown would wait for the end of a call.
+            # Without the cancellation, the shutdown would wait for the end of the current call.
+            rospy.on_shutdown(proxy.cancel)
         rospy.on_shutdown(self._over.set)
         rospy.Subscriber("joint_states", JointState, self.mirror, tcp_nodelay=True)
 
@@ -63,7 +64,7 @@ class RobotCashier:
         try:
             return bool(self._detect.call(patience=wait, timeout=wait + GRACE).found)
         except FAILED as error:
-            if not self._over.is_set():  # Without a shutdown of the node, the failure has another cause.
+            if not self._over.is_set():  # If the node was not shut down, the failure has another cause.
                 rospy.logwarn_throttle(QUIET, "Cannot detect customers, trying again: %s", error)
             self._over.wait(AGAIN)
             return otherwise

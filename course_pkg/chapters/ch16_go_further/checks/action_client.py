@@ -20,9 +20,9 @@ from course_pkg.ros.node.action_server import ActionServer
 
 WAIT = 2.0  # The client waits this many s for an action server.
 LONG = 6.0  # A robot needs this many s for a goal, and the client cancels this goal.
-PROMPT = 4.0  # If the robot needs 0.3 s, a client may take this many s on a busy machine.
-ENOUGH = 5.0  # For a robot that finishes in time, the client has this limit in s.
-BRIEF = 0.2  # For a robot that ignores the cancellation, the client has this limit in s.
+PROMPT = 4.0  # If the robot needs 0.3 s for a goal, the client may take this many s on a busy machine.
+ENOUGH = 5.0  # The client has this time limit in s with a robot that finishes in time.
+BRIEF = 0.2  # The client has this time limit in s with a robot that ignores the cancellation.
 LATE = 0.6  # A late robot starts this many s after the call.
 SECONDS = 0.8  # The client must cancel the goal after this many s; the time is not a whole number.
 SLACK = 3.0  # On a busy machine, a call may take this many s longer.
@@ -33,7 +33,7 @@ BOUND = (
 )
 DURATION = "actionlib does not accept a plain number of seconds. Pass rospy.Duration(seconds)."
 UNSENT = (
-    "The goal did not arrive, because it was sent before the connection existed. Call "
+    "The goal did not arrive at the server, because the function sent it before the connection existed. Call "
     "wait_for_server(rospy.Duration(2)) before send_goal."
 )
 HOW_LONG = "The time limit is wrong. Use the argument `seconds`: wait_for_result(rospy.Duration(seconds))."
@@ -43,7 +43,7 @@ NOBODY = (
 )
 EARLY = (
     "There is no result before the goal has ended. After cancel_goal(), wait for the result again, "
-    "because the robot first finishes the current thing."
+    "because the goal ends only after the robot has fetched its current thing."
 )
 
 
@@ -60,7 +60,7 @@ class Robot:
         self._fetched, self._seconds, self._stubborn = fetched, seconds, stubborn
 
     def receive_cancel(self, cancelled: GoalID) -> None:
-        """Note a message on the topic `cancel`; an empty id means all goals."""
+        """Record a message on the topic `cancel`; an empty id means all goals."""
         self.cancelled_all = self.cancelled_all or not cancelled.id
 
     def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
@@ -84,15 +84,15 @@ class Robot:
 
 
 FETCHED = "Send a goal, and return the number of fetched things."
-CANCELLED = "Cancel the goal when the limit is over, and return the number."
+CANCELLED = "Cancel the goal when the time limit is over, and return the number of fetched things."
 
 
 @part(
     "16.2",
     points=3,
     goal=(
-        "Send a goal, and wait for the result with a limit. When the limit is over, cancel the "
-        "goal. Return the number of fetched things."
+        "Send a goal, and wait for the result with a time limit. When the time limit is over, "
+        "cancel the goal. Return the number of fetched things."
     ),
     needs=["fetch_within"],
     deadline=60.0,
@@ -119,7 +119,7 @@ def _wrong_result(robot: Robot, things: int) -> Hints:
         (
             things,
             (
-                "The function returned the number in the goal. Return the number in the result: "
+                "The function returned the field `things` of the goal. Return the number in the result: "
                 "get_result().fetched."
             ),
         ),
@@ -249,7 +249,7 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
 
 
 def _goes_on(context: CheckContext) -> None:
-    """Serve a robot that ignores the cancellation; the function must end, with any value or error."""
+    """Serve a robot that ignores the cancellation; the function must return any value, or raise any error."""
     name = f"/{context.random.word()}"
     robot = Robot(0, LONG, stubborn=True)
     with _serving(name, robot):
@@ -291,7 +291,7 @@ def _comes(context: CheckContext) -> None:
                 "a server that starts within 2 s gets the goal",
                 expected=str(fetched),
                 actual=str(result.returned()),
-                # If the client was waiting for a result, it sent the goal before the robot started.
+                # If the client waited for a result, then it sent the goal before the robot started.
                 hint=UNSENT if result.took > ENOUGH else too_short,
             )
 
@@ -319,7 +319,8 @@ def _nobody(context: CheckContext) -> None:
 WAITED_FOR_EVER: Hints = [
     (
         matches("TimesUp"),
-        "No server exists, but the wait has no limit. Write wait_for_server(rospy.Duration(2)).",
+        "No server exists, but the function waits without a time limit. Write "
+        "wait_for_server(rospy.Duration(2)).",
     ),
     (
         matches("NoneType"),

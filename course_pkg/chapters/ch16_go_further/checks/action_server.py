@@ -27,7 +27,7 @@ kept = []
 def begin(kind, name):
     kept.append(kind(name))
 """
-# The ranges contain the time in s for one thing in two goals. The times differ, so no fixed time is right for
+# The ranges differ, so no fixed time is right for both goals. The times differ, so no fixed time is right for
 # both goals.
 QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
 TIMEOUT = 6.0  # TIMEOUT is the time limit in s for a goal that needs less than 1 s.
@@ -36,12 +36,12 @@ BUSY = 2.0
 STARTING = 2.0  # STARTING is the time limit in s for the start of a server.
 CANCELLING = 3.0  # A goal must end within this many s after its cancellation.
 FIXED = (
-    "The robot did not work for the right time. Sleep for goal.seconds, because the time for one thing "
-    "is different in each goal."
+    "The duration of the robot's work is wrong. Sleep for goal.seconds, because each goal contains its "
+    "own time for one thing."
 )
 NO_STATE = (
-    "The function ended, but the goal has no end state. Call set_succeeded, set_preempted or "
-    "set_aborted of the server: the return value of the function is ignored."
+    "The function returned, but the goal has no end state, because the server ignores the return "
+    "value. Call set_succeeded, set_preempted or set_aborted of the server."
 )
 EXECUTED = "Publish feedback after each thing, and the result at the end."
 
@@ -81,8 +81,8 @@ def _is_served(context: CheckContext, client: actionlib.SimpleActionClient) -> N
         expected="an action server",
         actual="no action server",
         hints=(
-            "No server for this action started. Pass the argument `name` of the constructor to "
-            "SimpleActionServer, and call start() of the server."
+            "No action server with the right name was started. Pass `name`, the argument of your "
+            "constructor, to SimpleActionServer, and call start() of the server."
         ),
     )
 
@@ -104,7 +104,11 @@ def _wrong_number_fetched(things: int) -> Hints:
                 "fetched things."
             ),
         ),
-        (things + 1, "The result is too large by one. Stop after goal.things things."),
+        (
+            things + 1,
+            "The result is too large by one. End the loop when the number of fetched things is "
+            "equal to goal.things.",
+        ),
     ]
 
 
@@ -133,7 +137,7 @@ def _wrong_feedback(things: int) -> Hints:
 
 
 def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
-    """Send a quick goal; if it was too slow, send another goal, because the machine may be busy."""
+    """Send a quick goal; if it was too slow, the machine may be busy, so send the goal again."""
     things = context.random.integer(3, 4)
     each = context.random.number(*QUICK, digits=3)
     limit = Deadline(BUSY)
@@ -157,7 +161,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
         holds=took > 0.9 * things * each and _pace(at, took / things) < LONG[0] / 2,
         expected=f"about {things * each:.2f} s for {things} things",
         actual=f"{took:.2f} s",
-        hints="The goal ended too early. Sleep for goal.seconds before each feedback."
+        hints="The goal ended too early. Sleep for goal.seconds before you publish each feedback message."
         if took < 0.9 * things * each
         else FIXED,
     )
@@ -181,7 +185,7 @@ def _sends_feedback(context: CheckContext, feedback: Subscription, before: int, 
 
 
 def _is_on_time(context: CheckContext, at: list[float], began: float, each: float) -> None:
-    """Assert that each feedback message comes when a thing has been fetched, neither earlier nor later."""
+    """Assert that each feedback message comes at the time when a thing has been fetched."""
     context.require(
         "the feedback arrives while the goal is executed",
         holds=at[-1] - at[0] > 0.4 * (len(at) - 1) * each,
@@ -218,7 +222,10 @@ def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.Simple
         "the result is the number of fetched things",
         expected=2,
         actual=client.get_result().fetched,
-        hints="The number of things continued from the previous goal. Start each goal with the number 0.",
+        hints=(
+            "The result also counts the things of the previous goal. At the beginning of each "
+            "goal, set the number of fetched things to 0."
+        ),
     )
 
 
@@ -234,7 +241,8 @@ def _wrong_number_left(last: int) -> Hints:
         (
             80,
             (
-                "The result contains the number in the goal, 80. Return the number of things that the robot "
+                "The result is 80, but this is the number of things in the goal. Return the "
+                "number of things that the robot "
                 "fetched before the cancellation."
             ),
         ),
@@ -263,8 +271,9 @@ def _cancels(context: CheckContext, client: actionlib.SimpleActionClient, feedba
         expected="a goal that ends after the thing that is being fetched",
         actual="a robot that continues to fetch",
         hints=(
-            "The robot continued after the client had cancelled the goal. Check is_preempt_requested() "
-            "before each thing, and end the goal if it returns True."
+            "The robot continued after the client had cancelled the goal. Call "
+            "is_preempt_requested() before the robot fetches each thing, and end the goal if this "
+            "call returns True."
         ),
     )
     _ends_as(context, client, "a goal that is cancelled ends as PREEMPTED", GoalStatus.PREEMPTED)

@@ -13,7 +13,10 @@ from course_pkg.checking.result import Result
 from course_pkg.waiting import wait_until
 
 SETTLING = 1.0  # A node that reads parameters from a cache gets a new value within this many s.
-NAME = "The name of the parameter is wrong. Put the name of the robot into it: f'/{robot}/speed'."
+NAME = (
+    "The name of the parameter is wrong. Put the name of the robot into the parameter's name: "
+    "f'/{robot}/speed'."
+)
 CHANGED = (
     "The parameter has changed, but the function returned the old value. Read the parameter in each call."
 )
@@ -27,7 +30,10 @@ TRUTH = (
     "return the default."
 )
 NEGATIVE = "The value was negative, but a speed has to be above 0. Return the default in this case."
-SET = "The function has set the parameter. Only read the parameter, and return the default."
+SET = (
+    "The function has set the parameter. Do not set the parameter: return the default if the "
+    "value cannot be used."
+)
 ZERO = "The value was 0, but a speed has to be above 0. Return the default in this case."
 
 
@@ -130,7 +136,8 @@ def _speed(context: CheckContext, robot: str, default: float) -> Result:
             (
                 matches("^ValueError"),
                 (
-                    "If a string is not a number, float() raises a ValueError. Catch this error, and "
+                    "float() raises a ValueError for a string that does not contain a number. "
+                    "Catch this error, and "
                     "return the default."
                 ),
             ),

@@ -34,7 +34,7 @@ PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
 LONG = 2.5  # In the last goal with too many parcels, each parcel would take this many s.
 ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
 SETTLING = 1.0  # After a delivery, the charge of the battery is right within this many s.
-NOT_AT_ONCE = 0.9  # A goal that took this fraction of its full time was not aborted at once.
+NOT_AT_ONCE = 0.9  # A goal that took at least this fraction of its full time was not aborted immediately.
 
 START = f"""%%writefile {FILE}
 #!/usr/bin/env python3
@@ -148,7 +148,7 @@ def _delivers(
         client,
         "a delivery succeeds",
         GoalStatus.SUCCEEDED,
-        "The delivery did not end as SUCCEEDED. Call set_succeeded at the end of the delivery.",
+        "The delivery did not end in the state SUCCEEDED. Call set_succeeded at the end of the delivery.",
     )
     meanwhile = battery.count - before
     feedback.wait(PARCELS, SETTLING)
@@ -173,8 +173,9 @@ def _delivers(
         expected=f"about {PARCELS * EACH / PERIOD:.0f} values",
         actual=meanwhile,
         hints=(
-            "The battery sent no values during the delivery. The function of the action has its own "
-            "thread: deliver the parcels there, and publish the charge in another thread."
+            "The battery sent no values during the delivery. Deliver the parcels in the function "
+            "of the action, which has its own thread, and publish the charge in a different "
+            "thread."
         ),
     )
     charge = 100.0 - PARCELS
@@ -214,8 +215,8 @@ def _cancels(
         "a delivery can be cancelled",
         GoalStatus.PREEMPTED,
         (
-            "A cancelled delivery did not end as PREEMPTED. Check is_preempt_requested() before each "
-            "parcel, and end the goal with set_preempted."
+            "A cancelled delivery did not end in the state PREEMPTED. Check "
+            "is_preempt_requested() before each parcel, and end the goal with set_preempted."
         ),
     )
     feedback.until(lambda _: _counts(feedback)[-1] == client.get_result().fetched, SETTLING)
@@ -265,7 +266,7 @@ def _cancels(
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
     """Assert that the charge did not change because of the impossible goal before the last goal."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
-    battery.during(3 * PERIOD)  # The charge may have this value only for a short time.
+    battery.during(3 * PERIOD)  # A wrong charge may be published only for a short time.
     context.expect(
         "an impossible delivery delivers nothing",
         expected=f"a charge of {charge:g}",
@@ -312,7 +313,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
 def _aborts_at_once(
     context: CheckContext, client: actionlib.SimpleActionClient, capacity: int, each: float
 ) -> None:
-    """Send a goal with one parcel too many; a delivery of one of its parcels would take `each` s."""
+    """Send a goal with one parcel too many; the delivery of one parcel would take `each` s."""
     began = time.monotonic()
     client.send_goal(FetchGoal(things=capacity + 1, seconds=each))
     _ends_as(
@@ -321,7 +322,7 @@ def _aborts_at_once(
         "a delivery of more parcels than the capacity is aborted",
         GoalStatus.ABORTED,
         (
-            "The delivery has more parcels than the capacity, but it was not aborted. Compare "
+            "The delivery was not aborted, although it has more parcels than the capacity. Compare "
             "goal.things with the parameter ~capacity (default: 5), and call set_aborted."
         ),
     )
@@ -356,7 +357,8 @@ def _ends_as(
             (
                 (lambda _: "Exception" in text),
                 (
-                    "The function that delivers raised an exception. Read the error message above, and "
+                    "The function that delivers the parcels raised an exception. Read the error "
+                    "message above, and "
                     "correct the error."
                 ),
             ),

@@ -1,4 +1,7 @@
-"""Functions that start the student's parcel robot, and find out what each of its names is."""
+"""Functions that start the student's parcel robot.
+
+They also find out whether each name is a topic, a service or an action.
+"""
 
 from __future__ import annotations
 
@@ -18,17 +21,17 @@ REGISTERING = 1.5
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 FITTING = {"battery": "topic", "door": "service", "deliver": "action"}
 CAPACITY = (
-    'The user sets "capacity" when the robot starts, so it is not an interface for clients. Read '
-    "a private parameter instead."
+    'The user sets "capacity" when the robot starts, and clients never change this value. Read '
+    "the value from a private parameter."
 )
 UNFIT = {
     "battery": (
-        "Several programs need each new value of the battery, but they send no requests. Use the kind "
-        "of interface that fits this."
+        "Several programs need each new value of the battery, but they send no requests. Use the "
+        "kind of interface that sends values without a request."
     ),
     "door": (
-        "The door moves only for a short time, and the client has to know when the move is done. Use "
-        "the kind of interface that fits this."
+        "The door moves only for a short time, and the client has to know when the move is done. "
+        "Use the kind of interface that returns a response after a short action."
     ),
     "deliver": (
         "The client wants progress reports, and it wants to cancel the delivery. Only one kind of "
@@ -102,7 +105,7 @@ def offers_what_fits(context: CheckContext, robot: Robot) -> None:
 
 
 def kind_of(seen: Snapshot, robot: Robot, name: str) -> str:
-    """Return "topic", "service" or "action"; return "" if the robot has nothing with this name."""
+    """Return "topic", "service" or "action"; return "" if the robot has registered nothing with this name."""
     return _kind(seen, robot, robot.name(name))
 
 
@@ -128,7 +131,7 @@ def _has_ended(context: CheckContext, robot: Robot) -> None:
         expected="a node",
         actual=f"a program that has ended, with the output: {telling_line(printed)}",
         hint=(
-            "The program has ended. Correct its error if there is one, and write rospy.spin() at "
-            "its end, for example."
+            "The program has ended. Correct the error in its output; if there is no error, write "
+            "rospy.spin() as the last line."
         ),
     )

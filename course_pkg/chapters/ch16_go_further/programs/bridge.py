@@ -118,7 +118,8 @@ def main() -> None:
         asyncio.run(_serve(port))
     except OSError as error:
         rospy.logfatal(
-            "Port %d is not available (%s). Choose another port; with _port:=0, the node takes a free port.",
+            "Port %d is not available (%s). Choose a different port; with _port:=0, the node uses "
+            "any free port.",
             port,
             error.strerror,
         )

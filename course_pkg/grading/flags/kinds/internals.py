@@ -142,7 +142,7 @@ def _is_internal(name: str) -> bool:
 def _named(text: str, line: int) -> Iterator[Observation]:
     """Yield an observation for a string that is the name of a module or attribute.
 
-    The name must belong to a module of the course, or to an attribute for getattr().
+    The string must be the name of a module of the course, or of an attribute that getattr() can read.
     """
     if MODULE.fullmatch(text) and not PUBLIC.fullmatch(text):
         yield Observation(text, line, f"The code contains the name {text}.")

@@ -24,9 +24,9 @@ CHANGED = (
 def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each answer that is identical to the course's solution.
 
-    For a short exercise, many students write the same code as the solution. Therefore, identical short
-    answers of a student are reported only if they have at least ten statements of the student's own in total.
-    A similar answer is reported only if it has at least ten such statements by itself.
+    For a short exercise, many students write the same code as the solution. Therefore, a student's identical
+    short answers are reported only if all of them together have at least ten statements that the student
+    wrote. A similar answer is reported only if this one answer has at least ten such statements.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}
