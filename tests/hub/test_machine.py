@@ -84,7 +84,7 @@ def test_a_missing_home_is_reported_for_this_student_only() -> None:
     missing = next(each for each in pwd.getpwall() if not os.path.exists(each.pw_dir))
     own = pwd.getpwuid(os.getuid()).pw_name
     (problem,) = home_problems([own, missing.pw_name])
-    assert f"The student {missing.pw_name} cannot work here" in problem
+    assert f"The student {missing.pw_name} cannot use the hub" in problem
 
 
 def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:

@@ -140,7 +140,7 @@ def test_old_files_of_an_earlier_site_are_removed(tmp_path: Path) -> None:
 def test_a_folder_with_other_files_is_refused(tmp_path: Path) -> None:
     """A folder with other files is refused and does not change."""
     (tmp_path / "thesis.txt").write_text("mine")
-    with pytest.raises(SiteError, match="contains files that are not a site"):
+    with pytest.raises(SiteError, match="contains files that do not belong to a site"):
         write(tmp_path, "a.html")
     assert names(tmp_path) == {"thesis.txt"}
 

@@ -67,7 +67,7 @@ def test_a_scheduler_that_ends_during_the_run(scheduler: tuple[subprocess.Popen[
     with distributed.Client(address, timeout=2) as client:
         cluster = Killing(client, client.get_executor(pure=False), address, 20.0)
         task = Task(Submission("s01", "05", b"", "", problem="no notebook"), "secret", "key", False)
-        with pytest.raises(GradingError, match=r"connection to the dask scheduler .* lost.*are kept"):
+        with pytest.raises(GradingError, match=r"connection to the dask scheduler .* lost.*are saved"):
             list(grade_all([task], Pool(cluster.executor, 1, cluster)))
         with pytest.raises(GradingError, match="lost"):
             Cluster.require(cluster)
