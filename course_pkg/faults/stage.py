@@ -1,4 +1,4 @@
-"""A stage causes a fault and undoes it.
+"""A stage causes a fault on the graph, and removes the fault again.
 
 A stage runs the programs of the fault, and if necessary a separate master. All nodes and services of a stage
 are in one namespace of the running graph, such as /lab. A stage does not change other nodes and services.

@@ -40,7 +40,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
     if y >= 0.72:
         return bytes(TOP if y < 0.76 else COUNTER) * width
     row = bytearray(bytes(WALL if y < 0.6 else FLOOR) * width)
-    # Many customers are drawn narrower, with a gap between them.
+    # If there are many customers, each is drawn narrower, with a gap between them.
     squeeze = min(height, 0.44 / HALF_BREADTH * width / (customers + 1))
     for number, coat in enumerate(islice(cycle(COATS), customers), 1):
         half, colour = _figure_at(y, coat)

@@ -51,7 +51,7 @@ class Simulator:
         ]
 
     def run(self) -> None:
-        """Move the world every 16 ms until the node is shut down."""
+        """Update the simulation every 16 ms until the node is shut down."""
         due = time.monotonic()
         while not rospy.is_shutdown():
             due = max(due + TICK, time.monotonic() - MAX_DELAY)

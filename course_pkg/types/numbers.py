@@ -28,7 +28,7 @@ def float32(number: float) -> float:
     fewest = 6 if abs(exact) >= _SMALLEST_NORMAL_FLOAT32 else 1
     for digits in range(fewest, 9):
         short = float(f"{exact:.{digits}g}")
-        # Near the largest float32, the shorter number can be out of range.
+        # Near the largest float32, the number with fewer digits can be out of range.
         if math.isfinite(short) and _fits(short) and _FLOAT32.pack(short) == packed:
             return short
     return float(f"{exact:.9g}")

@@ -49,7 +49,7 @@ def installed(program: Path, _notebook: Path, home: Path) -> Iterator[str]:
 def new_user(program: Path) -> tuple[list[float], list[float], float]:
     """Start the lab twice as a new user.
 
-    Return the durations of both starts in s, and the size of the user's files in MB.
+    Return the durations of the first and the second start in s, and the size of the user's files in MB.
     """
     with tempfile.TemporaryDirectory(dir="/tmp") as folder, sync_playwright() as playwright:
         home = Path(folder, "home")

@@ -36,7 +36,7 @@ class Log:
 
 
 def completed(work: Coroutine[None, None, object]) -> object:
-    """Run `work` on another thread. The browser of another test may use this thread's event loop."""
+    """Run `work` on another thread, because another test's browser may use this thread's event loop."""
     with ThreadPoolExecutor(1) as pool:
         return pool.submit(asyncio.run, work).result()
 

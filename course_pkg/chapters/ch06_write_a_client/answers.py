@@ -153,10 +153,10 @@ def volume_or_none(service, length, width, height):
             continue
     return None
 
-# %% 06.3 wrong: catches a number that is too large, too | hint: The function hides a wrong
+# %% 06.3 wrong: catches a number that is too large, too | hint: The function catches the exception that a wrong argument causes
 replace("volume\n    except rospy.ServiceException:", """volume
     except (rospy.ServiceException, ArithmeticError, LookupError, TypeError, ValueError):""")
-# %% 06.3 wrong: catches Exception | hint: The function hides a wrong
+# %% 06.3 wrong: catches Exception | hint: The function catches the exception that a wrong argument causes
 replace("rospy.ServiceException", "Exception")
 # %% 06.3 wrong: catches the other exception | hint: not rospy.ROSException
 replace("ServiceException", "ROSException")
@@ -171,9 +171,9 @@ replace("(service, length, width, height):", """(service, length, width, height)
     for side in (length, width, height):
         if not isinstance(side, (int, float)):
             raise TypeError(f"{side!r} is no number")""")
-# %% 06.3 wrong: a TypeError, too | hint: The function hides a wrong
+# %% 06.3 wrong: a TypeError, too | hint: The function catches the exception that a wrong argument causes
 replace("rospy.ServiceException", "(rospy.ServiceException, TypeError)")
-# %% 06.3 wrong: an AttributeError, too | hint: The function hides a wrong
+# %% 06.3 wrong: an AttributeError, too | hint: The function catches the exception that a wrong argument causes
 replace("rospy.ServiceException", "(rospy.ServiceException, AttributeError)")
 # %% 06.3 wrong: the exception itself | hint: The call failed, but the
 replace(":\n        return None", " as error:\n        return error")

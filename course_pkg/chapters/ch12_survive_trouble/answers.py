@@ -452,7 +452,7 @@ class Watchdog:
         self.quit.set()
         self.done.wait()
 
-# %% 12.4 wrong: looks once | hint: The master does not know the name, but the watchdog does not
+# %% 12.4 wrong: looks once | hint: The master does not know the name, and the watchdog has not
 class Watchdog:
     def __init__(self, name, uri, master, every):
         self.service, self.master = name, master

@@ -80,7 +80,7 @@ replace(" or frame.step < frame.width", "")
 replace('if frame.encoding != "mono8" or not frame.width or not frame.height or frame.step < frame.width:\n        return None', 'if frame.encoding != "mono8" or frame.step < frame.width:\n        return None\n    if not frame.data:\n        return False')
 # %% 15.1 wrong: no width | hint: The width of this frame is 0, so all its bytes are padding
 replace('not frame.width or not frame.height or', 'not frame.data or')
-# %% 15.1 wrong: another type | hint: The node does not subscribe to the frames with the right type
+# %% 15.1 wrong: another type | hint: The node subscribes to the topic of the frames with a wrong type
 replace("import Image", "import CompressedImage as Image")
 # %% 15.1 wrong: a global name | hint: The program uses the global name
 replace('"frames"', '"/frames"')

@@ -1,4 +1,4 @@
-"""Reads points in time in the formats that the platforms write."""
+"""Reads dates and times in the formats that the platforms write."""
 
 from __future__ import annotations
 

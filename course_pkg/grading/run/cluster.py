@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 PATIENCE = 20.0  # A scheduler must respond, and a worker must connect, within this many s.
 INTERVAL = 1.0  # INTERVAL is the time in s between two polls of the workers, after all tasks were submitted.
-AGAIN = "The finished grades are saved. Correct this problem, and type the same command again."
+AGAIN = "The finished grades are saved. Correct the problem above, and type the same command again."
 
 
 class Cluster:

@@ -111,7 +111,7 @@ def hand_over(folder: str, uid: int) -> None:
 def clear(users: Users) -> None:
     """Kill all processes that run student's code, and delete their files in shared folders.
 
-    Processes that have left their parents are killed, too. The check runner is not killed, because it may not
+    Orphaned processes are killed, too. The check runner is not killed, because it may not
     have written its record yet. Raises TimeoutError if some processes do not end.
     """
     deadline = Deadline(KILL_TIMEOUT)

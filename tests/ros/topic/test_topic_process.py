@@ -359,7 +359,7 @@ def test_a_killed_process_is_reported(reports: Reports, master: PrivateMaster) -
 
 
 def test_a_stopped_process_is_killed(reports: Reports, master: PrivateMaster) -> None:
-    """end() kills a stopped process and unregisters its node."""
+    """end() kills a suspended process (SIGSTOP) and unregisters its node."""
     eventually(lambda: reports.parts.get("node"))
     with stopped(reports.process.pid):
         for _ in range(100):

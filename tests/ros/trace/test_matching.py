@@ -40,7 +40,7 @@ def span(
 
 
 def events(*records: list[SpanData], start: float = 0.0, end: float = 100.0) -> tuple[Event, ...]:
-    """Match the spans of several processes."""
+    """Combine the spans that belong to the same call in different processes."""
     found = [NodeRecord(f"/n{number}", number, spans) for number, spans in enumerate(records)]
     return match_events(found, start, end)
 

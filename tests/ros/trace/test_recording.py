@@ -170,7 +170,7 @@ def test_a_caller_that_gave_up(asker: Kernel) -> None:
 
 
 def test_unfinished_events_are_open(asker: Kernel) -> None:
-    """A waiting caller and a running handler have no end."""
+    """A caller that still waits and a handler that still runs have no end time."""
     recording = recorded(
         asker,
         """

@@ -8,8 +8,8 @@ from course_pkg.checking.peers.scripted_server import ScriptedServer
 from course_pkg.checking.result import Result
 
 HIDDEN = (
-    "The function hides a wrong argument. Catch only rospy.ServiceException, not a more "
-    "general class of exceptions."
+    "The function catches the exception that a wrong argument causes. Catch only "
+    "rospy.ServiceException, not a more general class of exceptions."
 )
 NO_NAMES = """
 class Slip:

@@ -23,7 +23,7 @@ PATIENCE = 5.0  # request.patience has this value in s, which is longer than eve
 CHANGE = 2.2  # After this many s, the customers change although no client waits.
 # A handler that makes fewer calls of watch.next() in LONG s, but does not really wait, is too slow.
 SELDOM = 8
-LOOKS = 3000  # A loop without a pause makes many more calls of watch.next() in LONG s than this.
+LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
 
 SINCE_WHEN = "the field `arrived` is the time at which the customer came"
 AT_ONCE = (

@@ -192,7 +192,7 @@ class CheckedPair:
         return sum(shelf.lock.owner == threading.get_ident() for shelf in self._shelves)
 
     def meet(self) -> None:
-        """Wait until another thread has also acquired a lock, but only for a short time."""
+        """Wait for a short time, or until another thread has also acquired a lock."""
         with self._turn:
             limit, self._meeting = self._meeting, MEETING
             self._turn.notify_all()

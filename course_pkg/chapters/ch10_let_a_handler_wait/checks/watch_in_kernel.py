@@ -1,4 +1,4 @@
-"""Code for the kernel. A Watch records the calls of a handler, and a shop serves the handler."""
+"""Code for the kernel. A Watch records the calls of a handler, and a shop offers the handler as a service."""
 
 from __future__ import annotations
 

@@ -367,8 +367,8 @@ def _not_received(count: int) -> Hints:
         (
             (lambda actual: len(actual) > count),
             (
-                "The function returned more than `count` bytes, so these bytes are missing in the next "
-                "call. Read only the missing bytes."
+                "The function returned more than `count` bytes, so the next call cannot read the extra "
+                "bytes. In each recv(), ask only for the bytes that you still need."
             ),
         ),
     ]

@@ -218,7 +218,7 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
 
 
 def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
-    """At a slow till, assert that the client made several attempts.
+    """If the till is slow, assert that the client made several attempts.
 
     At a till that responds in time, the client must make only one attempt.
     """

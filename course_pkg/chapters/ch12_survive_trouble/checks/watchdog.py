@@ -31,7 +31,7 @@ DIED = (
 )
 ONCE = "The watchdog stopped polling although a master was running. Poll in a loop until stop() is called."
 NEVER = (
-    "The master does not know the name, but the watchdog does not register the service. Register "
+    "The master does not know the name, and the watchdog has not registered the service again. Register "
     "the service each time lookupService() raises rosgraph.MasterError."
 )
 

@@ -218,8 +218,8 @@ def _wrong_selection(stamps: list[int]) -> Hints:
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + FEW_EFFORTS},
             "The node ignored a joint state in which the number of efforts is different from the "
-            "number of names. Publish its mirror image, because the exercise does not limit the "
-            "number of efforts.",
+            "number of names. Publish the mirror image of this joint state, because any number of "
+            "efforts is valid.",
         ),
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + EMPTY},

@@ -349,8 +349,8 @@ FREE_ITEM = (
 )
 KEPT = "The till still has items after a reset. Remove all items in the handler of till/reset."
 NOT_COUNTED = (
-    "The printer was printing the line of an item during the reset, but the sum does not contain "
-    "this item. In the handler of till/reset, acquire the lock of till/set first."
+    "The reset came while the printer was printing an item, and the sum has to contain this item, but "
+    "does not. In the handler of till/reset, acquire the lock of till/set first."
 )
 TOO_EARLY = (
     "The handler of till/reset did not wait until the line was printed. In this handler, hold the "

@@ -117,8 +117,8 @@ class Camera:
             expected="a subscriber of the type sensor_msgs/Image",
             actual="a subscriber of another type",
             hints=(
-                "The node does not subscribe to the frames with the right type. Pass sensor_msgs/Image "
-                "to rospy.Subscriber."
+                "The node subscribes to the topic of the frames with a wrong type. Pass Image from "
+                "sensor_msgs.msg to rospy.Subscriber."
             ),
         )
 

@@ -17,7 +17,7 @@ UPDATES = frozenset(["update", "setdefault", "pop", "clear", "__setitem__"])
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each assignment of an answer to an attribute of an imported object."""
+    """Yield a flag for each place where an answer sets an attribute of an imported object."""
     yield from unusual(group, "patches", _observe, whole_notebook=True)
 
 

@@ -56,7 +56,7 @@ def _written(answer: Fingerprint, given: Fingerprint) -> int:
 def _plain(answer: Answer) -> str:
     """Return the program without layout and comments.
 
-    For other languages than Python, only the layout is removed.
+    For languages other than Python, only spaces and line breaks are removed.
     """
     with suppress(*UNREADABLE):
         if is_python(answer):
