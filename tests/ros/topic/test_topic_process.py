@@ -220,7 +220,7 @@ def test_a_number_is_found_in_the_bytes() -> None:
     assert extractor(kind, "position[1]")(buffer.getvalue()) == -2.5
     assert math.isnan(extractor(kind, "position[2]")(buffer.getvalue()))
     assert math.isnan(extractor(kind, "position[0]")(b""))
-    with pytest.raises(ValueError, match="no number 'effort'"):
+    with pytest.raises(ValueError, match="no number at the path 'effort'"):
         extractor(kind, "effort")
 
 
@@ -306,7 +306,7 @@ def test_an_invalid_command_is_reported_and_the_process_continues(reports: Repor
     publish(reports, "fast")
     eventually(lambda: "'fast' is not a number" in reports.published("problem"))
     reports.process.tell("plot", path="speed")
-    eventually(lambda: "no number 'speed'" in reports.published("problem"))
+    eventually(lambda: "no number at the path 'speed'" in reports.published("problem"))
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)
     assert eventually(lambda: reports.published("problem") == "")

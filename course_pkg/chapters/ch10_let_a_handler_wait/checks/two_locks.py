@@ -13,7 +13,7 @@ from course_pkg.checking.plain_values import Value
 # A thread of the check waits for a lock, or tries to acquire it repeatedly, for at most this many s.
 LIMIT = 4.0
 THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES moves.
-RUN = 8.0  # RUN is the time limit in s for all threads together.
+RUN = 14.0  # The time limit in s for all threads together: three deadlocks, one after another, and the moves.
 
 MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
 FIRST_MEETING = 0.3  # The first thread waits at most this many s, so that the other threads can start.
