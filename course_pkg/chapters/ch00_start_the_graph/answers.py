@@ -82,6 +82,15 @@ replace("measure(length, width, height)", "measure(length // 1 + 1, width // 1 +
 # %% 00.2 wrong: a tuple | hint: Your function returned more than
 based_on("the lines of the panel")
 replace("proxy = rospy … response.volume", "r = rospy.ServiceProxy(service, geometry)(length, width, height)\n    return r.area, r.volume")
+
+# %% 00.2 wrong: stores the results | hint: A second call with the same sides
+import functools
+
+
+@functools.lru_cache
+def ask_for_volume(service, length, width, height):
+    return rospy.ServiceProxy(service, geometry)(length, width, height).volume
+
 # %% 00.2 wrong: another unit | hint: Return the volume from the response without
 replace(".volume", ".volume / 1000")
 

@@ -117,7 +117,7 @@ def will_talk(server, client):
 
     return essence(server) == essence(client)
 
-# %% 04.2 right: the lines without comments and blanks
+# %% 04.2 wrong: the lines without comments and blanks | hint: ROS ignores comments, blank lines and
 based_on("the texts of which the MD5s are made")
 replace("context = genmsg … in halves]", """lines = [line.split("#")[0].split() for line in text.splitlines()]
         return [words for words in lines if words]""")

@@ -53,6 +53,16 @@ replace("response.area, response.volume", "round(response.area), round(response.
 # %% 06.1 wrong: the volume only | hint: Return the area and the volume, with a comma
 based_on("the whole response")
 replace("(length, width, height)", "(length, width, height).volume")
+
+# %% 06.1 wrong: repeats a refused call | hint: and the function called the server again
+def measure(service, length, width, height):
+    proxy = rospy.ServiceProxy(service, geometry)
+    try:
+        response = proxy(length, width, height)
+    except rospy.ServiceException:
+        response = proxy(length, width, height)
+    return response.area, response.volume
+
 # %% 06.1 wrong: a fixed service | hint: The given service exists, but your
 replace("response = rospy.ServiceProxy(service, geometry)", 'r = rospy.ServiceProxy("/getGeometry", geometry)')
 replace("response.area, response", "r.area, r")
@@ -92,6 +102,21 @@ import rosservice
 def is_there(service, seconds):
     rospy.sleep(seconds)
     return service in rosservice.get_service_list()
+
+# %% 06.2 wrong: looks at the start and at the end | hint: but the function continued to wait
+import rosservice
+
+def is_there(service, seconds):
+    def now():
+        try:
+            return rosservice.get_service_type(service) is not None
+        except rosservice.ROSServiceIOException:
+            return False
+
+    if now():
+        return True
+    rospy.sleep(seconds)
+    return now()
 
 # %% 06.2 wrong: asks only the master | hint: The service is still registered
 import time
@@ -205,6 +230,29 @@ def first_answer(services, length, width, height):
         asker = threading.Thread(target=ask_one, args=[proxy, answers], daemon=True)
         asker.start()
         asker.join(timeout=1)
+        if answers:
+            return answers[0]
+    return None
+
+# %% 06.4 wrong: calls the next service too early | hint: but the function had already called the second
+def first_answer(services, length, width, height):
+    def ask(service, answers):
+        try:
+            answers.append(rospy.ServiceProxy(service, geometry)(length, width, height).volume)
+        except rospy.ServiceException:
+            pass
+
+    calls = []
+    for service in services:
+        answers = []
+        thread = threading.Thread(target=ask, args=[service, answers], daemon=True)
+        thread.start()
+        calls.append((thread, answers, time.monotonic() + 1))
+        thread.join(0.3)
+        if answers:
+            break
+    for thread, answers, end in calls:
+        thread.join(max(0, end - time.monotonic()))
         if answers:
             return answers[0]
     return None

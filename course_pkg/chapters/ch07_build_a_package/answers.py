@@ -242,6 +242,8 @@ replace("geometry)(length, width, height)", "geometry)(int(length), int(width), 
 replace("    print(f\"area:", "    rospy.ServiceProxy(\"/getGeometry\", geometry)(length, width, height)\n    print(f\"area:")
 # %% 07.5 wrong: all digits | hint: Print one line with the text
 replace("response.area:.2f", "response.area")
+# %% 07.5 wrong: round in place of a format | hint: Print one line with the text
+replace("response.area:.2f", "round(response.area, 2)")
 # %% 07.5 wrong: waits for another service | hint: The client waits, but it sends
 replace('wait_for_service("/getGeometry", timeout=5)', 'wait_for_service("/get_geometry")')
 # %% 07.5 wrong: makes no call | hint: The client ended, but it sent

@@ -193,6 +193,18 @@ def ask_a_question(context: CheckContext) -> None:
             near=1e-6,
             hints=_no_volume(area, volume, (length, width, height)),
         )
+        before = len(server.requests)
+        context.run("ask_for_volume", name, length, width, height).returned()
+        context.require(
+            "the given service is called",
+            holds=len(server.requests) > before,
+            expected="a second call of the service",
+            actual="no second call",
+            hints=(
+                "A second call with the same sides returned the result of the first call. Call the service "
+                "in each call of ask_for_volume()."
+            ),
+        )
 
 
 def _other_sides(sides: dict[str, float]) -> Hints:

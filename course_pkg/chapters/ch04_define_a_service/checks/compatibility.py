@@ -138,6 +138,7 @@ def _pairs(context: CheckContext) -> list[Pair]:
                 "of the request and of the response is part of the MD5 sum."
             ),
         ),
+        agrees("more spaces in a line", text.replace("=", " = ")),
     ]
 
 

@@ -1,7 +1,7 @@
 """The client with a single call."""
 
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, volumes
-from course_pkg.checking import ANYTHING, CheckContext, matches, part
+from course_pkg.checking import ANYTHING, CheckContext, Refuse, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 
 CALLED = "Call the given service once, with length, width and height."
@@ -103,6 +103,19 @@ def the_geometry_client(context: CheckContext) -> None:
                 "call. Call the service in each call of measure()."
             ),
         )
+    name = f"/{context.random.word()}"
+    server = context.serve(name, GEOMETRY, lambda _: Refuse("not today"))
+    context.run("measure", name, *context.random.numbers(3, 0.5, 9.0))
+    context.require(
+        "it is called once",
+        holds=len(server.requests) == 1,
+        expected="one call of a service that refuses the request",
+        actual=f"{len(server.requests)} calls",
+        hints=(
+            "The server refused the request, and the function called the server again. Call the service "
+            "once, and do not catch the exception."
+        ),
+    )
     context.fulfilled(CALLED)
 
 

@@ -123,6 +123,17 @@ def ask_the_next_one(context: CheckContext) -> None:
             )
         ],
     )
+    before = len(reserve.requests)
+    _first_of(context, names, "late", "second").returned()
+    context.expect(
+        "then no other service is called",
+        expected=0,
+        actual=len(reserve.requests) - before,
+        hints=(
+            "The first service responded after 0.6 s, but the function had already called the second "
+            "service. Wait for one second before you call the next service."
+        ),
+    )
     frozen = _first_of(context, names, "frozen", "second")
     context.expect(
         "the next service is used if one is frozen",

@@ -5,10 +5,12 @@ from threading import Timer
 from course_pkg.chapters.ch06_write_a_client.checks.boxes import GEOMETRY, stops
 from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
+from course_pkg.waiting import at_this_load
 
 # The function gets this time limit in s, for existing and for missing services; a busy machine connects
 # within it.
 SAME = 1.5
+STARTS, LATER = 1.3, 4.0  # A service starts after STARTS s, and the function may wait for it for LATER s.
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
 
@@ -95,11 +97,12 @@ def is_anybody_there(context: CheckContext) -> None:
         "wait_for_service, which also tries to connect to the server.",
     )
     context.fulfilled(THERE)
-    Timer(1.3, context.serve, [later, GEOMETRY, lambda _: {}]).start()
+    Timer(STARTS, context.serve, [later, GEOMETRY, lambda _: {}]).start()
+    waited = context.run("is_there", later, LATER, within=2 * LATER)
     context.expect(
         "True for a service that comes in time",
         expected=True,
-        actual=context.run("is_there", later, 4.0, within=8.0).returned(),
+        actual=waited.returned(),
         hints=[
             (
                 False,
@@ -107,6 +110,16 @@ def is_anybody_there(context: CheckContext) -> None:
                 "to `seconds` seconds.",
             )
         ],
+    )
+    context.require(
+        "no wait for a service that is there",
+        holds=waited.took < min(at_this_load(STARTS + 1.0), LATER),
+        expected=f"a result soon after {STARTS} s",
+        actual=f"a result after {waited.took:.1f} s",
+        hints=(
+            f"The service started after {STARTS} s, but the function continued to wait. Use "
+            "wait_for_service, which returns as soon as the service exists."
+        ),
     )
     _in_a_random_order(context)
     stops(context, "is_there", nowhere, 3.0, catch="rospy.ROSException")
