@@ -108,7 +108,7 @@ replace("            raise", "            sock.close()\n            raise")
 replace('data = b"" … return data', "return sock.recv(count)")
 # %% 11.2 wrong: never notices the end | hint: The function did not return after the other program had closed the connection
 replace('\n        if not piece:\n            raise ConnectionError("the other end has closed")', "")
-# %% 11.2 wrong: reads ahead | hint: The function returned more than `count` bytes, so these bytes are missing in the
+# %% 11.2 wrong: reads ahead | hint: so the next call cannot read the extra bytes
 replace("count - len(data)", "4096")
 # %% 11.2 wrong: discards the bytes that it read ahead | hint: The function waits for bytes that an earlier call of the function has read and lost
 replace("count - len(data)", "4096")
@@ -127,7 +127,7 @@ def receive(sock, count):
     REST[sock] = data[count:]
     return data[:count]
 
-# %% 11.2 wrong: passes the whole number each time | hint: The function returned more than `count` bytes, so these bytes are missing in the
+# %% 11.2 wrong: passes the whole number each time | hint: so the next call cannot read the extra bytes
 replace("sock.recv(count - len(data))", "sock.recv(count)")
 # %% 11.2 wrong: passes the whole number each time, and cuts | hint: The function waits for bytes that an earlier call of the function has read and lost
 replace("sock.recv(count - len(data))", "sock.recv(count)")
@@ -174,6 +174,10 @@ def ask(uri, service, length, width, height):
         raise rospy.ServiceException(answer.decode())
     return struct.unpack("<2f", answer)
 
+# %% 11.3 right: a variable with the name call
+based_on("step by step")
+replace("theirs = read_header(receive(sock, size))", "call = theirs = read_header(receive(sock, size))")
+replace('raise rospy.ServiceException(theirs["error"])', 'raise rospy.ServiceException(call["error"])')
 # %% 11.3 right: with a file in place of the socket
 import io
 from urllib.parse import urlsplit

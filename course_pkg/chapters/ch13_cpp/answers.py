@@ -109,6 +109,9 @@ replace("request.width;", "request.width")
 replace("request.height < 0", "request.high < 0")
 # %% 13.2 wrong: checks two sides only | hint: The server sent a response, but height was below 0
 replace("0 || request.height < 0", "0")
+# %% 13.2 wrong: checks the area and the volume | hint: was below 0
+replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
+replace("true", "response.area >= 0 && response.volume >= 0")
 # %% 13.2 wrong: checks the volume only | hint: was below 0
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.volume >= 0")

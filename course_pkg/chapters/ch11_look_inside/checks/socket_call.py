@@ -24,7 +24,7 @@ BINARY = 65 / 512
 # On Linux, every address of 127.0.0.0/8 belongs to this computer. A client that always connects to localhost
 # does not reach a server at OTHER_HOST.
 OTHER_HOST = "127.0.0.2"
-ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", "call", "caller"}
+ROS_CLIENTS = {"ServiceProxy", "BoundedProxy", "TCPROSTransport", "rosservice", ".call", ".caller"}
 NO_PROXY = (
     "The function calls the service with a proxy. Instead, connect a socket to the address, and send "
     "the bytes."
@@ -135,14 +135,17 @@ def call_over_a_socket(context: CheckContext) -> None:
 
 
 def _names(source: str) -> set[str]:
-    """Return the names in the code of a function; comments and docstrings are ignored."""
+    """Return the names in the code of a function, without those in comments and docstrings.
+
+    The name of an attribute is also returned with a dot before it.
+    """
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
     except SyntaxError:  # For example, the source of a lambda is only a part of a line.
         return set()
-    return {node.id for node in nodes if isinstance(node, ast.Name)} | {
-        node.attr for node in nodes if isinstance(node, ast.Attribute)
-    }
+    attributes = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
+    variables = {node.id for node in nodes if isinstance(node, ast.Name)}
+    return variables | attributes | {f".{name}" for name in attributes}
 
 
 def _wrong_numbers(area: float, volume: float) -> Hints:

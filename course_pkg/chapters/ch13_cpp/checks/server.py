@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from itertools import combinations
 
 from course_pkg.chapters.ch13_cpp.checks.compiled_program import (
     BOX,
@@ -71,7 +73,7 @@ def box_server(context: CheckContext) -> None:
             name, BOX, hints=[(matches("responded with an error"), RETURNED_FALSE)], timeout=4.0
         )
         wrong = context.random.shuffled(SIDES)
-        for sides in ([wrong[0]], [wrong[1]], [wrong[2]], wrong[:2]):
+        for sides in (*combinations(wrong, 1), *combinations(wrong, 2)):
             _measures(context, box)
             _refuses(context, box, sides)
         for number in range(context.random.integer(1, 20)):
@@ -123,7 +125,7 @@ def _measures_empty_boxes(context: CheckContext, box: Service) -> None:
         )
 
 
-def _refuses(context: CheckContext, box: Service, wrong: list[str]) -> None:
+def _refuses(context: CheckContext, box: Service, wrong: Sequence[str]) -> None:
     sides = dict(zip(SIDES, context.random.numbers(3, 1.0, 9.0), strict=True))
     sides.update({side: -sides[side] for side in wrong})
     below = " and ".join(wrong)

@@ -13,7 +13,7 @@ from course_pkg.checking.peers.service_calls import Service
 THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
-GROUPS = 3  # The check calls this many times with all clients at the same time.
+GROUPS = 30  # The check calls this many times with all clients at the same time.
 FEW, MANY = 3, 8  # The numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
