@@ -158,8 +158,6 @@ replace("str(error)", '"it does not work"')
 replace("success=False", "success=True")
 # %% 08.2 wrong: any response is a success | hint: The lamp responded with the
 replace('success=state == ("ON" if request.data else "OFF")', "success=True")
-# %% 08.2 wrong: each other state is off | hint: The lamp responded with the
-replace('success=state == ("ON" if request.data else "OFF")', 'success=(state == "ON") == request.data')
 # %% 08.2 wrong: the wanted state | hint: The message is the wanted
 replace("message=state", 'message="ON" if request.data else "OFF"')
 # %% 08.2 wrong: success compares with True | hint: The lamp has the wanted state

@@ -43,7 +43,6 @@ def translate(context: CheckContext) -> None:
     context.fulfilled(OBEYED)
     for data in context.random.shuffled([True, False]):
         _disobeys(context, panel, data, STATES[not data])
-        _disobeys(context, panel, data, context.random.word().upper())
     _refuses(context, panel)
     for obeys in context.random.shuffled([True] * context.random.integer(1, 3) + [False] * 2):
         data = context.random.choice([True, False])
