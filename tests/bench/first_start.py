@@ -12,9 +12,7 @@ from __future__ import annotations
 
 import os
 import shutil
-import signal
 import statistics
-import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -22,10 +20,8 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from lab import FLAGS, STEPS, times_of_start
+from lab import FLAGS, STEPS, started, times_of_start
 from playwright.sync_api import sync_playwright
-
-from tests.lab.commands import ADDRESS
 
 RATIO, SIZE = 1.3, 5.0  # maximum ratio of the first start to the second one, and maximum size in MB
 NOBODY = 65534
@@ -37,13 +33,8 @@ def installed(program: Path, _notebook: Path, home: Path) -> Iterator[str]:
     """Run `course lab` of the installation as the owner of `home`; yield the address of the first chapter."""
     command = [*(DROP if os.geteuid() == 0 else ()), program, "lab", "--no-browser"]
     variables = {"HOME": str(home), "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
-    with subprocess.Popen(command, stdout=subprocess.PIPE, env=variables, cwd=home, text=True) as process:
-        assert process.stdout
-        try:
-            yield next(found[0] for line in process.stdout if (found := ADDRESS.search(line)))
-        finally:
-            process.send_signal(signal.SIGINT)
-            process.stdout.read()
+    with started(command, variables, home) as address:
+        yield address
 
 
 def new_user(program: Path) -> tuple[list[float], list[float], float]:

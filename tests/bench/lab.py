@@ -25,7 +25,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, suppress
 from functools import partial
 from pathlib import Path
@@ -183,7 +183,14 @@ def reported(medians: dict[str, float], ratio_bar: float, bar: float, unit: str)
 def course(notebook: Path, _state: Path, *options: str) -> Iterator[str]:
     """Run `./course lab` with these options; yield the address of the notebook."""
     command = [ROOT / "course", "lab", "--no-browser", *options, notebook]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, env=user_environment(), text=True) as process:
+    with started(command, user_environment()) as address:
+        yield address
+
+
+@contextmanager
+def started(command: Sequence[str | Path], env: Mapping[str, str], cwd: Path | None = None) -> Iterator[str]:
+    """Run a command that starts a lab; yield the address that the command prints."""
+    with subprocess.Popen(command, stdout=subprocess.PIPE, env=env, cwd=cwd, text=True) as process:
         assert process.stdout
         try:
             yield next(found[0] for line in process.stdout if (found := ADDRESS.search(line)))

@@ -59,7 +59,7 @@ def running_lab(folder: Path) -> Iterator[Lab]:
     root.mkdir(parents=True)
     # The names of the kernels' sockets are limited to 107 bytes, so their folder has a short name.
     with PrivateMaster() as master, tempfile.TemporaryDirectory(prefix="lab-") as runtime:
-        environment = {**_environment(folder, master.uri), "JUPYTER_RUNTIME_DIR": runtime}
+        environment = _environment(folder, runtime, master.uri)
         server = SupervisedProcess(_command(port, root), env=environment, cwd=root)
         try:
             url = f"http://127.0.0.1:{port}"
@@ -128,7 +128,7 @@ def _command(port: int, root: Path) -> list[str]:
     return [sys.executable, "-m", "jupyterlab", *(f"--{name}={value}" for name, value in options.items())]
 
 
-def _environment(folder: Path, master: str) -> Mapping[str, str]:
+def _environment(folder: Path, runtime: str, master: str) -> Mapping[str, str]:
     """Return an environment with separate JupyterLab settings, so that several servers can run at once."""
     for place, values in json.loads(OVERRIDES.read_text("utf-8")).items():
         extension, _, name = place.partition(":")
@@ -139,6 +139,7 @@ def _environment(folder: Path, master: str) -> Mapping[str, str]:
         "JUPYTERLAB_SETTINGS_DIR": folder / "settings",
         "JUPYTERLAB_WORKSPACES_DIR": folder / "workspaces",
         "JUPYTER_CONFIG_DIR": folder / "config",
+        "JUPYTER_RUNTIME_DIR": runtime,
         "IPYTHONDIR": folder / "ipython",
         "COURSE_STATE": folder / "state",
         "COURSE_WORKSPACE": folder / "workspace",

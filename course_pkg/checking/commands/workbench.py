@@ -34,12 +34,15 @@ class CommandFolders:
     def __init__(self, find: Callable[[str], Path]) -> None:
         self._find = find  # The function returns the path of a student's file.
         self._open = ExitStack()
+        self._root: Path | None = None  # All folders are in this one, which is created with the first folder.
         self._folders: list[Path] = []
         self._running: list[_Running] = []
 
     def folder(self, files: Sequence[str], texts: Mapping[str, str]) -> Reply:
         """Make a folder with copies of the student's files and folders, and with the check's `texts`."""
-        folder = self._open.enter_context(temporary_folder("course-run-"))
+        self._root = self._root or self._open.enter_context(temporary_folder("course-run-"))
+        folder = self._root / str(len(self._folders))
+        folder.mkdir()
         for name in files:
             _copy(self._find(name), folder / _place(name))
         for name, text in texts.items():

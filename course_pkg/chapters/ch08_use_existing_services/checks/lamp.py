@@ -35,21 +35,18 @@ COMPARED = "Return success=False if the lamp refuses the request or has the wron
     goals=[OBEYED, COMPARED, "Return success=False if the lamp has no server."],
 )
 def translate(context: CheckContext) -> None:
-    """Try a lamp that obeys, a lamp that has another state, a lamp that refuses, and no lamp."""
+    """Try a lamp that obeys, a lamp that does the opposite, a lamp that refuses, and no lamp."""
     panel = context.service("/lamp", "std_srvs/SetBool", hints=NO_ERROR)
     require_served_by_notebook(context, "/lamp")
     for data in (*context.random.shuffled([True, False]), context.random.choice([True, False])):
         _obeys(context, panel, data)
     context.fulfilled(OBEYED)
     for data in context.random.shuffled([True, False]):
-        _disobeys(context, panel, data, STATES[not data])
+        _disobeys(context, panel, data)
     _refuses(context, panel)
     for obeys in context.random.shuffled([True] * context.random.integer(1, 3) + [False] * 2):
-        data = context.random.choice([True, False])
-        if obeys:
-            _obeys(context, panel, data)
-        else:
-            _disobeys(context, panel, data, STATES[not data])
+        try_lamp = _obeys if obeys else _disobeys
+        try_lamp(context, panel, context.random.choice([True, False]))
     context.fulfilled(COMPARED)
     context.absent(LAMP)
     _fails(context, panel, "the lamp has no server", "unavailable", "timeout exceeded")
@@ -98,7 +95,8 @@ def _obeys(context: CheckContext, panel: Service, data: bool) -> None:
     lamp.leave()
 
 
-def _disobeys(context: CheckContext, panel: Service, data: bool, state: str) -> None:
+def _disobeys(context: CheckContext, panel: Service, data: bool) -> None:
+    state = STATES[not data]
     lamp = context.serve(LAMP, KIND, lambda _: {"state": state})
     response = panel(data=data)
     context.expect(

@@ -136,9 +136,9 @@ class CheckedShelf:
 
 
 class CheckedPair:
-    """Two shelves.
+    """Two shelves with locks.
 
-    Two shelves with locks; the object records how many locks a thread held when it read or changed a count.
+    The object records how many locks a thread held when the thread read or changed a count.
     """
 
     def __init__(self, numbers: Sequence[int], counts: Sequence[int], *, crowd: bool = False) -> None:
