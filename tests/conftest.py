@@ -14,7 +14,7 @@ from course_pkg.sandbox.linux.bubblewrap import refusal
 from tests.browser.chromium import chromium
 from tests.kernel import Kernel
 
-ANSWERS, NOTEBOOKS = "tests/checking/test_answers.py", "tests/notebooks/test_validation.py"
+ANSWERS, NOTEBOOKS = "tests/checking/answers/test_answers.py", "tests/notebooks/test_validation.py"
 LAB = "JupyterLab"  # All tests with JupyterLab belong to this group.
 
 

@@ -23,10 +23,10 @@ from course_pkg.lab.graph.graph import Which, graph_of_this_command
 from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.graph.settings import settings_for
 from course_pkg.lab.opened_notebook import notebook_to_open, write_workspace
+from course_pkg.lab.own_files import make_own_files
 from course_pkg.ports import free_port
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
-from course_pkg.setup.own_files import make_own_files
 from course_pkg.workspace import make_own_workspace
 
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ports, and 0 means any free port

@@ -33,7 +33,7 @@ LIBRARIES = (
 PYTEST = "./course run pytest -q -p no:cacheprovider"
 QUICK = "tests/ros/protocol tests/types tests/lab/test_by_hand.py"
 STARTED = "tests/lab/test_jupyterlab.py::test_nothing_outlives_a_killed_lab"
-ANSWERS = "tests/checking/test_answers.py -k 'test_right_passes and (05. or 06.)' -m 'not slow'"
+ANSWERS = "tests/checking/answers/test_answers.py -k 'test_right_passes and (05. or 06.)' -m 'not slow'"
 NEEDED = ("buildah", "mmdebstrap", "bwrap", "setpriv")
 pytestmark = [
     pytest.mark.slow,

@@ -18,7 +18,7 @@ from course_pkg.sandbox.job import PartJob
 from course_pkg.sandbox.linux import bubblewrap
 from course_pkg.sandbox.supervisor import too_much_memory_below
 from course_pkg.sandbox.worker_client import SandboxWorker
-from tests.checking.example_answers import every_answer
+from tests.checking.answers.example_answers import every_answer
 
 pytestmark = pytest.mark.usefixtures("sandbox")
 CHECKOUT = Path(course_pkg.__file__).resolve().parent.parent

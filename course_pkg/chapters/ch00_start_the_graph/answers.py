@@ -1,4 +1,4 @@
-"""Example answers of chapter 00; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 00; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 00.1 right: three names
 solution()

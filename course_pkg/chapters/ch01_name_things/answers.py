@@ -1,4 +1,4 @@
-"""Example answers of chapter 01; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 01; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 01.1 right: a namespace and two new names
 def measurer_command(room):

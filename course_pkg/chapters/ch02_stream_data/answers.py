@@ -1,4 +1,4 @@
-"""Example answers of chapter 02; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 02; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 02.1 right: a rate
 def count_aloud(topic, rate, count):

@@ -1,4 +1,4 @@
-"""Example answers of chapter 03; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 03; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 03.1 right: polls until the time is over
 def poll(service, seconds, rate):

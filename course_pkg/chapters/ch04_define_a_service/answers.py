@@ -1,4 +1,4 @@
-"""Example answers of chapter 04; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 04; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 04.1 right: as described
 """%%writefile src/lamp_services/srv/Lamp.srv

@@ -1,4 +1,4 @@
-"""Example answers of chapter 05; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 05; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 05.1 right: a response object
 def handle_geometry(request):

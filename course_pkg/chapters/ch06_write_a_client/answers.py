@@ -1,4 +1,4 @@
-"""Example answers of chapter 06; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 06; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 06.1 right: by position
 def measure(service, length, width, height):

@@ -1,4 +1,4 @@
-"""Example answers of chapter 07; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 07; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 07.1 right: what was generated, completed
 solution()

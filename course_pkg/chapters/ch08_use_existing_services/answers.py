@@ -1,4 +1,4 @@
-"""Example answers of chapter 08; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 08; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 08.1 right: asks each service for its type
 def services_of(kind):

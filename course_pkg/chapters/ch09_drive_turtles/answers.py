@@ -1,4 +1,4 @@
-"""Example answers of chapter 09; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 09; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 09.1 right: as in the chapter
 solution()

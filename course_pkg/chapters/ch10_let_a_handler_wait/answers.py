@@ -1,4 +1,4 @@
-"""Example answers of chapter 10; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 10; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 10.1 right: one thread for each call
 def call_at_once(name, count):

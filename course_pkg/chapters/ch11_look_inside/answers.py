@@ -1,4 +1,4 @@
-"""Example answers of chapter 11; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 11; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 11.1 right: field by field
 def pack_header(fields):

@@ -1,4 +1,4 @@
-"""Example answers of chapter 12; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 12; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 12.1 right: a thread and two lists
 def call_within(seconds, proxy, *values):

@@ -1,4 +1,4 @@
-"""Example answers of chapter 13; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 13; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 13.1 right: as in the chapter
 """%%writefile src/cpp_boxes/CMakeLists.txt

@@ -1,4 +1,4 @@
-"""Example answers of chapter 14; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 14; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 14.1 right: a client of a handle
 solution()

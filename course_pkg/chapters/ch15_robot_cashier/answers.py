@@ -1,4 +1,4 @@
-"""Example answers of chapter 15; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 15; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 15.1 right: a function that returns None for a malformed frame
 solution()

@@ -1,4 +1,4 @@
-"""Example answers of chapter 16; tests/checking/example_answers.py explains the format."""
+"""Example answers of chapter 16; tests/checking/answers/example_answers.py explains the format."""
 
 # %% 16.1 right: checks before each thing
 class Fetcher:

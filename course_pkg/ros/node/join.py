@@ -24,6 +24,7 @@ from course_pkg.ros.node.proxy import settle_keepalive
 from course_pkg.ros.node.restart import allow_init_node, begin_again, can_begin_again, logging_kept
 from course_pkg.ros.notebook.cells import Cells
 from course_pkg.ros.notebook.creations import close_all, note_creations
+from course_pkg.ros.notebook.figures import set_up_figures
 from course_pkg.ros.notebook.shell import NotebookShell, current_shell
 from course_pkg.ros.process.roscore import Roscore, find_or_start_master
 from course_pkg.ros.process.supervised import SupervisedProcess
@@ -32,7 +33,6 @@ from course_pkg.ros.protocol.probe import Reach, ask_all, node_probe
 from course_pkg.ros.protocol.registrations import remove_stale, withdraw_node
 from course_pkg.ros.protocol.rospy_registrations import node_known, register_all, registration_manager
 from course_pkg.ros.trace.handover import hand_over
-from course_pkg.setup.figures import set_up_figures
 from course_pkg.workspace import OwnPackages, own_workspace
 
 # Wait up to this time in s for the end of another node with the same name, such as the node of a restarting

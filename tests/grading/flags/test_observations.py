@@ -8,7 +8,7 @@ from course_pkg.checking.parts import chapters
 from course_pkg.grading.flags.finding import kind_names
 from course_pkg.grading.grade import Package, Submission
 from course_pkg.sandbox.job import work_file
-from tests.checking.example_answers import every_answer
+from tests.checking.answers.example_answers import every_answer
 from tests.grading.flags.classes import flags_of, solutions, submission
 
 SEARCHED = ("files", "internals", "patches")

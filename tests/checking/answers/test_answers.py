@@ -18,8 +18,8 @@ from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.checking.parts import Part, every_part
 from course_pkg.checking.report import Report, Verdict
 from course_pkg.sandbox.job import PartJob
-from tests.checking.example_answers import Answer, every_answer
-from tests.checking.workers import WorkerPool
+from tests.checking.answers.example_answers import Answer, every_answer
+from tests.checking.answers.workers import WorkerPool
 
 PARTS = {part.check: part for part in every_part()}
 # The answers with the longest deadlines run first, so that all sandboxes are busy until the end.

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from course_pkg.checking.parts import every_part, folder_of
-from tests.checking.example_answers import Answer
+from tests.checking.answers.example_answers import Answer
 
 # A string with several lines is a program or a file, not a hint.
 SENTENCE = re.compile(r"[^\n]* [^\n]*\S[.?]( [^\n]*)?")

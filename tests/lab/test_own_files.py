@@ -8,8 +8,8 @@ import pytest
 
 from course_pkg.errors import SetupError
 from course_pkg.installed import DATA, RECORD
+from course_pkg.lab.own_files import make_own_files
 from course_pkg.setup import Places
-from course_pkg.setup.own_files import make_own_files
 from tests.installation.installations import asked, make_version
 
 

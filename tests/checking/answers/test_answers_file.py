@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.checking.example_answers import Answer, read_answers
+from tests.checking.answers.example_answers import Answer, read_answers
 
 FILE = '''"""Answers."""
 

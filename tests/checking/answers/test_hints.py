@@ -8,8 +8,8 @@ import pytest
 
 import course_pkg.checking.common_hints
 from course_pkg.checking.parts import chapters, folder_of
-from tests.checking.example_answers import every_answer, read_answers
-from tests.checking.hints import Hint, hints_in, hints_of, not_shown, shown_by
+from tests.checking.answers.example_answers import every_answer, read_answers
+from tests.checking.answers.hints import Hint, hints_in, hints_of, not_shown, shown_by
 
 CHECK = '''"""The checks of a chapter."""
 
