@@ -2,7 +2,7 @@
 
 The calls are those with a timeout, those of the service panel, and those of the robust client.
 
-usage: ./course run python tests/bench/calls.py bounded|panel|robust|recorder [OPTION …]
+usage: ./course run python -m tests.bench.calls bounded|panel|robust|recorder [OPTION …]
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ from pathlib import Path
 from typing import Any
 
 import rospy
-from commands import milliseconds, run_command, times_of
 from course_pkg.srv import Charge, ChargeResponse, geometry
 
 from course_pkg.panels import ServicePanel
 from course_pkg.ros import BoundedProxy, NodeProcess, PrivateMaster, join, look, prepare_node
 from course_pkg.ros.trace.recorder import Recorder
+from tests.bench.commands import milliseconds, run_command, times_of
 
 # bounded: compares the duration of a call through BoundedProxy with that of a call through
 # rospy.ServiceProxy. The two calls use the same server and alternate in blocks of 20 calls. The benchmark

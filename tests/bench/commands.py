@@ -13,7 +13,7 @@ def run_command(commands: Mapping[str, Callable[[], int | None]]) -> NoReturn:
     """Run the subcommand in the first argument, and pass the other arguments to this subcommand."""
     name = sys.argv.pop(1) if len(sys.argv) > 1 else ""
     if name not in commands:
-        sys.exit(f"usage: {sys.argv[0]} {'|'.join(commands)} [OPTION …]")
+        sys.exit(f"The first argument is a subcommand: {', '.join(commands)}.")
     sys.exit(commands[name]())
 
 

@@ -1,6 +1,6 @@
 """Measures the turtle simulator and the faults of BreakIt.
 
-usage: ./course run python tests/bench/nodes.py rates|fuzz|faults [OPTION …]
+usage: ./course run python -m tests.bench.nodes rates|fuzz|faults [OPTION …]
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from itertools import pairwise
 from pathlib import Path
 
 import rospy
-from commands import run_command
 from geometry_msgs.msg import Twist
 from std_srvs.srv import Empty
 from turtlesim.srv import Spawn, TeleportAbsolute
 
 from course_pkg.faults import Stage, named, names
 from course_pkg.ros import NodeProcess, PrivateMaster, join, look
+from tests.bench.commands import run_command
 from tests.faults.surroundings import Surroundings
 from tests.turtlesim.fuzz import Fuzzer, resident, sane
 

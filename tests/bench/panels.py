@@ -1,6 +1,6 @@
 """Measures panels: the cost of each panel for the kernel and for the page.
 
-usage: ./course run python tests/bench/panels.py graph|timeline|topic|types|turtles [OPTION …]
+usage: ./course run python -m tests.bench.panels graph|timeline|topic|types|turtles [OPTION …]
 """
 
 from __future__ import annotations
@@ -20,7 +20,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from queue import Empty
 
-from commands import run_command, times_of
 from jupyter_client.blocking.client import BlockingKernelClient
 from jupyter_client.manager import KernelManager
 from playwright.sync_api import Locator, Page, WebSocket, sync_playwright
@@ -42,6 +41,7 @@ from course_pkg.ros.trace.recording import (
     Event,
     Recording,
 )
+from tests.bench.commands import run_command, times_of
 from tests.browser.chromium import FLAGS
 from tests.browser.jupyter import running_lab, running_notebook
 from tests.browser.pages import new_page, panel

@@ -1,6 +1,6 @@
 """Measures the duration of the set-up, of imports, and of builds.
 
-usage: ./course run python tests/bench/setup.py fresh|imports|cpp [OPTION …]
+usage: ./course run python -m tests.bench.setup fresh|imports|cpp [OPTION …]
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from commands import run_command
+from tests.bench.commands import run_command
 
 # fresh: prints how long the first `./course run rosservice list` takes on a new Debian system; this includes
-# the set-up. usage: /usr/bin/python3 tests/bench/setup.py fresh [RUNS [CODENAME]] It has to be run as root,
+# the set-up. usage: /usr/bin/python3 -m tests.bench.setup fresh [RUNS [CODENAME]]. It has to be run as root,
 # and needs debootstrap. The benchmark creates a new system once, from the apt mirror of this machine, and
 # copies this system for each run.
 

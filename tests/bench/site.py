@@ -1,6 +1,6 @@
 """Measures the site and the notebooks: pages, accessibility, and the validation of the solutions.
 
-usage: ./course run python tests/bench/site.py pages|axe|nbval|listeners [OPTION …]
+usage: ./course run python -m tests.bench.site pages|axe|nbval|listeners [OPTION …]
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ from gzip import compress
 from itertools import cycle, islice, product
 from pathlib import Path
 
-from commands import alternate, run_command
 from playwright.sync_api import sync_playwright
 
 from course_pkg.authoring.execute import surroundings, workers_here
@@ -28,6 +27,7 @@ from course_pkg.authoring.validate import validate
 from course_pkg.ros.process.supervisor import descendants
 from course_pkg.setup import Places
 from course_pkg.site.runs import Runs
+from tests.bench.commands import alternate, run_command
 from tests.browser.chromium import chromium
 from tests.site.test_pages import AXE, COLOURS, WIDTHS, look_for, open_page, pages, reader, violations
 

@@ -88,7 +88,7 @@ def test_axe_finds_no_problem(
 ) -> None:
     """axe-core finds no problem on any page, with and without the search dialog.
 
-    `tests/bench/site.py axe` checks every rule in every width and colour.
+    `tests.bench.site axe` checks every rule in every width and colour.
     """
     found, options = {}, options_for(width, colours)
     with reader(browser, width, colours) as page:

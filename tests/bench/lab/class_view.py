@@ -1,7 +1,4 @@
-"""Measures how long a result takes from a student's outbox to the teacher's page, in a browser.
-
-usage: ./course run python tests/bench/class_view.py live
-"""
+"""Measures how long a result takes from a student's outbox to the teacher's page, in a browser."""
 
 from __future__ import annotations
 
@@ -14,8 +11,6 @@ import threading
 import time
 from contextlib import ExitStack
 from pathlib import Path
-
-from commands import run_command
 
 from course_pkg.ports import free_port
 from course_pkg.sharing.outbox import FOLDER, Outbox
@@ -42,7 +37,7 @@ WATCH = """
 """
 
 
-def live() -> None:
+def live_main() -> None:
     """Print the median, the 95th percentile and the maximum: 60 senders, 10 results per second."""
     choice = random.Random(60)  # noqa: S311 -- a class, not secrets
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
@@ -92,7 +87,3 @@ def live() -> None:
         f"{len(times)} results of {STUDENTS} students to the page: median {statistics.median(times):.0f} ms, "
         f"95 % {times[int(0.95 * len(times))]:.0f} ms, maximum {times[-1]:.0f} ms"
     )
-
-
-if __name__ == "__main__":
-    run_command({"live": live})

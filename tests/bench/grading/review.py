@@ -1,15 +1,10 @@
-"""Measures the time that the review page needs to show the next answer, in a browser.
-
-usage: ./course run python tests/bench/review.py next
-"""
+"""Measures the time that the review page needs to show the next answer, in a browser."""
 
 from __future__ import annotations
 
 import statistics
 import tempfile
 from pathlib import Path
-
-from commands import run_command
 
 from tests.browser.chromium import chromium
 from tests.grading.review.classes import TOKEN, graded, serving, write_class
@@ -30,7 +25,7 @@ async (key) => {
 """
 
 
-def next_main() -> None:
+def review_main() -> None:
     """Press one key after another. Print the median, the 95th percentile and the maximum duration."""
     grades = [
         graded(f"s{number:03}", "\n".join(f"value_{line} = {number + line}" for line in range(LINES)))
@@ -49,7 +44,3 @@ def next_main() -> None:
             f"{name}: median {statistics.median(values):.0f} ms, "
             f"95 % {values[int(0.95 * len(values))]:.0f} ms, maximum {values[-1]:.0f} ms"
         )
-
-
-if __name__ == "__main__":
-    run_command({"next": next_main})

@@ -1,6 +1,6 @@
 """Partial credit: the points of wrong answers, and of answers that do nothing.
 
-usage: ./course run python tests/bench/credit.py [few] [PART …]
+Arguments: `[few] [PART …]`.
 
 PART is the beginning of a part's id, such as 05 or 05.3. The first right answer has to earn full points, and
 all wrong example answers less. The benchmark makes answers that do nothing from the first right answer: all
@@ -21,8 +21,8 @@ from dataclasses import replace
 
 from course_pkg.checking.parts import every_part
 from course_pkg.sandbox.job import PartJob
-from tests.checking.example_answers import Answer, every_answer
-from tests.checking.workers import WorkerPool
+from tests.checking.answers.example_answers import Answer, every_answer
+from tests.checking.answers.workers import WorkerPool
 
 NOTHING = {
     "returns None": "return None",
@@ -36,7 +36,7 @@ IDLE = "does nothing: "
 UNABLE = {"is not Python": "this is not Python\n", "raises at its start": "raise RuntimeError('nothing')\n"}
 
 
-def main() -> int:
+def credit_main() -> int:
     """Run the answers and print the answers with points. Return the number of answers with wrong points."""
     words = sys.argv[1:]
     few = "few" in words
@@ -69,7 +69,7 @@ def main() -> int:
                 print(f"{sign} {answer.check} {points:g} of {full}: {answer.title}", flush=True)
     counts = ", ".join(f"{count} {name}" for name, count in earned.items())
     print(f"{len(parts)} parts, {len(answers)} answers: {counts}; {unfair} with wrong points")
-    return unfair
+    return min(unfair, 100)
 
 
 def _doing_nothing(right: Answer) -> Iterator[Answer]:
@@ -91,7 +91,3 @@ def _doing_nothing(right: Answer) -> Iterator[Answer]:
             if isinstance(node, ast.FunctionDef) and node.name != "__init__":
                 node.body = ast.parse(statement).body
         yield replace(right, right=False, title=f"{IDLE}{title}", source=f"{head}{ast.unparse(tree)}\n")
-
-
-if __name__ == "__main__":
-    sys.exit(min(main(), 100))

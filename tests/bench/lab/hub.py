@@ -1,4 +1,4 @@
-"""Measures a hub with many students: `./course run python tests/bench/hub.py students 40`.
+"""Measures a hub with many students.
 
 Each student works through the HTTP and WebSocket interface: log in, start the server, run the code cells of
 chapter 05 with pauses, and run a check with a right answer in each round.
@@ -117,17 +117,12 @@ def _print(works: Sequence[Work], hub: float, working: float, idle: float, proce
     print(f"processor time of the simulation: {time.process_time() - processor:.0f} s")
 
 
-def main() -> None:
+def students_main() -> None:
     """Run the measurement of the command line."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=["students"])
     parser.add_argument("count", type=int)
     parser.add_argument("--pause", type=float, default=10.0, help="s between two cells")
     parser.add_argument("--rounds", type=int, default=6)
     options = parser.parse_args()
     students(options.count, options.pause, options.rounds)
     sys.stdout.flush()
-
-
-if __name__ == "__main__":
-    main()

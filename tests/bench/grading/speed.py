@@ -1,17 +1,10 @@
-"""Measures the grading of submissions.
-
-The benchmarks measure the speed, the effect of a kill, the grades of different answers, and the flags for
-copies.
-
-usage: ./course run python tests/bench/grading.py speed|kill|reference|answers|copies [OPTION …]
-"""
+"""Measures the speed of grading, the effect of a kill, and the grades of the solutions."""
 
 from __future__ import annotations
 
 import json
 import os
 import random
-import re
 import shutil
 import signal
 import statistics
@@ -25,19 +18,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from commands import run_command
-from copying import copies_main
-
 from course_pkg.authoring.cells import check_of, code_cells, exercise_of
 from course_pkg.authoring.notebook_store import NotebookStore, read
-from course_pkg.checking.fixtures import around, percent_cells
-from course_pkg.checking.parts import every_part
-from course_pkg.checking.report import Verdict
 from course_pkg.grading.run.summary import GRADED, NEED_A_LOOK
 from course_pkg.ros.process.supervisor import descendants
-from course_pkg.sandbox.job import PartJob
 from course_pkg.setup import Places
-from tests.checking.workers import WorkerPool
 from tests.grading.submitted import WRONG, hand_in
 
 # speed: compares `course grade` with nbgrader. Arguments: `[SUBMISSIONS] [plain] [many[:COUNT]]`. SUBMISSIONS
@@ -318,68 +303,3 @@ def reference_main() -> None:
                     )
     print(f"{graded - sum(lost.values())} of {graded} parts passed (bar: all); lost: {dict(lost)}")
     sys.exit(bool(lost))
-
-
-# answers: checks answers by authors who knew only the goals of the parts. Arguments: `FOLDER [PART …]`. Each
-# file NN.k.py contains the answers to one part, in percent format. A line `# --- next cell` separates cells:
-#
-#     # %% 05.1 right: TITLE
-#     # %% 05.1 wrong: TITLE | why: WHAT IS WRONG, for a person who reads the report
-#
-# It prints the report of each wrong answer, and of each answer whose verdict differs from its header.
-
-WRITTEN = re.compile(
-    r"# %% (?P<check>\d\d\.\d+) (?P<kind>right|wrong): (?P<title>[^|]+?)(?:\s*\| why: (?P<why>.+))?$"
-)
-
-
-def answers_main() -> int:
-    """Check the answers. Return the number of answers whose verdict differs from their header."""
-    folder, *wanted = sys.argv[1:]
-    paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
-    written = [answer for path in paths for answer in _written(path)]
-    deadlines = {part.check: part.deadline for part in every_part()}
-    count: Counter[tuple[str, str]] = Counter()
-    with WorkerPool(2 * (os.cpu_count() or 1)) as pool:
-        jobs = [(answer, _job_of(answer, source, deadlines)) for answer, source in written]
-        pool.submit(job for _, job in jobs)
-        for answer, job in jobs:
-            outcome = pool.result(job)
-            verdict = outcome.report.verdict if outcome.report else None
-            judged = {Verdict.PASSED: "right", Verdict.FAILED: "wrong"}.get(
-                verdict, f"not judged ({outcome.ending})"
-            )
-            count[answer["kind"], judged] += 1
-            print(f"{answer['check']} {answer['kind']}: {answer['title']}")
-            if judged != answer["kind"]:
-                print(f"  JUDGED {judged}: {outcome.report}", *outcome.messages, sep="\n    ")
-            elif judged == "wrong":
-                print(f"  why: {answer['why']}\n  report: {outcome.report}", sep="\n    ")
-    for (kind, judged), number in sorted(count.items()):
-        print(f"{kind}, judged {judged}: {number}")
-    return sum(number for (kind, judged), number in count.items() if kind != judged)
-
-
-def _written(path: Path) -> Iterator[tuple[dict[str, str], str]]:
-    for header, source, line in percent_cells(path.read_text("utf-8")):
-        found = WRITTEN.match(header)
-        if not found:
-            raise SystemExit(f"{path}, line {line}: {header!r} is not a header of an answer")
-        yield found.groupdict(default=""), source
-
-
-def _job_of(answer: dict[str, str], source: str, deadlines: dict[str, float]) -> PartJob:
-    before, after = around(answer["check"])
-    cells = tuple(cell.strip("\n") + "\n" for cell in source.split("# --- next cell\n"))
-    return PartJob(answer["check"], before, cells, after, random.getrandbits(32), deadlines[answer["check"]])
-
-
-if __name__ == "__main__":
-    commands = {
-        "speed": speed_main,
-        "kill": kill_main,
-        "reference": reference_main,
-        "answers": answers_main,
-        "copies": copies_main,
-    }
-    run_command(commands)

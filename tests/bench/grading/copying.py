@@ -1,8 +1,9 @@
 """Measures how well the flags find copies in a class of 300 students.
 
-`grading.py copies [SEED …]` writes a class of chapter 05. Each of 280 students gets independently written
-answers in a random style. The 20 other students copy a student's answers, and disguise the copies: they
-change names, order and comments. Ten of them copy all exercises, and ten copy only two of four exercises.
+Arguments: `[SEED …]`. The benchmark writes a class of chapter 05. Each of 280 students gets independently
+written answers in a random style. The 20 other students copy a student's answers, and disguise the copies:
+they change names, order and comments. Ten of them copy all exercises, and ten copy only two of four
+exercises.
 """
 
 from __future__ import annotations
@@ -13,8 +14,6 @@ import sys
 import time
 from pathlib import Path
 
-from disguises import Rule, a_style, disguised, in_style
-
 from course_pkg.authoring.cells import code_cells, exercise_of
 from course_pkg.authoring.notebook_store import NotebookStore, derived, read
 from course_pkg.checking.fixtures import percent_cells
@@ -24,7 +23,8 @@ from course_pkg.grading.flags.fingerprints import fingerprint
 from course_pkg.grading.flags.similarity import STATEMENTS
 from course_pkg.grading.flags.work import Answer
 from course_pkg.grading.grade import Grade, Submission
-from tests.checking.example_answers import read_answers
+from tests.bench.grading.disguises import Rule, a_style, disguised, in_style
+from tests.checking.answers.example_answers import read_answers
 
 CHAPTER = "05"
 STUDENTS, COPIES = 300, 20

@@ -1,9 +1,4 @@
-"""Counts objects, names, parts, lines of errors and words in the chapters.
-
-usage: ./course run python tests/bench/content.py objects|names|parts|errors|prose|all
-
-The benchmark reads the notebooks in `solutions/` with their stored outputs.
-"""
+"""Counts objects, names, parts, lines of errors and words in the chapters."""
 
 from __future__ import annotations
 
@@ -16,11 +11,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import nbformat
-from commands import run_command
 
 from course_pkg.checking.parts import every_part
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 ROSPY = {"Service", "ServiceProxy", "Publisher", "Subscriber"}
 # These methods of the object that join() returns do the same as classes of rospy.
 OURS = {"serve", "proxy", "call", "advertise", "subscribe"}
@@ -166,16 +160,3 @@ def methods(tree: ast.AST) -> Iterator[str]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "node":
             yield f"node.{node.attr}"
-
-
-if __name__ == "__main__":
-    run_command(
-        {
-            "objects": objects_main,
-            "names": names_main,
-            "parts": parts_main,
-            "errors": errors_main,
-            "prose": prose_main,
-            "all": all_main,
-        }
-    )

@@ -1,9 +1,4 @@
-"""Measures the size and the structure of the code, and compares each number with its bar.
-
-usage: ./course run python tests/bench/house.py size|imports|types|functions|hints|all
-
-`course test` installs import-linter, which `imports` needs. Sizes are counted after `ruff format`.
-"""
+"""Measures the size and the structure of the code, and compares each number with its bar."""
 
 from __future__ import annotations
 
@@ -18,14 +13,12 @@ from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
-from commands import run_command
-
 from course_pkg.checking.parts import chapters, folder_of
-from tests.checking.example_answers import read_answers
-from tests.checking.hints import hints_of, not_shown
+from tests.checking.answers.example_answers import read_answers
+from tests.checking.answers.hints import hints_of, not_shown
 from tests.setup.test_locks import undeclared
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 BARS = {
     "lines of Python": 60_000,
     "lines of example answers": 7_000,
@@ -150,16 +143,3 @@ def function_lengths(source: str) -> Iterator[int]:
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.end_lineno is not None:
             yield node.end_lineno - node.lineno + 1
-
-
-if __name__ == "__main__":
-    run_command(
-        {
-            "size": size_main,
-            "imports": imports_main,
-            "types": types_main,
-            "functions": functions_main,
-            "hints": hints_main,
-            "all": all_main,
-        }
-    )

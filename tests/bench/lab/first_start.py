@@ -1,11 +1,10 @@
 """Compares the first `course lab` of a new user of a shared installation with later starts of this user.
 
-usage: ./course run --shared-graph python tests/bench/first_start.py PREFIX [RUNS]
-
-PREFIX is the folder of an installation by `./course install --prefix PREFIX`. Each run is a new user, with an
-empty home folder and an empty browser cache. For the first start and for the second start, the program prints
-the time from the command to a page with a rendered notebook and an idle kernel. It also prints the size of
-the user's files. If root starts the program, the new user is the account `nobody`.
+Arguments: `PREFIX [RUNS]`. PREFIX is the folder of an installation by `./course install --prefix PREFIX`.
+Each run is a new user, with an empty home folder and an empty browser cache. For the first start and for
+the second start, the program prints the time from the command to a page with a rendered notebook and an
+idle kernel. It also prints the size of the user's files. If root starts the program, the new user is the
+account `nobody`.
 """
 
 from __future__ import annotations
@@ -20,8 +19,9 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from lab import FLAGS, STEPS, started, times_of_start
 from playwright.sync_api import sync_playwright
+
+from tests.bench.lab.start import FLAGS, STEPS, started, times_of_start
 
 RATIO, SIZE = 1.3, 5.0  # maximum ratio of the first start to the second one, and maximum size in MB
 NOBODY = 65534
@@ -59,7 +59,7 @@ def new_user(program: Path) -> tuple[list[float], list[float], float]:
         return starts[0], starts[1], size
 
 
-def main() -> int:
+def first_start_main() -> int:
     """Measure each new user, and print the medians."""
     program = Path(sys.argv[1], "current", "course", "course")
     runs = int(sys.argv[2]) if sys.argv[2:] else 5
@@ -73,7 +73,3 @@ def main() -> int:
         f"the user's files: {max(sizes):.1f} MB (bar {SIZE:g}): {'met' if max(sizes) <= SIZE else 'MISSED'}"
     )
     return 0 if ratio <= RATIO and max(sizes) <= SIZE else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())
