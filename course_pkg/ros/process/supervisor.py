@@ -107,8 +107,9 @@ class Supervisor:
     def _end_descendants(self) -> frozenset[int]:
         """End all descendants with SIGTERM, or with SIGKILL after GRACE s.
 
-        Orphaned descendants become children of this process. The returned set contains the listening ports of
-        the killed processes.
+        Orphaned descendants become children of this process. Supervisors among them are killed GRACE s later
+        than the others, because a supervisor cleans up after its owner has been killed. The returned set
+        contains the listening ports of the killed processes.
         """
         ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.urgent else GRACE)
@@ -118,10 +119,12 @@ class Supervisor:
             self._poll.unregister(self._pidfd)
             self._pidfd = None
         while self._reap():
-            if time.monotonic() >= deadline or self.urgent:
+            if self.urgent:
+                deadline = min(deadline, time.monotonic())
+            if (late := time.monotonic() - deadline) >= 0:
                 if not self.urgent:
                     ports |= _listening_ports()
-                _signal_all((signal.SIGKILL,), self.child)
+                _signal_all((signal.SIGKILL,), self.child, supervisors=late > GRACE)
             self._wait(20)
         return ports
 
@@ -152,11 +155,20 @@ def _become(command: list[str], fail: int) -> None:
         os._exit(127)
 
 
-def _signal_all(numbers: tuple[int, ...], child: int | None) -> None:
+def _signal_all(numbers: tuple[int, ...], child: int | None, *, supervisors: bool = True) -> None:
     for pid in descendants(os.getpid()) or ([child] if child else []):
-        for number in numbers:
+        for number in numbers if supervisors or not _is_supervisor(pid) else ():
             with suppress(ProcessLookupError, PermissionError):
                 os.kill(pid, number)
+
+
+def _is_supervisor(pid: int) -> bool:
+    """Return whether the process `pid` runs this file."""
+    try:
+        with open(f"/proc/{pid}/cmdline", "rb") as line:
+            return os.path.abspath(__file__).encode() in line.read().split(b"\0")
+    except OSError:
+        return False
 
 
 def descendants(root: int) -> list[int]:

@@ -156,6 +156,24 @@ time.sleep(1000)
     assert gone(pids)
 
 
+def test_temporary_folder_of_a_killed_process_is_deleted(tmp_path: Path) -> None:
+    """If a supervisor kills all its descendants, they leave no temporary folder."""
+    owner = """
+import signal, time
+from course_pkg.ros.process.supervised import temporary_folder
+for number in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, signal.SIG_IGN)
+with temporary_folder("killed-"):
+    time.sleep(1000)
+"""
+    process = SupervisedProcess([sys.executable, "-c", owner], env={**os.environ, "TMPDIR": str(tmp_path)})
+    pids = eventually(lambda: len(found := family(process.pid)) == 2 and found)
+    assert list(tmp_path.iterdir())
+    process.end(grace=0.0)
+    assert gone(pids)
+    assert not list(tmp_path.iterdir())
+
+
 def test_exit_status_is_passed_on() -> None:
     """`returncode` is the exit status of the command, or the negative signal number."""
     for command, status in (("exit 3", 3), ("kill -9 $$", -9), ("true", 0)):
