@@ -121,7 +121,7 @@ def test_a_saved_topic_panel_says_that_it_is_saved(page: Page, tmp_path: Path) -
     topic = panel(page, "Topic panel")
     expect(topic.get_by_text("No kernel answers: this is the last saved state of the panel.")).to_be_visible()
     expect(topic.get_by_role("button", name="Publish", exact=True)).to_be_disabled()
-    topic.get_by_text("The same by hand").click()
+    topic.get_by_text("The same as commands and in Python").click()
     once = topic.get_by_label("Command that publishes once")
     expect(once).to_have_text("rostopic pub --once /speed std_msgs/Float64 0.0")
     assert page.evaluate("document.documentElement.scrollWidth") <= 560

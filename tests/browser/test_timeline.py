@@ -131,7 +131,7 @@ def test_the_keyboard_is_sufficient(page: Page, tmp_path: Path) -> None:
     details, whole = timeline.locator(".ros-details"), ticks(timeline)
     drawing(timeline).focus()
     page.keyboard.press("ArrowDown")
-    expect(details).to_contain_text("/robot published on /joints and waited for nobody. 1 callback got it.")
+    expect(details).to_contain_text("/robot published on /joints and did not wait. 1 callback got it.")
     page.keyboard.press("ArrowDown")
     expect(details).to_contain_text("/simulator spent")
     page.keyboard.press("ArrowUp")

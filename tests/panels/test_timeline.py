@@ -201,7 +201,7 @@ def test_in_plain_sentences() -> None:
         "/customer called /nope, and reached no server.",
         "/customer called /x and waited for /cashier.",
         "/late called /x and waited for /cashier, to the end of the recording.",
-        "/robot published /joints and waited for nobody; /simulator heard it.",
+        "/robot published /joints and did not wait; /simulator heard it.",
     ]
     assert timeline_text(Recording()) == "Nothing was recorded."
 
@@ -209,9 +209,9 @@ def test_in_plain_sentences() -> None:
 def test_messages_without_a_subscriber() -> None:
     """The description says whether a message had no subscriber."""
     (sent,) = message(1, 1.0)
-    assert timeline_text(recording(sent)).endswith("nobody on record heard it.")
-    lost = replace(sent, note="nobody was connected")
-    assert timeline_text(recording(lost)).endswith("nobody was connected.")
+    assert timeline_text(recording(sent)).endswith("no recorded node received it.")
+    lost = replace(sent, note="no subscriber was connected")
+    assert timeline_text(recording(lost)).endswith("no subscriber was connected.")
     assert waits_of(recording(lost, sent))["streams"][0]["alone"] == 1
 
 

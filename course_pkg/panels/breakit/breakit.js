@@ -2,7 +2,7 @@
 import { freshId, h, kernelLink, prose, same, say, send, setAttribute } from "../kit.js";
 import { block, lookTitle } from "./parts.js";
 
-const STATES = { new: "not answered", wrong: "no right answer yet", shown: "answer looked at", solved: "solved" };
+const STATES = { new: "not answered", wrong: "no right answer yet", shown: "answer shown", solved: "solved" };
 const SLOW = 1500; // If the kernel has not handled a click after this many ms, the panel shows the reason.
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
@@ -47,7 +47,7 @@ class LabView {
       h("section", { class: "ros-closer", "aria-label": "Look closer" }, h("h4", { text: "Look closer" }), this.toolRow, this.looks),
       h("section", { class: "ros-answer", "aria-label": "Your answer" }, h("div", { class: "ros-questions" }, this.diagnoses.el, this.remedies.el),
         h("div", { class: "ros-actions" }, this.check, this.reveal, this.undo), this.verdict));
-    this.empty = h("p", { class: "ros-empty", text: "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Press a case to begin. Its fault is removed when the next case begins." });
+    this.empty = h("p", { class: "ros-empty", text: "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Click a case to begin. Its fault is removed when the next case begins." });
     this.trouble = h("div", { class: "ros-trouble", role: "alert", hidden: true });
     this.el = h("section", { class: "ros-panel ros-breakit", "aria-label": "Break it" }, this.banner,
       h("div", { class: "ros-head" }, h("h3", {}, h("span", { class: "ros-tag", text: "Break it" }), " Find the fault"), this.score), this.row, this.trouble, this.empty, this.body);
@@ -90,7 +90,7 @@ class LabView {
   #drawBanner() {
     const notice = this.model.get("notice");
     const seen = this.model.get("case").number === undefined ? "" : " It shows the last case as it was.";
-    const text = notice ? `The panel itself failed: ${notice}` : this.live ? "" : `No kernel answers: this is a saved panel.${seen} Run the notebook to break something.`;
+    const text = notice ? `The panel itself failed: ${notice}` : this.live ? "" : `No kernel answers: this is a saved panel.${seen} Run the notebook to cause a fault.`;
     say(this.banner, text);
     this.banner.classList.toggle("ros-bad", notice !== "");
     setAttribute(this.banner, "hidden", !text);
@@ -138,11 +138,11 @@ class LabView {
 
   /** @param {any} open */
   #words(open) {
-    const words = { causing: "Causing the fault, and collecting its symptom…", looking: "Looking…", ready: "The fault is there. Look closer, and answer.",
-      over: "The fault is undone. Press the case again to cause it again." };
+    const words = { causing: "Causing the fault, and collecting its symptom…", looking: "Looking…", ready: "The fault is active. Use the tools, and answer.",
+      over: "The fault is removed. Click the case again to cause it again." };
     if (!this.live) return "This is the last saved state of the case.";
-    if (this.model.get("trouble")) return "The fault is not there yet. Solve the problem above, and press the case again.";
-    if (open.phase === "ready" && settled(open)) return "The fault is still there. Use the tools again now that you know the answer, or undo the fault.";
+    if (this.model.get("trouble")) return "The fault is not active yet. Solve the problem above, and click the case again.";
+    if (open.phase === "ready" && settled(open)) return "The fault is still active. You know the answer now: use the tools again, or undo the fault.";
     return words[/** @type {keyof typeof words} */ (open.phase)] ?? "";
   }
 

@@ -18,7 +18,7 @@ from course_pkg.panels.paper import (
 )
 
 BEGIN = (
-    "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Press a "
+    "Each case causes a real fault on the graph, and shows its symptoms. Find the fault. Click a "
     "case to begin. Its fault is removed when the next case begins."
 )
 VERDICTS = {"right": GOOD, "half": ACCENT, "wrong": ERROR, "shown": ACCENT}

@@ -76,7 +76,7 @@ class ChoicesView {
       input.disabled = !this.live || Boolean(verdict);
     }
     row.el.className = verdict ? (verdict.fits ? "ros-right" : "ros-wrong") : this.asked && !chosen ? "ros-open" : "";
-    const said = verdict ? [verdict.fits ? "Fits." : `Does not fit. Better: ${verdict.answer}.`, verdict.reason] : [this.asked && !chosen ? "Not decided yet." : "", ""];
+    const said = verdict ? [verdict.fits ? "Fits." : `Does not fit. Better: ${verdict.answer}.`, verdict.reason] : [this.asked && !chosen ? "No answer yet." : "", ""];
     if (same(said, row.said)) return;
     row.said = said;
     row.verdict.replaceChildren(...(said[0] ? [h("b", {}, ...prose(said[0])), " ", ...prose(said[1])] : []));
@@ -94,8 +94,8 @@ class ChoicesView {
       const fit = verdicts.filter((verdict) => verdict.fits).length;
       return `${fit} of ${verdicts.length} fit.${first.now ? "" : counts}`;
     }
-    if (!open) return `All decided. You can change your mind until you see the reasons.${counts}`;
-    return `${this.asked ? "Decide every case first: " : ""}${open} of ${chosen.length} ${this.asked ? "are still open" : "to decide"}.${counts}`;
+    if (!open) return `Each case has an answer. You can change an answer until you see the reasons.${counts}`;
+    return `${this.asked ? "First choose an option for each case: " : ""}${open} of ${chosen.length} cases ${open === 1 ? "has" : "have"} no answer.${counts}`;
   }
 
   #press() {

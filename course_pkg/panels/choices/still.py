@@ -39,7 +39,11 @@ def still(state: State) -> str:
     paper.y += 8
     paper.button("Choose again" if verdicts else "Show the reasons", EDGES, main=not verdicts)
     still_open = sum(not each for each in state["chosen"])
-    words = "All decided." if not still_open else f"{still_open} of {len(state['chosen'])} to decide."
+    words = (
+        "Each case has an answer."
+        if not still_open
+        else f"{still_open} of {len(state['chosen'])} cases have no answer."
+    )
     paper.put(words, EDGES + 176, paper.y + 14, FAINT)
     paper.y += 30
     return paper.svg()

@@ -51,7 +51,7 @@ class GraphView {
     this.noise = box("loggers and /rosout", () => this.#toggle());
     this.own = box("this notebook's node", () => this.#toggle());
     this.list = h("tbody", {});
-    const legend = h("ul", { class: "ros-legend", "aria-label": "Shapes" }, sample("node", "node"), sample("topic", "topic: a stream, one way"),
+    const legend = h("ul", { class: "ros-legend", "aria-label": "Shapes" }, sample("node", "node"), sample("topic", "topic: messages in one direction"),
       sample("service", "service: a request and its response"), sample("asked", "a recent call; dashed: the call still waits"));
     this.folding = h("div", { class: "ros-boxes", role: "group", "aria-label": "Namespaces", hidden: true },
       h("span", { class: "ros-muted", text: "Namespaces" }), this.#fold("Fold all", true), this.#fold("Unfold all", false));
@@ -109,7 +109,7 @@ class GraphView {
     const now = this.#clock() ?? (this.live ? Date.now() / 1000 : null);
     const parts = fact ? [h("div", { class: "ros-what" }, h("span", { class: "ros-muted", text: `${fact.kind} ` }), h("code", { class: "ros-name", text: fact.name })),
       ...pairs(fact, this.#activity(), now)] : [h("span", { class: "ros-muted", text: some ? "Click a shape for its details." :
-      this.moment ? "Nothing was on the graph then." : "Nothing is on the graph yet. Start a node; it appears here by itself." })];
+      this.moment ? "The graph was empty at this moment." : "Nothing is on the graph yet. Start a node; it appears here automatically." })];
     // The details are replaced only if they differ. Otherwise, a selection and the position of a screen reader would be lost.
     const said = parts.map((part) => part.textContent).join("\n");
     if (said !== this.said) this.details.replaceChildren(...parts);

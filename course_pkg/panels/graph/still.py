@@ -17,7 +17,7 @@ SHAPES = {
 }
 LEGEND = (
     ("ros-node", "node"),
-    ("ros-topic", "topic: a stream, one way"),
+    ("ros-topic", "topic: messages in one direction"),
     ("ros-service", "service: a request and its response"),
 )
 STREAM, CALL = SHAPES["ros-topic"][1], SHAPES["ros-service"][1]

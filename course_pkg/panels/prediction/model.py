@@ -50,12 +50,12 @@ class Prediction:
             return "Not compared yet." if self.answer else "No prediction yet."
         if not self.first:
             late = f" Your answer {self.answer!r} came after the result." if self.answer else ""
-            return f"You had made no prediction.{late}"
+            return f"You made no prediction.{late}"
         changed = (
             f" You changed your answer to {self.answer!r} after the result." if self.changed_after else ""
         )
-        different = "but something else happened. Find out why before you continue"
-        return f"You predicted {self.first!r}, {'and that happened' if self.right else different}.{changed}"
+        different = "but the result is different. Find out why before you continue"
+        return f"You predicted {self.first!r}, {'and this happened' if self.right else different}.{changed}"
 
 
 class PredictionStore(Store[Prediction]):

@@ -26,9 +26,9 @@ function question(model, el, signal) {
   let live = true;
   const draw = () => {
     answer.write(model.get("answer"), live);
-    const said = model.get("answer") ? "Your answer is kept. You can change it until you compare." : "Commit to an answer before you run the next cell.";
-    const after = model.get("answer") ? "Your answer is kept. The result is known now, so a change is marked as a late change." : "The result is known: an answer now is marked as a late answer.";
-    say(status, !live ? "No kernel answers: run the notebook to keep a prediction." : model.get("notice") || (model.get("compared") ? after : said));
+    const said = model.get("answer") ? "Your answer is stored. You can change it until the result is known." : "Answer before you run the next cell.";
+    const after = model.get("answer") ? "Your answer is stored. The result is known now, so a change is marked as a late change." : "The result is known. If you answer now, your answer is marked as late.";
+    say(status, !live ? "No kernel answers: run the notebook to store a prediction." : model.get("notice") || (model.get("compared") ? after : said));
   };
   for (const trait of ["answer", "compared", "notice"]) model.on(`change:${trait}`, draw);
   draw();
@@ -76,11 +76,11 @@ function side(label, text) {
 function table(records, row) {
   const words = { open: "not compared yet", late: "no prediction", right: "as predicted", wrong: "otherwise" };
   const rows = records.map((shown) => h("tr", { class: `ros-${shown.state}` }, h("td", { text: shown.question }), h("td", { text: shown.predicted || "nothing" }),
-    h("td", { text: shown.actual || "not yet seen" }), h("td", { class: "ros-result", text: shown.result || words[/** @type {keyof words} */ (shown.state)], title: shown.verdict })));
+    h("td", { text: shown.actual || "not known yet" }), h("td", { class: "ros-result", text: shown.result || words[/** @type {keyof words} */ (shown.state)], title: shown.verdict })));
   const head = h("thead", {}, h("tr", {}, ...["Question", "You predicted", "What really happened", "Result"].map((text) => h("th", { scope: "col", text }))));
   const right = records.filter((shown) => shown.state === "right").length;
   const seen = records.filter((shown) => ["right", "wrong"].includes(shown.state)).length;
-  const predicted = seen ? `${right} of ${seen} ${seen === 1 ? "prediction" : "predictions"} came true. ` : "";
+  const predicted = seen ? `${right} of ${seen} ${seen === 1 ? "prediction was" : "predictions were"} right. ` : "";
   const [fit, cases] = ["fit", "cases"].map((part) => records.reduce((sum, shown) => sum + (/** @type {any} */ (shown)[part] ?? 0), 0));
   const chosen = cases ? `${fit} of ${cases} choices fit. ` : "";
   const score = predicted + chosen || "No prediction has been compared yet. ";

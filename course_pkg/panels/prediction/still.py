@@ -51,7 +51,7 @@ def _question(state: State) -> str:
         paper.put("Your answer", EDGES, paper.y + 13)
         paper.input(state.get("answer", ""), left=EDGES + 88, width=320)
         paper.y += 32
-    paper.write("Commit to an answer before you run the next cell.", FAINT)
+    paper.write("Answer before you run the next cell.", FAINT)
     return paper.svg()
 
 
@@ -77,7 +77,7 @@ def _table(state: State) -> str:
     for record in records:
         word, colour = RESULTS[record["state"]]
         styled = [*columns[:3], Column(columns[3].left, columns[3].width, Style(colour=colour))]
-        shown = (record["predicted"] or "nothing", record["actual"] or "not yet seen")
+        shown = (record["predicted"] or "nothing", record["actual"] or "not known yet")
         paper.row(styled, (prose(record["question"]), *shown, record.get("result") or word))
     paper.write(_score(records) if records else "Nothing has been predicted yet.", FAINT)
     if progress:
@@ -89,7 +89,7 @@ def _table(state: State) -> str:
 def _score(records: list[State]) -> str:
     """Return how many predictions were right, and how many choices were expected options."""
     right, wrong = (sum(each["state"] == which for each in records) for which in ("right", "wrong"))
-    said = f"{right} of {right + wrong} predictions came true. " if right + wrong else ""
+    said = f"{right} of {right + wrong} predictions were right. " if right + wrong else ""
     cases, fit = (sum(each.get(name, 0) for each in records) for name in ("cases", "fit"))
     said += f"{fit} of {cases} choices fit. " if cases else ""
     return (said or "No prediction has been compared yet. ").rstrip()

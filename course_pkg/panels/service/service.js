@@ -23,7 +23,7 @@ class ServiceView {
     this.live = true; // true until the kernel does not answer; otherwise, "No kernel" would appear for a moment
     this.waiting = false;
     this.refused = model.get("check").refused ?? 0;
-    this.request = new FieldsForm(() => this.#edited(), "This request has no fields: just call.");
+    this.request = new FieldsForm(() => this.#edited(), "This request has no fields.");
     this.#build();
     const draw = { services: "picker", trouble: "picker", notice: "banner", form: "picker", draft: "draft", check: "check",
       outcome: "outcome", history: "history", recording: "history", deadline: "deadline" };
@@ -62,8 +62,8 @@ class ServiceView {
     const response = h("section", { class: "ros-response", "aria-label": "Response" },
       h("div", { class: "ros-heading" }, h("h3", { text: "Response" }), this.clock), this.status, this.answer);
     this.body = h("div", { class: "ros-body" }, this.formElement, response);
-    this.commands = h("section", { class: "ros-commands", "aria-label": "The same call by hand" },
-      h("div", { class: "ros-heading" }, h("h3", { text: "The same call by hand" }), this.stale),
+    this.commands = h("section", { class: "ros-commands", "aria-label": "The same call as a command and in Python" },
+      h("div", { class: "ros-heading" }, h("h3", { text: "The same call as a command and in Python" }), this.stale),
       command("Terminal", this.shell, "the command"), command("Python", this.python, "the Python lines"));
     this.empty = h("p", { class: "ros-empty", hidden: true });
     this.el = h("section", { class: "ros-panel ros-service", "aria-label": "Service panel", onkeydown: (/** @type {KeyboardEvent} */ event) => this.#key(event) }, this.banner, h("div", { class: "ros-head" }, h("label", { for: id, text: "Service" }), this.picker, this.about),
@@ -120,7 +120,7 @@ class ServiceView {
     const trouble = this.model.get("trouble");
     const some = this.model.get("services").length > 0;
     const text = trouble || (picked ? "" : some ? "Pick a service to see the fields of its request." :
-      "No node offers a service yet. Run the cell that starts a server; it appears here by itself.");
+      "No node offers a service yet. Run the cell that starts a server; it appears here automatically.");
     say(this.empty, text);
     setAttribute(this.empty, "hidden", !text);
   }

@@ -54,7 +54,7 @@ def _draw_request(paper: Paper, state: State) -> None:
     form, check, outcome = state["form"], state.get("check", {}), state.get("outcome", {})
     paper.write("Request", HEADING)
     paper.y += 4
-    empty = "This request has no fields: just call."
+    empty = "This request has no fields."
     draw_form(paper, form["request"]["fields"], state.get("draft", {}), empty)
     paper.y += 4
     paper.button("Call", EDGES, main=True)
@@ -70,7 +70,7 @@ def _draw_request(paper: Paper, state: State) -> None:
         draw_values(paper, outcome["rows"], "The response has no fields.")
     paper.rule()
     commands = [("Terminal", check.get("shell", "")), ("Python", check.get("python", ""))]
-    draw_commands(paper, "The same call by hand", commands)
+    draw_commands(paper, "The same call as a command and in Python", commands)
 
 
 def _draw_error(paper: Paper, error: State) -> None:

@@ -30,7 +30,7 @@ export function sentence(scene, each) {
     response: () => `\`${node}\` received the response of \`${peer}\` on \`${name}\`.`,
     error: () => `The call of \`${node}\` on \`${name}\` failed: ${note}`,
     handler: () => `\`${node}\` ${open ? "was still working" : `worked ${took}`} on \`${name}\` for \`${peer}\`${open ? " when the recording ended" : ""}.${note ? ` Its end: ${note}` : ""}`,
-    publish: () => `\`${node}\` published on \`${name}\` and waited for nobody${note ? `: ${note}` : ""}. ${heard(scene, each)}`,
+    publish: () => `\`${node}\` published on \`${name}\` and did not wait${note ? `: ${note}` : ""}. ${heard(scene, each)}`,
     callback: () => `\`${node}\` ${open ? "was still in a callback" : `spent ${took} in a callback`} for a message on \`${name}\`${peer ? ` from \`${peer}\`` : ""}${open ? " when the recording ended" : ""}.${scene.reached.has(each) ? "" : " The recording does not show which message it was."}`,
   };
   return says[/** @type {keyof says} */ (kind)]();
@@ -40,7 +40,7 @@ export function sentence(scene, each) {
  * @returns {[string, string][]} */
 export function parts(scene, each) {
   return (scene.exchanges.get(scene.key[each]) ?? []).filter((part) => !["request", "response", "error"].includes(scene.kindOf(part)))
-    .map((part) => [`${scene.kindOf(part)} (${scene.nodeOf(part)})`, scene.open[part] ? "not over" : duration(scene.end[part] - scene.start[part])]);
+    .map((part) => [`${scene.kindOf(part)} (${scene.nodeOf(part)})`, scene.open[part] ? "not finished" : duration(scene.end[part] - scene.start[part])]);
 }
 
 /** @param {Scene} scene @param {number} each */
@@ -62,15 +62,15 @@ export function waiting(scene) {
 function waited({ node, service, servers, calls, blocked, longest, open, failed }) {
   const whom = servers.length ? `waited for ${servers.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")} on` : open ? "waited for a server that does not answer, on" : "reached no server on";
   const long = calls > 1 ? `${duration(blocked * 1e6)} in ${calls} calls, the longest ${duration(longest * 1e6)}` : duration(blocked * 1e6);
-  const ends = [open ? (calls > 1 ? `${open} not over` : "and it is not over") : "", failed ? (calls > 1 ? `${failed} failed` : "which failed") : ""].filter(Boolean);
+  const ends = [open ? (calls > 1 ? `${open} not over` : "and it is not finished") : "", failed ? (calls > 1 ? `${failed} failed` : "which failed") : ""].filter(Boolean);
   return `\`${node}\` ${whom} \`${service}\`: ${[long, ...ends].join(", ")}.`;
 }
 
 /** @param {any} stream */
 function published({ node, topic, published: messages, alone, heard_by }) {
-  const who = heard_by.length ? `received by ${heard_by.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")}` : "received by no node on record";
-  const lost = !alone ? "" : alone === messages ? ", when nobody was connected" : `, ${alone} of them when nobody was connected`;
-  return `\`${node}\` published ${counted(messages, "message")} on \`${topic}\`${alone === messages ? "" : `, ${who}`}${lost}, and waited for nobody.`;
+  const who = heard_by.length ? `received by ${heard_by.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")}` : "received by no recorded node";
+  const lost = !alone ? "" : alone === messages ? ", when no subscriber was connected" : `, ${alone} of them when no subscriber was connected`;
+  return `\`${node}\` published ${counted(messages, "message")} on \`${topic}\`${alone === messages ? "" : `, ${who}`}${lost}, and did not wait.`;
 }
 
 /** Returns, for example, "1 node" or "2 nodes". @param {number} number @param {string} noun */

@@ -5,7 +5,7 @@ import { Scene } from "./scene.js";
 import { counted, duration, moment, parts, sentence, waiting } from "./sentences.js";
 
 const FINEST = 50; // The width of the page shows at least this time in µs.
-const HINT = "Drag to move. Ctrl + wheel zooms, and so do + and −; ← and → move, ↑ and ↓ go from event to event, 0 shows all.";
+const HINT = "Drag to move. Zoom with Ctrl + wheel, or with + and −. The keys ← and → move the drawing, ↑ and ↓ select an event, and 0 shows everything.";
 
 /** @param {{model: import("../kit.js").Model, el: HTMLElement}} context */
 function render({ model, el }) {
@@ -42,13 +42,13 @@ class TimelineView {
       "aria-label": `${counted(this.scene.count, "event")} of ${counted(recorded.lanes.length, "node")}. ${HINT}` })) this.canvas.setAttribute(name, value);
     this.window = h("div", { class: "ros-window" }, h("div", { class: "ros-top" }, this.drawing.axis), this.canvas, ...this.drawing.probes);
     this.details = h("div", { class: "ros-details", "aria-live": "polite" });
-    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "Events that are too close together are drawn as a band with their number, and arrows that are too close are left out. Zoom in to see each one." });
+    this.thinned = h("p", { class: "ros-muted", hidden: true, text: "Events that are too close together are drawn as a band with their number, and arrows that are too close are left out. Zoom in to see each event." });
     this.body = h("tbody", {});
     this.table = /** @type {HTMLDetailsElement} */ (h("details", { class: "ros-list", ontoggle: () => this.#fillTable() }, h("summary", { text: "The same as a table" }),
       h("div", { class: "ros-scroll", tabindex: "0", role: "region", "aria-label": "Events" }, h("table", {}, h("thead", {}, h("tr", {},
         ...["Start (ms)", "Took (ms)", "Node", "What", "Service or topic", "Other node", "Belongs to", "Thread", "Note"].map((text) => h("th", { scope: "col", text })))), this.body))));
     this.el = h("section", { class: "ros-panel ros-timeline", "aria-label": "Timeline" }, this.#buildHead(),
-      empty ? h("p", { class: "ros-empty", text: "Nothing happened between the nodes during the recording, or the block of the recording has not ended." }) : this.window,
+      empty ? h("p", { class: "ros-empty", text: "The nodes did not communicate during the recording, or the recording has not ended." }) : this.window,
       empty ? null : this.details, empty ? null : this.#buildFoot(), this.#buildNotes(), empty ? null : this.table);
   }
 
@@ -224,7 +224,7 @@ class TimelineView {
     const { scene } = this;
     const rows = document.createDocumentFragment();
     for (let each = 0; each < scene.count; each++) {
-      const texts = [moment(scene.start[each]), scene.open[each] ? "not over" : moment(scene.end[each] - scene.start[each]), scene.nodeOf(each), scene.kindOf(each),
+      const texts = [moment(scene.start[each]), scene.open[each] ? "not finished" : moment(scene.end[each] - scene.start[each]), scene.nodeOf(each), scene.kindOf(each),
         ...["name", "peer", "key", "thread", "note"].map((column) => scene.word(each, /** @type {any} */ (column)))];
       rows.append(h("tr", {}, ...texts.map((text) => h("td", { text }))));
     }
@@ -243,13 +243,13 @@ function legend(scene) {
   const hatch = `<defs><pattern id="${id}" width="6" height="6" patternUnits="userSpaceOnUse"><path class="ros-stripe" d="M-1,1 L1,-1 M0,6 L6,0 M5,7 L7,5"/></pattern></defs>`;
   const samples = [
     ["wait", "waits: blocked until another node answers", `${hatch}<rect class="ros-wait" fill="url(#${id})" x="1" y="2" width="32" height="14"/>`],
-    ["lookup connect", "look-up, connect: also waits; bars when zoomed in", '<path class="ros-small" d="M10,4 l5,5 l-5,5 l-5,-5 z"/><circle class="ros-small" cx="25" cy="9" r="4"/>'],
+    ["lookup connect", "look-up, connection: also waits; bars when zoomed in", '<path class="ros-small" d="M10,4 l5,5 l-5,5 l-5,-5 z"/><circle class="ros-small" cx="25" cy="9" r="4"/>'],
     ["handler", "handler works", '<rect class="ros-work" x="1" y="2" width="32" height="14"/>'],
     ["request", "request, and its response", '<path class="ros-call" d="M1,5 H30"/><path class="ros-call ros-answer" d="M33,13 H4"/><path class="ros-tip" d="M33,5 l-7,-3 v6 z M1,13 l7,-3 v6 z"/>'],
     ["error", "failed", '<path class="ros-failed" d="M13,5 l8,8 m0,-8 l-8,8"/>'],
-    ["publish", "publishes, waits for nobody", '<path class="ros-message" d="M17,3 V16"/><circle class="ros-dot" cx="17" cy="4" r="3"/>'],
+    ["publish", "publishes, does not wait", '<path class="ros-message" d="M17,3 V16"/><circle class="ros-dot" cx="17" cy="4" r="3"/>'],
     ["callback", "callback runs", '<rect class="ros-heard" x="1" y="2" width="32" height="14"/>'],
-    ["open", "not over when the recording ended", '<path class="ros-work" d="M1,2 H33 l-4,3.5 l4,3.5 l-4,3.5 l4,3.5 H1 z"/>'],
+    ["open", "not finished when the recording ended", '<path class="ros-work" d="M1,2 H33 l-4,3.5 l4,3.5 l-4,3.5 l4,3.5 H1 z"/>'],
   ];
   const shown = new Set(Array.from({ length: scene.count }, (_, each) => scene.kindOf(each)));
   if (scene.open.some(Boolean)) shown.add("open");

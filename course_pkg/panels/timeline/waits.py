@@ -127,8 +127,8 @@ def _called(wait: Wait) -> str:
 
 
 def _published(stream: Stream) -> str:
-    sentence = f"{stream['node']} published {stream['topic']} and waited for nobody"
+    sentence = f"{stream['node']} published {stream['topic']} and did not wait"
     if stream["heard_by"]:
-        return f"{sentence}; {' and '.join(stream['heard_by'])} heard it."
+        return f"{sentence}; {' and '.join(stream['heard_by'])} received it."
     lost = stream["alone"] == stream["published"]
-    return f"{sentence}; {'nobody was connected' if lost else 'nobody on record heard it'}."
+    return f"{sentence}; {'no subscriber was connected' if lost else 'no recorded node received it'}."

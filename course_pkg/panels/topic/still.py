@@ -55,7 +55,9 @@ def _draw_publishing(paper: Paper, state: State) -> None:
     commands = [("once", "once"), ("at a rate", "often"), ("Python", "python")]
     listen = [(line.split(" ")[1], line) for line in state["about"].get("listen", ())]
     draw_commands(
-        paper, "The same by hand", [*((label, check.get(name, "")) for label, name in commands), *listen]
+        paper,
+        "The same as commands and in Python",
+        [*((label, check.get(name, "")) for label, name in commands), *listen],
     )
 
 

@@ -27,7 +27,7 @@ class TopicView {
     this.refused = model.get("check").refused ?? 0;
     /** @type {Map<number, number>} the time at which each message came, by the page's clock (ms) */
     this.came = new Map();
-    this.fields = new FieldsForm(() => this.#edited(), "This message has no fields: only its arrival matters.");
+    this.fields = new FieldsForm(() => this.#edited(), "This message has no fields.");
     this.chart = new Chart();
     this.#build();
     const draw = { about: this.#drawAbout, trouble: this.#drawBanner, notice: this.#drawBanner, draft: () => this.fields.fill(model.get("draft")),
@@ -63,7 +63,7 @@ class TopicView {
     this.once = h("button", { type: "submit", class: "ros-main", text: "Publish" });
     this.often = h("button", { type: "button", text: "Publish at a rate", onclick: () => this.#repeat() });
     this.burst = h("button", { type: "button", onclick: () => this.#act("burst") });
-    this.withdraw = h("button", { type: "button", class: "ros-quiet", text: "Withdraw the publisher", onclick: () => this.#send({ kind: "withdraw" }) });
+    this.withdraw = h("button", { type: "button", class: "ros-quiet", text: "Stop the publisher", onclick: () => this.#send({ kind: "withdraw" }) });
     this.wrong = h("p", { class: "ros-note ros-wrong" });
     this.words = h("p", { class: "ros-words", role: "status", "aria-live": "polite" });
     this.waiting = h("p", { class: "ros-muted", role: "status" });
@@ -104,7 +104,7 @@ class TopicView {
       return command(line.split(" ")[1], shown, "the command");
     });
     this.publishLines = h("div", {}, command("once", this.onceLine, "the command"), command("at a rate", this.oftenLine, "the command"), command("Python", this.python, "the Python lines"));
-    return h("details", { class: "ros-commands" }, h("summary", { text: "The same by hand" }), this.stale, this.publishLines, ...this.listening);
+    return h("details", { class: "ros-commands" }, h("summary", { text: "The same as commands and in Python" }), this.stale, this.publishLines, ...this.listening);
   }
 
   #drawAbout() {

@@ -38,7 +38,7 @@ def still(state: State) -> str:
             rows.pop()
         trails, here = _played(rows)
     names = [recorded["names"][turtle] for turtle in sorted(here)]
-    paper = Paper(f"The paper of turtlesim with {_counted(names)}", SIDE + 2 * EDGES)
+    paper = Paper(f"The window of turtlesim with {_counted(names)}", SIDE + 2 * EDGES)
     red, green, blue = recorded["background"]
     dark = 0.3 * red + 0.6 * green + 0.1 * blue < 128
     group = Element("g", {"transform": f"translate({number(EDGES)} {number(paper.y)})"})

@@ -115,7 +115,7 @@ def reply_pieces(data: bytes, kind: MessageType | None) -> Pieces:
     reader = Reader(data)
     try:
         worked = data[:1] == b"\1"
-        words = "1: the call worked" if worked else "0: it failed, and words follow"
+        words = "1: the call worked" if worked else "0: the call failed, and an error message follows"
         reader.take(1, OK if worked else BAD, "ok", "uint8", words)
         count = reader.number(LENGTH, "length of the response" if worked else "length of the error")
         if worked:

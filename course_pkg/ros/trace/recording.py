@@ -18,7 +18,7 @@ PUBLISH = "publish"  # A node publishes a message.
 CALLBACK = "callback"  # A subscriber's callback runs.
 MASTER = "master"  # The peer of a lookup is the master.
 GET_RECORD = "getCourseRecord"  # This method of a node's slave API returns a ProcessRecord.
-NOBODY = "nobody was connected"  # The note of a message that had no subscriber.
+NOBODY = "no subscriber was connected"  # The note of a message that had no subscriber.
 
 OF_CALLS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER)
 BLOCKED = (LOOKUP, CONNECT, WAIT)  # During these phases of a call, a node waits for another node.

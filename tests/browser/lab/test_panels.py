@@ -86,7 +86,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
     with running_notebook(
         lab_page, lab, "predict", GRAPH, PREDICT, 'p.compare("an error")', 'predictions("05")'
     ):
-        expect(panel(lab_page, "Prediction compared")).to_contain_text("You had made no prediction.")
+        expect(panel(lab_page, "Prediction compared")).to_contain_text("You made no prediction.")
         panel(lab_page, "Prediction").get_by_label("an empty reply").check()
         expect(panel(lab_page, "Prediction")).to_contain_text("a change is marked as a late change")
         run_all(lab_page)
@@ -103,7 +103,9 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         first = choices.get_by_role("radiogroup", name="Joint values")
         second = choices.get_by_role("radiogroup", name="One picture")
         choices.get_by_role("button", name="Show the reasons").click()
-        expect(choices.get_by_text("Decide every case first: 2 of 2 are still open.")).to_be_visible()
+        expect(
+            choices.get_by_text("First choose an option for each case: 2 of 2 cases have no answer.")
+        ).to_be_visible()
         expect(first.get_by_label("a topic")).to_be_focused()
         lab_page.keyboard.press("Space")
         lab_page.keyboard.press("Tab")
@@ -123,7 +125,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         choices = panel(lab_page, "Choices")
         choices.get_by_role("button", name="Choose again").click()
         # Until the kernel answers, the old choices are still selected, and check() would have no effect.
-        expect(choices.get_by_text("2 of 2 to decide.")).to_be_visible()
+        expect(choices.get_by_text("2 of 2 cases have no answer.")).to_be_visible()
         for name, option in {"Joint values": "a topic", "One picture": "a service"}.items():
             choices.get_by_role("radiogroup", name=name).get_by_label(option).check()
         choices.get_by_role("button", name="Show the reasons").click()

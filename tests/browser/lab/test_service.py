@@ -176,7 +176,7 @@ def test_the_picker_follows_the_graph(own_form: Locator, lab_page: Page) -> None
     expect(form.get_by_label("length")).to_have_value("7")
     picture(form, "service-panel-gone")
     form.get_by_label("Service", exact=True).select_option("/hello")
-    expect(form.get_by_text("This request has no fields: just call.")).to_be_visible()
+    expect(form.get_by_text("This request has no fields.")).to_be_visible()
     form.get_by_role("button", name="Call").click()
     expect(answer(form, "message")).to_have_text("hi")
     picture(form, "service-panel-no-fields")

@@ -43,7 +43,7 @@ def test_the_first_message_is_lost_and_the_second_arrives(lab: Lab, lab_page: Pa
         lab_page.keyboard.press("Enter")
         expect(topic.get_by_text("Message 2 was sent to this panel.")).to_be_visible()
         expect(topic.get_by_label("The last messages")).to_contain_text("data -2.5")
-        topic.get_by_text("The same by hand").click()
+        topic.get_by_text("The same as commands and in Python").click()
         line = topic.get_by_label("Command that publishes once")
         expect(line).to_have_text("rostopic pub --once /speed std_msgs/Float64 -- -2.5")
         picture(topic, "topic-panel-first")
@@ -57,7 +57,7 @@ def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
         topic.get_by_role("button", name="Publish", exact=True).click()
         expect(topic.get_by_text("Message 1 was stored, and was sent to this panel")).to_be_visible()
         expect(topic.get_by_label("The last messages")).to_contain_text("data 0.0")
-        topic.get_by_role("button", name="Withdraw the publisher").click()
+        topic.get_by_role("button", name="Stop the publisher").click()
         expect(topic.get_by_text("The publisher was stopped.")).to_be_visible()
 
 

@@ -338,7 +338,7 @@ def test_a_message_without_a_subscriber(asker: Kernel) -> None:
             alone.publish(1)
     """,
     )
-    assert [event.note for event in recording.events] == ["nobody was connected"]
+    assert [event.note for event in recording.events] == ["no subscriber was connected"]
 
 
 def test_a_latched_message_is_sent_again(asker: Kernel) -> None:
