@@ -165,7 +165,10 @@ def _made(
     asked: Mapping[str, set[str]],
     given: Submission | None,
 ) -> Submission | None:
-    """Return a student's submission for a chapter with the packages that the chapter needs, or None."""
+    """Return the submission `given` with the packages that the chapter needs.
+
+    Without a notebook, return a submission with only the packages, or None if there are none.
+    """
     taken, notes = [], []
     for name in asked:
         ranked = sorted((each for each in found if each.called(list(asked)) == name), key=_rank, reverse=True)

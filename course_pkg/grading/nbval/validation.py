@@ -25,7 +25,10 @@ OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of the whole output.
 
 
 def wanted(grade: Grade, whose: str) -> bool:
-    """Return whether nbval runs a notebook; `whose` is "all", "none", or "missing" (points)."""
+    """Return whether nbval runs a notebook.
+
+    `whose` is "all", "none", or "missing" for notebooks that do not have all points.
+    """
     if not grade.reports or grade.problem or whose == "none":
         return False
     return whose == "all" or any(report.points < report.possible for report in grade.reports)

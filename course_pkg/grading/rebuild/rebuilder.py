@@ -1,4 +1,4 @@
-"""Builds the notebook to grade.
+"""Builds the notebook that is graded.
 
 The notebook is the reference notebook with a student's answers; all other cells of the student are left out.
 """
@@ -21,7 +21,7 @@ NOTES = 40  # At most this many notes are given, because more notes would not he
 
 @dataclass(frozen=True)
 class Rebuilt:
-    """The notebook to grade; each part of the reference is either in `answers` or in `missing`."""
+    """The notebook that is graded; each part of the reference is either in `answers` or in `missing`."""
 
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
     # `answers` contains, for each part, the source that runs; this can be the unchanged blank cell.
@@ -34,7 +34,7 @@ class Rebuilt:
 
 
 def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
-    """Return the notebook to run and grade for a student who handed in `content`.
+    """Convert the submitted notebook `content` into the notebook that is graded, and return it.
 
     `reference` is a solution, as `authoring.notebook_store.read` returns it.
     """
@@ -55,7 +55,7 @@ class Rebuilder:
         self._given = {cell["id"]: cell["source"] for cell in reference["cells"] if not exercise_of(cell)}
 
     def rebuild(self, content: bytes) -> Rebuilt:
-        """Return the notebook to grade for the handed-in notebook `content`."""
+        """Convert the submitted notebook `content` into the notebook that is graded, and return it."""
         try:
             cells = read_cells(content)
         except GradingError as error:

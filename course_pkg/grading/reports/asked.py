@@ -1,4 +1,4 @@
-"""The assigned chapters; each assigned chapter counts for a student, even without a submission."""
+"""The assigned chapters, whose points are in a student's total even without a submission."""
 
 from __future__ import annotations
 

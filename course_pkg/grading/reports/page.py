@@ -1,4 +1,7 @@
-"""The HTML frame of a page without scripts; its policy permits only its own style sheet."""
+"""The HTML frame of a page without scripts.
+
+The page's Content-Security-Policy permits only the page's own style sheet.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +45,7 @@ class Frame:
 
 
 def text(value: object, limit: int = clean.SHORT) -> str:
-    """Return one line for a page."""
+    """Convert a value into one line of text, with HTML characters escaped."""
     return clean.html(clean.line(value, limit))
 
 
@@ -66,7 +69,8 @@ def banner(title: str, sentences: Sequence[str]) -> str:
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:
     """Return an HTML table.
 
-    The first cell of each row is a header, and the last `numbers` columns are numbers.
+    The first cell of each row is a header. `numbers` is the number of columns, from the right, that contain
+    numbers.
 
     The cells in `rows` are HTML; `caption` and `head` can be any text.
     """

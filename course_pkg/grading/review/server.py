@@ -90,7 +90,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Answers all other addresses."""
+    """Answers requests for any other address."""
 
     def get(self) -> None:
         """Send 404."""
@@ -146,7 +146,7 @@ class OneItem(Handler):
 
 
 class Rows(Handler):
-    """The rows, after another program has changed the file."""
+    """All rows, if another program has changed the file."""
 
     async def get(self) -> None:
         """Send all rows if another program has changed the rows since the last request of the page.

@@ -86,7 +86,7 @@ class Participant:
 
 
 class Worksheet:
-    """A worksheet from a file; only copies are changed."""
+    """The content of a worksheet; `copy` does not change this object."""
 
     def __init__(
         self, found: Sequence[Record], separator: str, columns: Mapping[str, int], file: str
@@ -104,7 +104,7 @@ class Worksheet:
     def word(self) -> str:
         """The word before the number of a participant, in lower case.
 
-        Anonymous students have the same text as their name.
+        If submissions are anonymous, Moodle uses this word instead of a student's name in the names of files.
         """
         first = self._records[1:2]
         return folded(re.sub(r"\d+\s*\Z", "", self._value(first[0], IDENTIFIER))) if first else ""

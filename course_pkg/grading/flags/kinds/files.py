@@ -62,7 +62,7 @@ SYSTEM = frozenset(
 PROGRAMS = ("subprocess.", "os.exec", "os.spawn", "os.posix_spawn", "os.fork", "pty.", "multiprocessing.")
 METHODS = frozenset(
     ["read_text", "read_bytes", "iterdir", "rglob"]
-)  # Only these objects have methods with these names.
+)  # Only pathlib.Path objects have methods with these names.
 PATH_METHODS = frozenset(
     [
         "exists",

@@ -134,7 +134,7 @@ def _hints(book: Book) -> str:
 def _looks(book: Book) -> str:
     """Return the students who need attention, with the most serious cases first.
 
-    Collapsed notes about the other students follow.
+    Notes about the other students follow, in a list that the reader can unfold.
     """
     found = [(student, attention(book, student)) for student in book.students]
     grave = {student: reasons for student, reasons in found if reasons}
