@@ -138,7 +138,7 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
     The server ends with its kernels and terminals, even if a signal kills this process.
     """
     folders = {
-        # With these folders, the server does not read the settings and files of the user's other Jupyter.
+        # With these folders, the server does not read the settings and files of other Jupyter installations.
         "JUPYTER_CONFIG_DIR": str(places.own_data / "jupyter" / "config"),
         "JUPYTER_DATA_DIR": str(places.own_data / "jupyter" / "data"),
         "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
@@ -167,7 +167,7 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
 
 
 def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str, object]:
-    """Return JupyterLab's settings for one start, by the names of its traits.
+    """Return settings for JupyterLab; the keys are the names of its traits.
 
     All installed extensions stay enabled. The settings that are the same for every start are in
     course_pkg/lab/extension.py. The file browser shows the folder `root`; `checkpoints` and `workspaces` are

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from course_pkg.errors import SetupError
 
-# The file name of jupyterlab_server's workspace "default": the name, and the first digits of its SHA-256.
+# jupyterlab_server's file name for the workspace "default": the name, and the first digits of the name's
+# SHA-256.
 WORKSPACE = "default-37a8.jupyterlab-workspace"
 
 
