@@ -61,7 +61,7 @@ class Answers:
         return text[:LONGEST_CODE]
 
     def lacking(self, part: Part) -> list[str]:
-        """Return a sentence for each package without a file that `part` needs."""
+        """Return a sentence for each package in which files for `part` are missing."""
         named = {each.name for each in self.packages}
         return [
             f"The package {name} in this submission has no {' and no '.join(paths)}."

@@ -1,4 +1,4 @@
-"""Reads an instructor's CSV tables, in all formats that spreadsheet programs save."""
+"""Reads an instructor's CSV tables, in all encodings and with all separators that spreadsheet programs use."""
 
 from __future__ import annotations
 

@@ -30,7 +30,8 @@ from course_pkg.setup.own_files import make_own_files
 from course_pkg.workspace import make_own_workspace
 
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ports, and 0 means any free port
-# The start has to end within this time in s; it takes 2 s, or much longer with an empty disk cache.
+# The server has to start within this time in s. Usually it needs 2 s, but much longer with an empty disk
+# cache.
 READY = 60.0
 LOOK = 0.01  # This is the time in s between two checks whether the server answers.
 KEPT_LINES = 12  # number of lines of the server's log in an error message
@@ -135,7 +136,7 @@ def _stopping_on_signals() -> Iterator[None]:
 def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> Iterator[SupervisedProcess]:
     """Run the server during the `with` block.
 
-    The server ends with its kernels and terminals, even if a signal kills this process.
+    After the block, the server, its kernels and its terminals are ended, even if a signal kills this process.
     """
     folders = {
         # With these folders, the server does not read the settings and files of other Jupyter installations.
@@ -182,7 +183,8 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
         "CourseContents.everything": False,
         "LabApp.user_settings_dir": _user_settings(),
         "LabApp.workspaces_dir": workspaces,
-        "LabApp.cache_files": True,  # The names of the front end's files change when their content changes.
+        # A browser can cache the front end's files, because their names change when their content changes.
+        "LabApp.cache_files": True,
     }
 
 
@@ -221,7 +223,7 @@ def _make_workspace() -> None:
 def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
     """Wait until the server accepts connections, and return its address.
 
-    Raises CourseError if the server ends, or does not listen within READY.
+    Raises CourseError if the server ends, or does not listen within READY seconds.
     """
     deadline = time.monotonic() + READY
     # The server writes this file just before it listens.

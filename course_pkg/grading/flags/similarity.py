@@ -34,9 +34,9 @@ FEW = 3  # Even in a small class, code is compared if at most this many students
 SMALL = 30  # The weights are computed for a class with at least this many students.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
-# One answer is enough if both students have this many features that at most one other student has.
+# One answer is enough if the pair has this many common features that at most one other student has.
 OWN_CODE = 15
-# One answer is also enough if both students have this many comments, strings or names that at most one other
+# One answer is also enough if the pair has this many common comments, strings or names that at most one other
 # student has.
 OWN_WORDS = 3
 MARGIN = 1.0  # bits

@@ -82,7 +82,10 @@ def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -
 
 
 def unwrapped(parts: Sequence[str], outer: int) -> tuple[str, ...]:
-    """Return a path without its first `outer` folders, and without a folder that the platform added."""
+    """Return a path without its outer folders, and without a folder that the platform added.
+
+    `outer` is the number of outer folders.
+    """
     inner = tuple(parts[outer:]) if len(parts) > outer else tuple(parts)
     return inner[1:] if len(inner) > 1 and WRAPPING.fullmatch(inner[0]) else inner
 

@@ -53,9 +53,9 @@ class Found:
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the name in `names` that belongs to the package, or "".
+        """Return the name of the package, or of its folder, if it is in `names`; otherwise return "".
 
-        `names` are the names that parts need.
+        `names` contains the names of the packages that parts need.
         """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
@@ -68,7 +68,7 @@ def package_roots(paths: Sequence[tuple[str, ...]]) -> set[tuple[str, ...]]:
 
 
 def is_generated(folders: Sequence[str]) -> bool:
-    """Return whether catkin generated the files in the last of these nested folders."""
+    """Return whether catkin created one of these nested folders, and therefore the files in it."""
     return not GENERATED.isdisjoint(folders)
 
 

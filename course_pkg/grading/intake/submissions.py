@@ -180,7 +180,10 @@ def _found(file: _File, references: References) -> Iterator[_Found]:
 
 
 def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
-    """Read one file; a `problem` says what is wrong, where the error is, and what to do."""
+    """Read one file, and return the submission in it.
+
+    If the file cannot be graded, the `problem` of the submission says why, and what to do.
+    """
     name = clean.line(entry.path.rpartition("/")[2] or "the archive", 120)
     blank = Submission(owner.student, "", b"", clean.line(entry.path, 500))
     try:

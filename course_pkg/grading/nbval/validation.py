@@ -50,7 +50,7 @@ def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
 
 
 def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL) -> tuple[CellOutcome, ...]:
-    """Run nbval on `notebook` in a sandbox, with at most `cell` s for each cell.
+    """Run nbval on `notebook` in a sandbox; `cell` is the time limit of each cell in s.
 
     Returns an empty tuple if the notebook takes more than `timeout` s.
     """

@@ -26,7 +26,7 @@ class Rebuilt:
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
     # `answers` contains, for each part, the source that runs; this can be the unchanged blank cell.
     answers: Mapping[str, str]
-    # For each part without an answer, the value is a text for the student with the reason.
+    # The keys are the parts without an answer, and the values tell the student the reason.
     missing: Mapping[str, str] = field(default_factory=dict)
     untouched: frozenset[str] = frozenset()  # The student did not change the cells of these parts.
     notes: tuple[str, ...] = ()  # The notes tell the student about everything unusual in the notebook.
@@ -100,7 +100,7 @@ def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
 
 
 def _lent(cells: Sequence[StudentCell], matching: Matching, matches: Mapping[str, Match]) -> set[str]:
-    """Return the names from ungraded cells that an answer may use."""
+    """Return the names that an answer may use from cells that are not graded."""
     taken = frozenset(place for match in matches.values() for place in match.cells)
     names = matching.lent(taken) if len(taken) < len(cells) else set()
     for match in matches.values():

@@ -14,7 +14,7 @@ from course_pkg.checking.report import Verdict
 from course_pkg.grading import clean
 from course_pkg.web_pages.style import style_sheet
 
-KINDS = {  # Each verdict has a class of the style sheet, and a symbol before the verdict.
+KINDS = {  # Each verdict has a class in the style sheet, and a symbol that is shown before the verdict.
     Verdict.PASSED: ("passed", "✓"),
     Verdict.FAILED: ("failed", "✗"),
     Verdict.NOT_ATTEMPTED: ("untried", "○"),
@@ -38,7 +38,7 @@ class Frame:
         )
 
     def page(self, title: str, body: Iterable[str]) -> str:
-        """Return a page; `body` is clean HTML, and `title` can be any text."""
+        """Return a page; `body` is HTML, and `title` can be any text."""
         inside = "\n".join(body)
         title = f"<title>{clean.html(clean.line(title))}</title>"
         return f"{self._head}{title}\n</head>\n<body>\n<main>\n{inside}\n</main>\n</body>\n</html>\n"

@@ -128,7 +128,7 @@ class Worksheet:
     def copy(self, graded: Mapping[int, tuple[str, str]]) -> bytes:
         """Return a copy of the file with new grades and feedback (HTML).
 
-        The keys are the indices of the participants' rows.
+        The keys of `graded` are the indices of the participants' rows.
 
         All other bytes of the file do not change. A grade is a number such as "7.5". The grade gets a decimal
         comma if the maximum grade in its row has a decimal comma.

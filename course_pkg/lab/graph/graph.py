@@ -91,7 +91,7 @@ class Graph:
 
 @contextmanager
 def graph_of_this_command(which: Which) -> Iterator[Graph | None]:
-    """Run the block on a graph, whose address is in ROS_MASTER_URI.
+    """Run the `with` block on a graph; ROS_MASTER_URI contains the address of its master.
 
     If ROS_MASTER_URI is set and `which` is RUNNING, the block gets None, and uses the master at this address
     in the network of this process. Raises GraphError if the graph cannot be started.

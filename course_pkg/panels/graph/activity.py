@@ -70,8 +70,8 @@ class RateMeter:
     def read(self, at: float, messages: int) -> None:
         """Add a count: the number of messages from the beginning until the time `at` (s)."""
         if self._counts and messages < self._counts[-1][1]:
-            # A smaller count means that the publisher was restarted, and the new connection got the same
-            # number.
+            # A smaller count means that the publisher was restarted, and that its new connection has the same
+            # id.
             self._counts.clear()
         self._counts.append((at, messages))
         while at - self._counts[0][0] > LONG:

@@ -28,10 +28,10 @@ def svg(
     notes: Mapping[str, str] | None = None,
     still: bool = False,
 ) -> str:
-    """Return the drawing as SVG; `notes` are the texts below the names of topics, by the key of the topic.
+    """Return the drawing as SVG; `notes` maps the keys of topics to the texts below their names.
 
     In a page, each shape is a button with an accessible name; its attribute `data-key` is the key of the
-    shape. With `still`, the result is a complete file with a style sheet and a text alternative.
+    shape. If `still` is True, the result is a complete file with a style sheet and a text alternative.
     """
     return _Drawing(notes or {}, still).of(layout, title, description)
 

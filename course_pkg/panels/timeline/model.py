@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 MOST = 4000  # The data contain at most this many events, which take about 200 kB in a saved page.
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
 TICKS = 1e6  # The state has times in whole microseconds, so one second has this many ticks.
-# An event with this end was not finished.
+# The end of an event has this value if the event was not finished.
 OPEN = -1
 
 

@@ -176,7 +176,7 @@ class _Kernel:
     def _start_cleaner(self, master: MasterClient) -> None:
         """Start a process that unregisters the node if this kernel is killed.
 
-        With a private master, no such process is necessary, because the master ends with the kernel.
+        If the master is private, no such process is necessary, because the master ends with the kernel.
         """
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())

@@ -42,9 +42,9 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _teams(group: Group) -> list[list[Work]]:
-    """Return groups of works: the works with the same file form one group.
+    """Return the students' works in groups: works from the same submitted file form one group.
 
-    Each other work is a separate group.
+    Any other work is a group with one element.
     """
     teams: dict[str, list[Work]] = {}
     for work in group.works:
