@@ -1,4 +1,4 @@
-"""Reads an instructor's CSV tables, in all encodings and with all separators that spreadsheet programs use."""
+"""Reads an instructor's CSV tables, in UTF-8 or UTF-16, with commas, semicolons or tabs between the cells."""
 
 from __future__ import annotations
 
