@@ -76,7 +76,7 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        self._folded: int | None = None  # At this offset, the number of pieces reached the maximum.
+        self._folded: int | None = None  # The number of pieces reached the maximum at this offset.
 
     @property
     def rest(self) -> int:
