@@ -111,13 +111,13 @@ class Grade:
     factor: float = 1.0  # The points of a late submission are multiplied by this factor.
     key: str = ""  # `key` is a digest of the submission, the reference and the checks.
     origin: str = ""
-    problem: str = ""  # `problem` is the problem of the submission; with a problem, no part was examined.
+    problem: str = ""  # `problem` is the reason why no part was examined, or "".
     # `code` contains the student's code of each examined part.
     code: dict[str, str] = field(default_factory=dict)
     private: tuple[str, ...] = ()  # Students see the points of these parts, but not the reports.
     handed_in: str = ""  # `handed_in` is the digest of the submission.
     flags: tuple[Flag, ...] = ()  # Only the instructor sees the flags.
-    # `absent` is True for a result of an earlier run if this run has no submission for it.
+    # `absent` is True if the grade is from an earlier run and this run has no submission for it.
     absent: bool = False
 
     @property

@@ -61,7 +61,7 @@ class Answers:
         return text[:LONGEST_CODE]
 
     def lacking(self, part: Part) -> list[str]:
-        """Return a sentence for each package that lacks a file that `part` needs."""
+        """Return a sentence for each package in which files for `part` are missing."""
         named = {each.name for each in self.packages}
         return [
             f"The package {name} in this submission has no {' and no '.join(paths)}."
@@ -84,8 +84,8 @@ def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: 
 def mark(submission: Submission, plan: Plan, run: Run, secret: str, key: str, *, sandboxed: bool) -> Grade:
     """Return the grade of one submission.
 
-    `secret` is the seed for the random inputs of the checks. Students do not know the seed, but every run of
-    the folder uses the same inputs.
+    `secret` is the seed for the random inputs of the checks. Students do not know the seed, but each run of
+    `course grade` with the same results folder uses the same inputs.
     """
     grade = Grade(
         submission.student,

@@ -1,7 +1,7 @@
 """points.json: how an instructor divides the points among the parts and their goals.
 
 {
- "05.1": 4,                                the part has 4 points; the author's division among its goals stays
+ "05.1": 4,                                the part has 4 points, divided in the author's ratio
  "05.3": {"GOAL": 0.5, "GOAL": 1.5},       the points of each goal, with at most two decimals
  "05.4": "all-or-nothing",                 only a pass earns points
  "05.5": {"all-or-nothing": 4},            the same, with 4 points
@@ -192,7 +192,10 @@ def _with_points(part: Part, shares: Sequence[float]) -> tuple[Goal, ...]:
 
 
 def _points(value: Any, where: str, path: Path | None) -> float:  # noqa: ANN401 -- any JSON value
-    """Return the points `value` of `where`; raise GradingError if the value is not a valid number."""
+    """Return `value` as a number of points.
+
+    Raises GradingError if the value is not valid; `where` is its place in the error message.
+    """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         form = f'"{ALL_OR_NOTHING}", or an object with the points of each goal'
         raise _wrong(path, f"the value of {where} is a {_kind(value)}. Write a number, {form}.")

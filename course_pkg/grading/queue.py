@@ -33,7 +33,7 @@ from course_pkg.grading.rebuild.rebuilder import Rebuilder
 from course_pkg.grading.run.cluster import INTERVAL, Cluster, cluster_of
 from course_pkg.sandbox.worker_client import SandboxWorker
 
-AHEAD = 2  # For each running task, at most this many tasks are submitted; the limit saves memory.
+AHEAD = 2  # At most this many tasks per worker are submitted at the same time, to save memory.
 
 
 @dataclass(frozen=True)
@@ -44,11 +44,12 @@ class Task:
     secret: str
     key: str
     sandboxed: bool
-    private: str = ""  # `private` is the folder of an instructor's extras.
-    # `validate` selects the students whose notebooks nbval runs. The value is "all", "missing" (points) or
-    # "none".
+    private: str = ""  # `private` is the path of an instructor's private folder, or "".
+    # `validate` selects the notebooks that nbval runs: "all", "none", or "missing" for notebooks that do not
+    # have all points.
     validate: str = "none"
-    # Only these parts are graded; an empty tuple means all parts. With selected parts, nbval does not run.
+    # Only these parts are graded; an empty tuple means all parts. If the tuple is not empty, nbval does not
+    # run.
     parts: tuple[str, ...] = ()
 
     def grade(self) -> dict[str, Any]:
@@ -68,7 +69,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Pool:
-    """An executor and the number of its workers; a pool of threads has no cluster."""
+    """An executor and the number of its workers; `cluster` is None if the workers are threads."""
 
     executor: Executor
     workers: int
@@ -102,7 +103,10 @@ def _result(future: Future[dict[str, Any]], cluster: Cluster | None) -> Grade:
 
 @contextmanager
 def pool_of(scheduler: str, jobs: int) -> Iterator[Pool]:
-    """Yield threads of this process, or the cluster at the address `scheduler`; `jobs` limits the tasks."""
+    """Yield a pool of threads in this process, or the dask cluster at the address `scheduler`.
+
+    `jobs` is the number of threads or workers to use; for a cluster, 0 means all workers.
+    """
     if scheduler:
         with cluster_of(scheduler) as cluster:
             yield Pool(cluster.executor, jobs or cluster.workers, cluster)

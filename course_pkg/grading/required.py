@@ -15,9 +15,9 @@ SHOWN = 3  # SHOWN is the maximum number of names in the message.
 def require_references(asked: Sequence[str] = (), root: Path | None = None) -> None:
     """Raise GradingError if the solution or the fixtures of a chapter in `asked` are missing.
 
-    By default, all chapters are tested. Grading finds the chapter of a submission by comparing the submission
-    with all solutions. Therefore, without the solution, all students of the chapter would get no points.
-    `root` is the checkout.
+    By default, the files of all chapters are checked. Grading finds the chapter of a submission by comparing
+    the submission with all solutions. Therefore, without the solution, all students of the chapter would get
+    no points. `root` is the checkout.
     """
     missing = list(_missing(asked or chapters(), NotebookStore(root).root))
     if missing:

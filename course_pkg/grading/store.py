@@ -53,7 +53,7 @@ class Store:
         return handed_in(grade, submission) if grade else None
 
     def load(self, key: str) -> Grade | None:
-        """Return the grade that is stored under `key`, without a student, or None."""
+        """Return the grade that is stored under `key`, or None; the grade contains no student."""
         try:
             return grade_from(json.loads((self._folder / f"{key}.json").read_text("utf-8")))
         except (OSError, ValueError, KeyError, TypeError):

@@ -1,4 +1,4 @@
-"""Reads an instructor's CSV tables, in all formats that spreadsheet programs save."""
+"""Reads an instructor's CSV tables, in UTF-8 or UTF-16, with commas, semicolons or tabs between the cells."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
     """Return the content of the file at `path`.
 
-    Error messages call the file `what`, such as "table of late days".
+    `what` describes the file in error messages, such as "table of late days".
 
     Raises GradingError if the file cannot be read, has more than `largest` bytes, or is not CSV but a
     spreadsheet.

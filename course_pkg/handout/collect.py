@@ -22,8 +22,8 @@ from course_pkg.handout.selection import chosen_chapters
 from course_pkg.setup.stamps import locked
 
 LOCK = ".lock"
-# If a file changed on disk more than this many ns after its modification time, an instructor should examine
-# the file.
+# The maximum time in ns between a file's modification time and its last change on disk. If the time is
+# longer, an instructor should examine the file.
 SET_BACK = 60 * 10**9
 
 
@@ -80,7 +80,7 @@ def collect(options: Options) -> int:
     folder = _course_folder(options.folder)
     wanted = Wanted(chosen_chapters(listed=options.chapters))
     homes = homes_in(options.homes, read_students(options.students) if options.students else None)
-    # The call raises an error for a folder with other contents, before anything in the folder is changed.
+    # If the folder contains files but no times.csv, this call raises an error before anything is changed.
     TimesTable(options.out)
     if os.geteuid() != 0:
         sys.stderr.write(

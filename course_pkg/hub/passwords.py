@@ -54,7 +54,7 @@ class Passwords:
 
 
 class _Record:
-    """A `with` block: reads the file first, and writes it at the end.
+    """A context manager that reads the file at the start of the `with` block, and writes it at the end.
 
     Other processes wait during the block.
     """

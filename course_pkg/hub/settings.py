@@ -1,4 +1,4 @@
-"""The JSON file in which `course hub` gives settings to the hub's configuration and the students' servers."""
+"""The JSON file with the settings that `course hub` passes to the hub and to the students' servers."""
 
 from __future__ import annotations
 

@@ -88,7 +88,7 @@ def _serve() -> None:
 
 @contextmanager
 def _without_database() -> Iterator[None]:
-    """Import jupyterhub during the block without SQLAlchemy and the pages of the hub.
+    """During the `with` block, replace SQLAlchemy and the hub's pages by empty modules.
 
     A student's server uses neither SQLAlchemy nor these pages, but they need 30 MiB of memory in each server.
     jupyterhub imports them only for names that the hub uses. For example, the log of jupyterhub has a special
@@ -101,7 +101,7 @@ def _without_database() -> Iterator[None]:
     try:
         yield
     finally:
-        # An extension of the server may import the real modules after the block.
+        # The placeholders are removed, because an extension of the server may import the real modules later.
         for name in placeholders:
             sys.modules.pop(name, None)
 

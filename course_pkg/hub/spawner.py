@@ -30,7 +30,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
     _group: Path | None = None
 
     def _cmd_default(self) -> list[str]:
-        # The supervisor writes a process id to descriptor 3, which nothing reads.
+        # The supervisor writes a process id to file descriptor 3, but nothing here needs this id.
         supervisor = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), "3", "", "", "", "", ""]
         shell = ["/bin/sh", "-c", 'exec "$0" "$@" 3>/dev/null']
         return [*shell, *supervisor, sys.executable, "-m", "course_pkg.hub.single_user"]
@@ -42,11 +42,11 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
         return Path(self.homes, name) if self.homes else Path(pwd.getpwnam(name).pw_dir)
 
     def user_env(self, env: dict[str, str]) -> dict[str, str]:
-        """Return `env` with the variables of a login."""
+        """Return `env` with the variables that a login sets."""
         return {**env, "USER": self.user.name, "HOME": str(self.home), "SHELL": "/bin/bash"}
 
     async def start(self) -> object:
-        """Start the server; if it cannot work, raise HubError, whose message the student's page shows."""
+        """Start the server; if it cannot work, raise HubError with a message for the student's page."""
         try:
             self._refuse()
             hub = limits.group_of_hub()
@@ -64,7 +64,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
             limits.end_group(self._group)
 
     def make_preexec_fn(self, name: str) -> Callable[[], None]:
-        """Return the function that the new process calls: it sets the limits, and then the account."""
+        """Return the function in which the new process sets its limits, and then changes to the account."""
         become = _work_in(self.home) if self.homes else super().make_preexec_fn(name)
         group, chosen, own_account = self._group, self._limits(), not self.homes
 

@@ -180,7 +180,10 @@ def _require_protection(places: Places) -> None:
 
 
 def _closed(path: Path) -> Path | None:
-    """Return the first folder on the way to `path` that other users cannot enter, or `path` itself."""
+    """Return the folder or file that prevents other users from reading `path`, or None.
+
+    This is the first folder that other users cannot enter, or a file that they cannot read.
+    """
     for each in (*reversed(path.parents), path):
         mode = each.stat().st_mode
         if not mode & (stat.S_IXOTH if stat.S_ISDIR(mode) else stat.S_IROTH):

@@ -94,7 +94,7 @@ def _make(version: Path, edition: Path) -> None:
 def _compile(places: Places) -> None:
     """Compile all modules.
 
-    Users cannot store compiled files there, so Python would compile the modules at each start.
+    Users cannot store compiled files in the installation, so Python would compile the modules at each start.
     """
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
     # Some libraries contain files for a different version of Python, which this version cannot compile.

@@ -18,7 +18,7 @@ COMPLETION = "completion.bash"
 
 
 class Prefix:
-    """The folder `path`, and the links in `bin` and in bash-completion's folder beside it.
+    """The folder `path`, the link in `bin`, and the link in the folder of bash-completion.
 
     If `bin` is not given, it is the folder of the last installation or, for a first installation, the usual
     folder.
@@ -70,7 +70,7 @@ class Prefix:
         return sorted(path.parent for path in self.versions.glob(f"*/{RECORD}"))
 
     def switch(self, version: Path) -> None:
-        """Start all later commands from `version`, and create missing links."""
+        """Make `version` the current version, and create missing links."""
         _link(self.current, version.relative_to(self.path))
         for link, target in self._links.items():
             link.parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""`course uninstall`: removes a shared installation, but no user's own folder."""
+"""`course uninstall`: removes a shared installation, but keeps the users' own folders."""
 
 from __future__ import annotations
 

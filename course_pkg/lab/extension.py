@@ -92,7 +92,10 @@ def course_settings() -> Config:
 
 
 def _load_jupyter_server_extension(server: Server) -> None:
-    """Prepare the server and the environment of its kernels and terminals; if sharing is on, send results."""
+    """Prepare the server and the environment of its kernels and terminals.
+
+    If sharing is on, start to send the student's results to the class view.
+    """
     _prepare_ros(server)
     _make_workspace(server)
     start_sender(lambda message: server.log.warning("class view: %s", message))
@@ -102,7 +105,8 @@ def _load_jupyter_server_extension(server: Server) -> None:
 def _prepare_ros(server: Server) -> None:
     """Set the environment of ROS, and start a master if ROS_MASTER_URI is not set.
 
-    Kernels and terminals inherit this environment. `course lab` does both before it starts the server.
+    Kernels and terminals inherit this environment. `course lab` sets the environment and starts a master
+    before it starts the server.
     """
     if "ROS_PACKAGE_PATH" not in os.environ and not environment.apply():
         server.log.warning("The course's workspace is not built. Run `./course doctor` in a terminal.")
@@ -158,7 +162,9 @@ def undelayed(stock: type[Connection]) -> type[Connection]:
 
 
 class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base class has no types.
-    """Stores the checkpoints of notebooks in a folder outside the checkout, each at its notebook's path.
+    """Stores the checkpoints of notebooks in a folder outside the checkout.
+
+    In this folder, each checkpoint has the same path as its notebook.
 
     Jupyter's own class can also store all checkpoints in another folder. A chapter and its solution would
     then share one checkpoint, because their files have the same name.

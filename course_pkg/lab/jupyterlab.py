@@ -30,7 +30,8 @@ from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
 
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ports, and 0 means any free port
-# The start has to end within this time in s; it takes 2 s, or much longer with an empty disk cache.
+# The server has to start within this time in s. Usually it needs 2 s, but much longer with an empty disk
+# cache.
 READY = 60.0
 LOOK = 0.01  # This is the time in s between two checks whether the server answers.
 KEPT_LINES = 12  # number of lines of the server's log in an error message
@@ -135,10 +136,10 @@ def _stopping_on_signals() -> Iterator[None]:
 def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> Iterator[SupervisedProcess]:
     """Run the server during the `with` block.
 
-    The server ends with its kernels and terminals, even if a signal kills this process.
+    After the block, the server, its kernels and its terminals are ended, even if a signal kills this process.
     """
     folders = {
-        # With these folders, the server does not read the settings and files of the user's other Jupyter.
+        # With these folders, the server does not read the settings and files of other Jupyter installations.
         "JUPYTER_CONFIG_DIR": str(places.own_data / "jupyter" / "config"),
         "JUPYTER_DATA_DIR": str(places.own_data / "jupyter" / "data"),
         "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
@@ -167,7 +168,7 @@ def _settings(places: Places, ip: str, port: int, scratch: Path) -> dict[str, ob
 
 
 def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str, object]:
-    """Return JupyterLab's settings for one start, by the names of its traits.
+    """Return settings for JupyterLab; the keys are the names of its traits.
 
     All installed extensions stay enabled. The settings that are the same for every start are in
     course_pkg/lab/extension.py. The file browser shows the folder `root`; `checkpoints` and `workspaces` are
@@ -182,7 +183,8 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
         "CourseContents.everything": False,
         "LabApp.user_settings_dir": _user_settings(),
         "LabApp.workspaces_dir": workspaces,
-        "LabApp.cache_files": True,  # The names of the front end's files change when their content changes.
+        # A browser can cache the front end's files, because their names change when their content changes.
+        "LabApp.cache_files": True,
     }
 
 
@@ -221,7 +223,7 @@ def _make_workspace() -> None:
 def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
     """Wait until the server accepts connections, and return its address.
 
-    Raises CourseError if the server ends, or does not listen within READY.
+    Raises CourseError if the server ends, or does not listen within READY seconds.
     """
     deadline = time.monotonic() + READY
     # The server writes this file just before it listens.

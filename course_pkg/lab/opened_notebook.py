@@ -7,15 +7,16 @@ from pathlib import Path
 
 from course_pkg.errors import SetupError
 
-# The file name of jupyterlab_server's workspace "default": the name, and the first digits of its SHA-256.
+# jupyterlab_server's file name for the workspace "default": the name, and the first digits of the name's
+# SHA-256.
 WORKSPACE = "default-37a8.jupyterlab-workspace"
 
 
 def notebook_to_open(root: Path, asked: str | None) -> str:
     """Return the path of the notebook to open, relative to `root`, the folder with `notebooks`.
 
-    This path is `asked`, the first chapter if `asked` is None, or "" if there are no chapters. Raises
-    SetupError if `asked` is not a file in `root`.
+    The notebook is `asked`, or the first chapter if `asked` is None. Without any chapter, the result is "".
+    Raises SetupError if `asked` is not a file in `root`.
     """
     if asked is None:
         chapters = sorted((root / "notebooks").glob("[0-9][0-9]_*.ipynb"))

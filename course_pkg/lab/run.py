@@ -60,7 +60,7 @@ def _with_plugins(command: Sequence[str]) -> list[str]:
 def _signals_held_back() -> Iterator[None]:
     """Block signals, so that only sigwaitinfo() receives them.
 
-    The command starts after this, so no signal is lost.
+    The command starts while the signals are blocked, so no signal is lost.
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, AWAITED)
     try:

@@ -37,7 +37,7 @@ class PolledCamera:
         rospy.Subscriber("counter", UInt32MultiArray, self._watch.hear)
 
     def knows_the_shop(self) -> bool:
-        """Return whether a message of shop_camera has arrived in the last SILENCE s."""
+        """Return whether a message of shop_camera has arrived in the last SILENCE seconds."""
         return self._watch.silent_for < SILENCE
 
     def handle_request(self, request: PolledImageRequest) -> PolledImageResponse:
@@ -86,7 +86,7 @@ def main() -> None:
     rate = number_parameter("~stream", 0.0, 0.0, 100.0)
     with undisturbed():
         camera = PolledCamera()
-    # After the first message, the first picture can show the real customers.
+    # Wait for the first message, so that the first picture shows the real customers.
     wait_until(camera.knows_the_shop, SILENCE / 2)
     with undisturbed():
         rospy.Service("request_image", PolledImage, camera.handle_request)

@@ -23,11 +23,11 @@ class Joint(NamedTuple):
     period: float
 
     def position(self, at: float) -> float:
-        """Return the joint's angle in rad, `at` s after the start of the motion."""
+        """Return the joint's angle in rad at the time `at` (s since the start)."""
         return self.middle + self.reach * math.sin(math.tau * at / self.period)
 
     def velocity(self, at: float) -> float:
-        """Return the joint's angular velocity in rad/s, `at` s after the start of the motion."""
+        """Return the joint's angular velocity in rad/s at the time `at` (s since the start)."""
         return self.reach * math.tau / self.period * math.cos(math.tau * at / self.period)
 
 
@@ -58,7 +58,7 @@ def main() -> None:
 
 
 def joint_state(at: float) -> JointState:
-    """Return the joints' positions (rad) and velocities (rad/s), `at` s after the start of the motion."""
+    """Return the joints' positions (rad) and velocities (rad/s) at the time `at` (s since the start)."""
     return JointState(
         name=[joint.name for joint in ARM],
         position=[joint.position(at) for joint in ARM],

@@ -59,7 +59,7 @@ def predictions(chapter: str = "") -> Predictions:
 
 
 def _row(number: str) -> ChapterRow | None:
-    """Return the progress in a chapter, or None if its checks cannot be read, for example during grading."""
+    """Return the progress in a chapter, or None if the chapter has no checks, for example during grading."""
     try:
         progress = read_progress([number])
     except (UnknownCheck, ImportError):

@@ -19,7 +19,7 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MU
 def module(path: Path, frame: Path | None = None) -> str:
     """Return the ES module at `path`; each relative module that it imports is inserted once.
 
-    `frame` is the path of a module with a function `framed`, and `framed` wraps the panel's render function.
+    `frame` is the path of a module with a function `framed`; the result then exports `framed(render)`.
     """
     done: set[Path] = set()
     around = f"{_EXPORT.sub('', _inlined(frame.resolve(), done))}\n" if frame else ""

@@ -13,8 +13,8 @@ class Poller(Generic[Value]):
     """Calls `read` every `every` s on a separate thread, from start() to stop().
 
     The poller calls `changed` with each value that differs from the previous value. The poller calls `failed`
-    with an error, unless the previous error had the same text. The separate thread also makes these two
-    calls.
+    with an error, unless the previous error had the same text. After start(), all three functions run on the
+    separate thread.
     """
 
     def __init__(

@@ -1,15 +1,15 @@
 """Finds students with identical or nearly identical code, except code that many students of the class have.
 
 Three kinds of code are ignored: handed-out code, code that more than a tenth of the class has, and answers
-with fewer than ten statements. Each remaining feature has a weight. If s of n students have the feature, its
-weight is log2(n / s) bits. The similarity of two answers is the weight of their common features, divided by
-the weight of all their features.
+with fewer than ten statements. The rest of the code is divided into features (see fingerprints.py), and each
+feature has a weight. If s of n students have the feature, its weight is log2(n / s) bits. The similarity of
+two answers is the weight of their common features, divided by the weight of all their features.
 
 Two short answers to the same exercise can be similar by chance. Therefore, a pair is flagged for one of two
 reasons:
 
-- One similar answer is enough if the two students share much code, or comments, strings or names, that almost
-  no other student has.
+- One similar answer is enough if almost no other student has the same code, or the same comments, strings or
+  names.
 - Otherwise, the two students must have several similar answers. For each answer, p is the estimated
   probability that two students have such a high similarity by chance. The estimate is the fraction of all
   pairs of students with at least this similarity. The sum of log2(1 / p) must be larger than log2 of the
@@ -31,11 +31,13 @@ from course_pkg.grading.flags.fingerprints import Fingerprint
 STATEMENTS = 10  # An answer with fewer statements is not compared.
 COMMON = 0.1  # Code is ignored if more than this fraction of the class has it.
 FEW = 3  # Even in a small class, code is compared if at most this many students have it.
-SMALL = 30  # In a class with fewer students than this, the weights are the same as in a class of this size.
+SMALL = 30  # The weights are computed for a class with at least this many students.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
-OWN_CODE = 15  # A single answer is enough with this many features that at most one other student has.
-# A single answer is also enough with this many comments, strings or names that at most one other student has.
+# One answer is enough if the pair has this many common features that at most one other student has.
+OWN_CODE = 15
+# One answer is also enough if the pair has this many common comments, strings or names that at most one other
+# student has.
 OWN_WORDS = 3
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)
@@ -44,7 +46,7 @@ Couple = tuple[int, int]
 
 @dataclass(frozen=True)
 class Pair:
-    """Two students, and the similarity of their answers; the keys are the names of the answers."""
+    """Two students with nearly identical answers, and the similarity of these answers by their names."""
 
     first: int
     second: int
@@ -52,7 +54,10 @@ class Pair:
 
 
 class Similarity:
-    """Compares the answers of a class; each student has fingerprints by the names of the answers."""
+    """Compares the answers of a class.
+
+    For each student, `students` contains a dictionary from the names of the answers to their fingerprints.
+    """
 
     def __init__(
         self, students: Sequence[Mapping[str, Fingerprint]], handed_out: Mapping[str, Fingerprint]
@@ -87,7 +92,7 @@ class Similarity:
 
 
 class Exercise:
-    """The answers of a class to one exercise; the keys are the numbers of the students."""
+    """The answers of a class to one exercise; the keys of `answers` are the numbers of the students."""
 
     def __init__(self, answers: Mapping[int, Fingerprint], given: Fingerprint, size: int) -> None:
         self._answers = answers
@@ -106,7 +111,7 @@ class Exercise:
 
     @cached_property
     def likeness(self) -> dict[Couple, float]:
-        """The similarity of each pair of answers with a common feature."""
+        """The similarity of each pair of answers that have a feature in common."""
         return {
             (first, second): 2 * bits / (self._totals[first] + self._totals[second])
             for (first, second), bits in self._shared.items()
@@ -148,7 +153,7 @@ class Exercise:
 
     @cached_property
     def _shared(self) -> dict[Couple, float]:
-        """The weight (bits) of the common features of each pair of answers with common features."""
+        """For each pair of answers with features in common, the total weight of these features in bits."""
         holders: dict[str, list[int]] = {}
         for number, features in self._code.items():
             for feature in features:

@@ -1,4 +1,6 @@
-"""The statements of an answer in a normal form, which does not depend on names, comments, layout and order.
+"""The statements of an answer in a normal form.
+
+The normal form does not depend on names, comments, spaces and the order of operands.
 
 One symbol replaces all names that the program defines: variables, parameters, functions, and attributes.
 Names that are defined elsewhere are not replaced, because they show what the code does. Docstrings,
@@ -75,7 +77,7 @@ class _Reader:
                     self._block([child], place, inner)
 
     def owner(self, name: str, scopes: tuple[int, ...]) -> Name | None:
-        """Return the program's own name to which `name` refers in these nested scopes.
+        """Return the innermost scope in `scopes` that binds `name`, together with the name.
 
         Return None if the program does not define the name.
         """
@@ -138,7 +140,7 @@ class _Form:
         return f"{type(node).__name__}({','.join(self._fields(node))})"
 
     def _fields(self, node: ast.AST) -> Iterator[str]:
-        """Yield the normal forms of a node's fields, without statements, annotations and contexts."""
+        """Yield the normal forms of a node's fields, except statements, annotations, names and `ctx`."""
         for name, value in ast.iter_fields(node):
             if name in (*BLOCKS, "returns", "annotation", "ctx", "type_comment", "name"):
                 continue
@@ -164,7 +166,7 @@ class _Form:
         return self._own((-1, name), stored) if self._reader.is_own_attribute(name) else name
 
     def _is_own(self, function: ast.expr) -> bool:
-        """Return whether the program itself defines the called function, with its parameters."""
+        """Return whether the program itself defines the function that is called."""
         if isinstance(function, ast.Attribute):
             return self._reader.is_own_attribute(function.attr)
         return isinstance(function, ast.Name) and self._reader.owner(function.id, self._scopes) is not None

@@ -55,9 +55,10 @@ def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
 
 
 def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
-    """Return `known` together with the names that `module` imports or assigns from a known name.
+    """Return `known`, and the names in `module` that refer to an imported object.
 
-    A variable with a path gets the name of the class of paths, so the methods of the path are known.
+    After `file = Path("x")`, the result contains {"file": "pathlib.Path"}, so that calls of the path's
+    methods can be found.
     """
     names = {**known, **imports([module])}
     assigned = [node for node in ast.walk(module) if isinstance(node, ast.Assign)]
@@ -99,7 +100,7 @@ def _bodies(module: ast.Module) -> Iterator[list[ast.stmt]]:
 
 
 def _body(answer: Answer) -> str:
-    """Return the source; an empty line replaces the magic that writes a file."""
+    """Return the source; an empty line replaces a cell magic, such as %%writefile, in the first line."""
     if answer.path and answer.source.lstrip().startswith("%%"):
         return "\n" + answer.source.lstrip().partition("\n")[2]
     return answer.source

@@ -13,7 +13,7 @@ from course_pkg.grading.grade import Flag, Package, Submission
 from course_pkg.grading.plan import Plan
 from course_pkg.grading.rebuild.wanted import written_path
 
-ENDINGS = (".py", ".cpp", ".cc", ".h", ".hpp")  # Of a package, only files with these endings are read.
+ENDINGS = (".py", ".cpp", ".cc", ".h", ".hpp")  # Only files with these endings are read from a package.
 LARGEST = 100_000  # A file with more characters than this is not read.
 
 
@@ -65,7 +65,7 @@ class Group:
                 yield work, answer
 
 
-Found = tuple[Work, Flag]  # The function `find` of a kind returns such tuples.
+Found = tuple[Work, Flag]  # The function `find` of each kind of flag yields such tuples.
 
 
 def group_of(chapter: str, submissions: Sequence[Submission], plan: Plan) -> Group:

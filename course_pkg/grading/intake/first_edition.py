@@ -18,7 +18,7 @@ class RenumberedChapter:
     """A chapter of the first edition, with the number that it has in this edition."""
 
     name: str  # `name` is the name of the file in the first edition, without the ending .ipynb.
-    title: str  # `title` is the number in the first edition.
+    title: str  # `title` is the heading of the chapter in the first edition.
     now: str
     moved: str = ""  # `moved` is a sentence about exercises that are now in another chapter.
 

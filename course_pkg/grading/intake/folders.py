@@ -101,7 +101,7 @@ def _leads_to(parts: tuple[str, ...], folders: Sequence[str]) -> bool:
 
 
 def _folders(source: Path) -> Iterator[tuple[str, ...]]:
-    """Yield the upper DEPTH levels of folders; links are not followed."""
+    """Yield the folders in `source` that are nested at most DEPTH deep; links are not followed."""
     if source.is_dir():
         yield from _below(source, ())
         return
@@ -116,7 +116,7 @@ def _folders(source: Path) -> Iterator[tuple[str, ...]]:
 def _below(folder: Path, parts: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
     try:
         inside = [item for item in os.scandir(folder) if item.is_dir(follow_symlinks=False)]
-    except OSError:  # The list of files contains a message about this error.
+    except OSError:  # opened() reports this error.
         return
     for item in inside:
         if not is_litter((item.name,)):

@@ -2,9 +2,9 @@
 
 An instructor or a platform has put the student's name into the name of a folder or file.
 
-SUBMISSIONS/<student>/NN_topic.ipynb                          by hand; folders below are allowed
-Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle, a folder for each; or all in the name
-lastfirst_LATE_123_456_NN_topic-2.ipynb                       Canvas; LATE if so, -2: handed in three times
+SUBMISSIONS/<student>/NN_topic.ipynb                          collected by hand; subfolders are allowed
+Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle; can be one file name without folders
+lastfirst_LATE_123_456_NN_topic-2.ipynb                       Canvas; LATE: after the deadline; -2: third try
 assignment_9_export/submission_456/NN_topic.ipynb             Gradescope, with submission_metadata.yml
 submitted/<student>/<assignment>/NN_topic.ipynb               nbgrader
 
@@ -82,7 +82,10 @@ def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -
 
 
 def unwrapped(parts: Sequence[str], outer: int) -> tuple[str, ...]:
-    """Return a path without its first `outer` folders, and without a folder that the platform added."""
+    """Return a path without its outer folders, and without a folder that the platform added.
+
+    `outer` is the number of outer folders.
+    """
     inner = tuple(parts[outer:]) if len(parts) > outer else tuple(parts)
     return inner[1:] if len(inner) > 1 and WRAPPING.fullmatch(inner[0]) else inner
 

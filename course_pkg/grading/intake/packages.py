@@ -53,9 +53,9 @@ class Found:
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the name in `names` that belongs to the package, or "".
+        """Return the name of the package, or of its folder, if it is in `names`; otherwise return "".
 
-        `names` are the names that parts need.
+        `names` contains the names of the packages that parts need.
         """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
@@ -68,7 +68,7 @@ def package_roots(paths: Sequence[tuple[str, ...]]) -> set[tuple[str, ...]]:
 
 
 def is_generated(folders: Sequence[str]) -> bool:
-    """Return whether catkin generated the files in the last of these nested folders."""
+    """Return whether catkin created one of these nested folders, and therefore the files in it."""
     return not GENERATED.isdisjoint(folders)
 
 
@@ -165,7 +165,10 @@ def _made(
     asked: Mapping[str, set[str]],
     given: Submission | None,
 ) -> Submission | None:
-    """Return a student's submission for a chapter with the packages that the chapter needs, or None."""
+    """Return the submission `given` with the packages that the chapter needs.
+
+    Without a notebook, return a submission with only the packages, or None if there are none.
+    """
     taken, notes = [], []
     for name in asked:
         ranked = sorted((each for each in found if each.called(list(asked)) == name), key=_rank, reverse=True)

@@ -104,7 +104,7 @@ def _parsed(content: bytes) -> dict[str, Plain]:
 def _all_cells(data: dict[str, Plain]) -> object:
     """Return the cells of a notebook of any format; up to version 3, the cells are in worksheets.
 
-    The conversion of nbformat would first validate an old notebook. For a long notebook, the validation takes
+    nbformat can convert an old notebook, but validates it first. For a long notebook, the validation takes
     seconds and writes the whole content to a log.
     """
     sheets = data.get("worksheets")

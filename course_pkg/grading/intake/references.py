@@ -55,7 +55,9 @@ class References:
         return found[1].zfill(2) if found else ""
 
     def by_cells(self, cells: Sequence[StudentCell], favoured: str) -> str:
-        """Return the chapter with the most exercises of the notebook; in case of a tie, prefer `favoured`.
+        """Return the chapter to which most of the notebook's exercises belong.
+
+        If several chapters have the same number of exercises, prefer the chapter `favoured`.
 
         If the notebook has no exercises, the ids of all cells are compared.
         """

@@ -47,7 +47,7 @@ SHOWN = 3  # SHOWN is the maximum number of file names in a sentence.
 
 @dataclass(frozen=True)
 class _Found:
-    """A submission, and the values that decide which of two submissions for a chapter counts."""
+    """A submission, and the values for choosing one of several submissions for the same chapter."""
 
     submission: Submission
     attempt: int
@@ -63,11 +63,11 @@ def submissions(
 ) -> list[Submission]:
     """Return the submissions for `chapters`, or for all chapters, sorted by student and chapter.
 
-    `source` is a folder `<student>/NN_topic.ipynb`, a zip of such a folder, a download from a platform (see
-    naming.py), or one notebook. `root` is the checkout that contains the solutions. The folder `without`, and
-    folders with the reports of earlier runs, are ignored. An unusable file becomes a submission with a
-    `problem`, and so does an empty folder of a student. GradingError is raised only if `source` can neither
-    be listed nor opened.
+    `source` is a folder with files such as `<student>/NN_topic.ipynb`, a zip of such a folder, a download
+    from a platform (see naming.py), or one notebook. `root` is the checkout that contains the solutions.
+    Files in the folder `without`, and in folders with the reports of earlier runs, are ignored. An unusable
+    file becomes a submission with a `problem`, and so does an empty folder of a student. GradingError is
+    raised only if `source` can neither be listed nor opened.
     """
     if source.is_file() and NOTEBOOK.fullmatch(source.name):
         return [submission_of(source, root=root)]
@@ -180,7 +180,10 @@ def _found(file: _File, references: References) -> Iterator[_Found]:
 
 
 def _taken(entry: Entry, owner: Claim, references: References) -> _Found:
-    """Read one file; a `problem` says what is wrong, where the error is, and what to do."""
+    """Read one file, and return the submission in it.
+
+    If the file cannot be graded, the `problem` of the submission says why, and what to do.
+    """
     name = clean.line(entry.path.rpartition("/")[2] or "the archive", 120)
     blank = Submission(owner.student, "", b"", clean.line(entry.path, 500))
     try:

@@ -85,7 +85,7 @@ def _is_passed(headline: str) -> bool:
 def _missing(item: pytest.Item) -> Sequence[str]:
     """Return the parts of the chapter for which the notebook has no check.
 
-    For all reports after the notebook's first report, the result is empty.
+    Only the first call for a notebook returns these parts; later calls return an empty result.
     """
     notebook = item.parent
     if notebook is None or notebook.stash.get(SEEN, False):

@@ -26,14 +26,14 @@ from course_pkg.sandbox.linux import confinement, namespaces
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, run_master, too_much_memory_below
 from course_pkg.waiting import Deadline, at_this_load
 
-# nbval waits for output, and ends the kernel at most this many s after the time limit of a cell.
+# If a cell exceeds its time limit, nbval needs at most this time in s to end the kernel.
 SILENCE = 15.0
 # The memory limit (bytes) applies to pytest and all nodes of a chapter together.
 TOGETHER = 2 * confinement.TOGETHER
 KERNEL = "sandboxed"
 OVERVIEW = re.compile(r"\b(progress|results)\(")  # In the first edition, the function was called `results`.
 OWN = "/student/.course"
-# Both folders are in one folder, as in a checkout.
+# The two folders have the same parent folder, as in a checkout.
 NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"
 # Without this option, a kernel whose parent is process 1 would end: the kernel would assume that its parent
 # has ended.
@@ -66,7 +66,8 @@ def main() -> None:
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
     """Run `command`.
 
-    Kill its processes if they use too much memory, or if `record` does not grow for `silence` s.
+    Kill the processes of the command if they use too much memory, or if `record` does not grow for `silence`
+    s.
 
     Returns whether `record` did not grow for `silence` s. nbval itself waits for ever if the connections of a
     kernel are damaged.

@@ -25,7 +25,10 @@ OUTPUT = 8 << 20  # OUTPUT is the maximum number of bytes of the whole output.
 
 
 def wanted(grade: Grade, whose: str) -> bool:
-    """Return whether nbval runs a notebook; `whose` is "all", "none", or "missing" (points)."""
+    """Return whether nbval runs a notebook.
+
+    `whose` is "all", "none", or "missing" for notebooks that do not have all points.
+    """
     if not grade.reports or grade.problem or whose == "none":
         return False
     return whose == "all" or any(report.points < report.possible for report in grade.reports)
@@ -47,7 +50,7 @@ def validated(grade: Grade, submission: Submission, plan: Plan) -> Grade:
 
 
 def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL) -> tuple[CellOutcome, ...]:
-    """Run nbval on `notebook` in a sandbox, with at most `cell` s for each cell.
+    """Run nbval on `notebook` in a sandbox; `cell` is the time limit of each cell in s.
 
     Returns an empty tuple if the notebook takes more than `timeout` s.
     """

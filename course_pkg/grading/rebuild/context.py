@@ -36,7 +36,10 @@ class _Cell:
 
 
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
-    """Return the sources in `above` that `answer` needs, in their order; the cell `before` always runs."""
+    """Return the sources in `above` that `answer` needs, in their order.
+
+    The code in `before` always runs, so the names that it defines need no other cell.
+    """
     given = KNOWN | _read(before).gives
     cells = [_read(source) for source in above]
     chosen: set[int] = set()

@@ -144,7 +144,7 @@ class Matching:
 
 
 class _Above:
-    """The cells that already belong to an answer; each cell is parsed only once."""
+    """The cells that already belong to an answer, and the names, words and lines in these cells."""
 
     def __init__(self) -> None:
         self._last = StudentCell("", "", "")

@@ -1,4 +1,4 @@
-"""Builds the notebook to grade.
+"""Builds the notebook that is graded.
 
 The notebook is the reference notebook with a student's answers; all other cells of the student are left out.
 """
@@ -21,12 +21,12 @@ NOTES = 40  # At most this many notes are given, because more notes would not he
 
 @dataclass(frozen=True)
 class Rebuilt:
-    """The notebook to grade; each part of the reference is either in `answers` or in `missing`."""
+    """The notebook that is graded; each part of the reference is either in `answers` or in `missing`."""
 
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
     # `answers` contains, for each part, the source that runs; this can be the unchanged blank cell.
     answers: Mapping[str, str]
-    # For each part without an answer, the value is a text for the student with the reason.
+    # The keys are the parts without an answer, and the values tell the student the reason.
     missing: Mapping[str, str] = field(default_factory=dict)
     untouched: frozenset[str] = frozenset()  # The student did not change the cells of these parts.
     notes: tuple[str, ...] = ()  # The notes tell the student about everything unusual in the notebook.
@@ -34,7 +34,7 @@ class Rebuilt:
 
 
 def rebuild(reference: Notebook, content: bytes) -> Rebuilt:
-    """Return the notebook to run and grade for a student who handed in `content`.
+    """Convert the submitted notebook `content` into the notebook that is graded, and return it.
 
     `reference` is a solution, as `authoring.notebook_store.read` returns it.
     """
@@ -55,7 +55,7 @@ class Rebuilder:
         self._given = {cell["id"]: cell["source"] for cell in reference["cells"] if not exercise_of(cell)}
 
     def rebuild(self, content: bytes) -> Rebuilt:
-        """Return the notebook to grade for the handed-in notebook `content`."""
+        """Convert the submitted notebook `content` into the notebook that is graded, and return it."""
         try:
             cells = read_cells(content)
         except GradingError as error:
@@ -100,7 +100,7 @@ def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
 
 
 def _lent(cells: Sequence[StudentCell], matching: Matching, matches: Mapping[str, Match]) -> set[str]:
-    """Return the names from ungraded cells that an answer may use."""
+    """Return the names that an answer may use from cells that are not graded."""
     taken = frozenset(place for match in matches.values() for place in match.cells)
     names = matching.lent(taken) if len(taken) < len(cells) else set()
     for match in matches.values():

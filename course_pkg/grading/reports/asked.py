@@ -1,4 +1,4 @@
-"""The assigned chapters; each assigned chapter counts for a student, even without a submission."""
+"""The assigned chapters, whose points are in a student's total even without a submission."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Asked:
-    """The chapters of a run, the selected parts, and a function that says whether a student's chapter is due.
+    """The chapters of a run, the selected parts, and a function that returns whether a chapter is due.
 
     A report also contains chapters of earlier runs. Before the deadline, a chapter counts only for students
     who have submitted it.

@@ -11,7 +11,10 @@ from course_pkg.files import write_atomically
 
 
 def put_table(path: Path, rows: Sequence[Sequence[str]], encoding: str = "utf-8") -> None:
-    """Write rows of clean cells as a CSV file (RFC 4180)."""
+    """Write rows to a CSV file (RFC 4180).
+
+    Before this call, `clean.cell` must be applied to all texts of students.
+    """
     buffer = io.StringIO()
     csv.writer(buffer).writerows(rows)
     write_atomically(path, buffer.getvalue(), encoding)

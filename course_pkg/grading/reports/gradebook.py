@@ -23,7 +23,8 @@ ABSENT = "These results are from an earlier run. In the latest run, nothing was 
 class Book:
     """Grades by student, chapter and part.
 
-    The notes of a grade say whether there was no sandbox, and whether this run had no submission.
+    If a submission ran without a sandbox, or if this run had no submission, the grade contains a note about
+    this.
     """
 
     def __init__(
@@ -146,7 +147,7 @@ def attention(book: Book, student: str) -> list[str]:
 
 
 def not_handed_in(book: Book, student: str) -> str:
-    """Return a sentence about the chapters without a submission of a student, or ""."""
+    """Return a sentence that lists the chapters for which a student has no submission, or ""."""
     there = {grade.chapter for grade in book.of(student)}
     missing = [chapter for chapter in book.counted(student) if chapter not in there]
     if not missing:
@@ -156,14 +157,14 @@ def not_handed_in(book: Book, student: str) -> str:
 
 
 def notes(book: Book, student: str) -> list[str]:
-    """Return notes about unusual notebooks of a student that need no action."""
+    """Return the notes about a student's notebooks that do not require an action of the instructor."""
     known = (ABSENT, NO_TIME)  # attention() has a sentence about each of these notes.
     found = (note for grade in book.of(student) for note in grade.notes if note not in known)
     return list(dict.fromkeys(clean.line(note) for note in found))
 
 
 def reviews(book: Book, student: str) -> list[str]:
-    """Return a line for each part of a student that an instructor has reviewed."""
+    """For each part that an instructor has reviewed, return a line about the review."""
     return [
         clean.line(f"{report.check}: {' '.join(report.about_review())}", 600)
         for grade in book.of(student)

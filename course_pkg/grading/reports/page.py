@@ -1,4 +1,7 @@
-"""The HTML frame of a page without scripts; its policy permits only its own style sheet."""
+"""The HTML frame of a page without scripts.
+
+The page's Content-Security-Policy permits only the page's own style sheet.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from course_pkg.checking.report import Verdict
 from course_pkg.grading import clean
 from course_pkg.web_pages.style import style_sheet
 
-KINDS = {  # Each verdict has a class of the style sheet, and a symbol before the verdict.
+KINDS = {  # Each verdict has a class in the style sheet, and a symbol that is shown before the verdict.
     Verdict.PASSED: ("passed", "✓"),
     Verdict.FAILED: ("failed", "✗"),
     Verdict.NOT_ATTEMPTED: ("untried", "○"),
@@ -35,14 +38,14 @@ class Frame:
         )
 
     def page(self, title: str, body: Iterable[str]) -> str:
-        """Return a page; `body` is clean HTML, and `title` can be any text."""
+        """Return a page; `body` is HTML, and `title` can be any text."""
         inside = "\n".join(body)
         title = f"<title>{clean.html(clean.line(title))}</title>"
         return f"{self._head}{title}\n</head>\n<body>\n<main>\n{inside}\n</main>\n</body>\n</html>\n"
 
 
 def text(value: object, limit: int = clean.SHORT) -> str:
-    """Return one line for a page."""
+    """Convert a value into one line of text, with HTML characters escaped."""
     return clean.html(clean.line(value, limit))
 
 
@@ -66,7 +69,8 @@ def banner(title: str, sentences: Sequence[str]) -> str:
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:
     """Return an HTML table.
 
-    The first cell of each row is a header, and the last `numbers` columns are numbers.
+    The first cell of each row is a header. `numbers` is the number of columns, from the right, that contain
+    numbers.
 
     The cells in `rows` are HTML; `caption` and `head` can be any text.
     """

@@ -21,7 +21,7 @@ def record_path(out: Path, student: str, chapter: str, origin: str = "") -> Path
 
 
 def write_record(out: Path, grade: Grade) -> Path:
-    """Write the cleaned record of a grade, completely or not at all; return the path of the file."""
+    """Write the record of a grade, completely or not at all; return the path of the file."""
     path = record_path(out, grade.student, grade.chapter, grade.origin)
     code = {clean.line(part): clean.code(text) for part, text in grade.code.items()}
     write_json(path, {**clean.record(grade.as_dict()), "code": code})

@@ -27,7 +27,7 @@ def answer_of(grade: Grade, part: str) -> str:
 def reviewed(grades: Sequence[Grade], overrides: Overrides) -> list[Grade]:
     """Return the grades with the points and comments of the instructor.
 
-    The grades in `grades` have the points of the checks.
+    Before this call, `grades` contains only the points of the checks.
     """
     return [
         replace(grade, reports=tuple(_reviewed(grade, report, overrides) for report in grade.reports))

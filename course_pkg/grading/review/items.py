@@ -83,7 +83,7 @@ def is_unfinished(item: Item, overrides: Overrides) -> bool:
 
 
 def identical(item: Item, items: Sequence[Item]) -> list[Item]:
-    """Return the other students' answers to the same part with the same code, or [] for an empty answer."""
+    """Return the other students' answers to the same part that have the same code; [] for an empty answer."""
     if not item.code.strip():
         return []
     return [

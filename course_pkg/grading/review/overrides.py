@@ -38,7 +38,7 @@ class Override:
 
     student: str
     part: str
-    points: float | None = None  # With None, the points of the check are used.
+    points: float | None = None  # If the value is None, the points of the check are used.
     comment: str = ""
     answer: str = ""
     # `line` is the number of the line in the file, counted from 1.

@@ -90,7 +90,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Answers all other addresses."""
+    """Answers requests for any other address."""
 
     def get(self) -> None:
         """Send 404."""
@@ -98,7 +98,7 @@ class Unknown(Handler):
 
 
 class Page(Handler):
-    """The page."""
+    """Sends the page."""
 
     def get(self) -> None:
         """Send the page."""
@@ -106,7 +106,7 @@ class Page(Handler):
 
 
 class Asset(Handler):
-    """The page's script and style sheet."""
+    """Sends the page's script and style sheet."""
 
     def get(self, name: str) -> None:
         """Send a file."""
@@ -114,7 +114,7 @@ class Asset(Handler):
 
 
 class Items(Handler):
-    """All answers and rows."""
+    """Sends all answers and rows."""
 
     def get(self) -> None:
         """Send all answers and rows."""
@@ -122,7 +122,7 @@ class Items(Handler):
 
 
 class OneItem(Handler):
-    """The HTML of one answer."""
+    """Sends the HTML of one answer."""
 
     def get(self, number: str) -> None:
         """Send the answer with its code, assertions and flags."""
@@ -146,19 +146,19 @@ class OneItem(Handler):
 
 
 class Rows(Handler):
-    """The rows, after another program has changed the file."""
+    """Sends all rows if another program has changed the file."""
 
     async def get(self) -> None:
         """Send all rows if another program has changed the rows since the last request of the page.
 
-        Otherwise, send none.
+        Otherwise, send an empty object.
         """
         session = self.session
         await self.attempt(lambda: {"rows": session.rows(), "reloaded": True} if session.refresh() else {})
 
 
 class Save(Handler):
-    """The points and the comment of an answer."""
+    """Stores the points and the comment of an answer."""
 
     async def post(self) -> None:
         """Store the points and the comment."""
@@ -174,7 +174,7 @@ class Save(Handler):
 
 
 class Undo(Handler):
-    """The last change."""
+    """Undoes the last change."""
 
     async def post(self) -> None:
         """Undo the last change."""

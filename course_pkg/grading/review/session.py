@@ -113,7 +113,9 @@ class Session:
         return self._change(changes, undoing=False)
 
     def undo(self) -> dict[str, Plain]:
-        """Restore the rows before the last change; `shown` is the number of a changed answer.
+        """Undo the last change, and return the restored rows.
+
+        In the result, `shown` is the number of one of the restored answers.
 
         Raises ValueError if there is nothing to undo, or if another program has changed a row since then.
         """

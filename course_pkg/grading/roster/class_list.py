@@ -92,7 +92,8 @@ class Lists:
         sheet = _Search([each.person for each in listed], WORKSHEET)
         roster = _Search(self.roster or (), ROSTER)
         for student in students:
-            # Without a platform, an instructor or a script chose the name of the folder.
+            # If the submission is not from a platform, an instructor or a script chose the name of the
+            # folder.
             text = "" if student in platform else student
             sheet.search(student, platform.get(student), text)
             roster.search(student, _joined(sheet.found.get(student), platform.get(student)), text)
@@ -127,7 +128,10 @@ def read_lists(roster: Path | None, worksheet: Path | None) -> Lists:
 
 
 class _Search:
-    """The rows of one list that belong to students, and the students without a unique row."""
+    """Finds each student's row in one list.
+
+    `unclear` contains the students for whom several rows are possible, with the reasons.
+    """
 
     def __init__(self, people: Iterable[Person], title: str) -> None:
         self._people = People(people, title)

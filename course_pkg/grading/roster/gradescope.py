@@ -12,7 +12,9 @@ from course_pkg.grading.roster.people import Person
 
 
 def gradescope_people(source: Path) -> dict[str, Person]:
-    """Return the students by their names in the grades, or {} without metadata.
+    """Return the data about each student; the keys are the students' names in the grades.
+
+    The result is empty if there are no metadata.
 
     `source` is a folder or a zip.
     """

@@ -39,7 +39,7 @@ class People:
     def find(self, known: Person, text: str = "") -> Match:
         """Return the row that belongs to the person `known`.
 
-        `text` is a folder's name that an instructor chose; it can be the value of any field.
+        `text` is the name of a folder; an instructor may have used any field of the student as this name.
         """
         proposals = [rows for rows in self._proposals(known, text) if rows]
         if not proposals:

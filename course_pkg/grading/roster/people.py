@@ -66,9 +66,9 @@ class Person:
 def read_roster(path: Path) -> tuple[Person, ...]:
     """Return the students in the CSV file at `path`, in the order of the file.
 
-    Raises GradingError if the file cannot be read, has no known column or a column twice, or has a row
-    without an identity or with the identity of an earlier row. An error message never contains a cell,
-    because a cell can contain a student's name.
+    Raises GradingError if the file cannot be read, if no column is known, if two columns have the same
+    meaning, if a row has no identity, or if two rows have the same identity. An error message never contains
+    a cell, because a cell can contain a student's name.
     """
     lines = table_rows(path, WHAT)
     head = [_plain(name) for name in lines[0]] if lines else []

@@ -86,7 +86,7 @@ class Participant:
 
 
 class Worksheet:
-    """A worksheet from a file; only copies are changed."""
+    """The content of a worksheet; `copy` does not change this object."""
 
     def __init__(
         self, found: Sequence[Record], separator: str, columns: Mapping[str, int], file: str
@@ -104,7 +104,7 @@ class Worksheet:
     def word(self) -> str:
         """The word before the number of a participant, in lower case.
 
-        Anonymous students have the same text as their name.
+        If submissions are anonymous, Moodle uses this word instead of a student's name in the names of files.
         """
         first = self._records[1:2]
         return folded(re.sub(r"\d+\s*\Z", "", self._value(first[0], IDENTIFIER))) if first else ""
@@ -128,7 +128,7 @@ class Worksheet:
     def copy(self, graded: Mapping[int, tuple[str, str]]) -> bytes:
         """Return a copy of the file with new grades and feedback (HTML).
 
-        The keys are the indices of the participants' rows.
+        The keys of `graded` are the indices of the participants' rows.
 
         All other bytes of the file do not change. A grade is a number such as "7.5". The grade gets a decimal
         comma if the maximum grade in its row has a decimal comma.

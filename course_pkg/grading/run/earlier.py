@@ -25,7 +25,10 @@ class Earlier:
     unreadable: int = 0
 
     def find(self, student: str, chapter: str) -> Grade | None:
-        """Return the earlier grade of a student for a chapter with the points of the checks, or None."""
+        """Return a student's earlier grade for a chapter, or None.
+
+        The grade has the points of the checks, without an instructor's changes.
+        """
         found = self._by_chapter.get((student, chapter)) if chapter else None
         return found.unreviewed() if found else None
 
@@ -68,7 +71,7 @@ class Earlier:
 
 
 def read_earlier(out: Path) -> Earlier:
-    """Return the records in `out`; files that are not records of this version are counted."""
+    """Return the records in `out`, and the number of files that are not records of this version."""
     grades, unreadable = [], 0
     for path in sorted((out / RESULTS).glob("*/*.json")):
         if path.name.startswith("."):

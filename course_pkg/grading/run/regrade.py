@@ -42,8 +42,8 @@ class Regrade:
         """Store a new grade for later runs; the grade does not contain a student yet.
 
         The submissions in `alike` get this grade. If only `parts` were graded, their reports replace the
-        reports in the stored grade. A stored grade with other options or from another version of the checks
-        is removed. Otherwise, the next complete run would use the old points of this grade.
+        reports in the stored grade. If an earlier grade was computed with other options or another version of
+        the checks, it is removed. Otherwise, the next complete run would use the old points of this grade.
         """
         if not parts:
             store.keep(graded)

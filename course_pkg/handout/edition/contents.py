@@ -28,8 +28,8 @@ FILES = (
     *(".dockerignore", ".gitignore", "CMakeLists.txt", "LICENSE", "course", "environment.yml", "package.xml"),
     *("pyproject.toml", "setup.py"),
 )
-# The pattern matches files of a chapter that are left out: example answers, grading fixtures, the site's
-# recordings, and private checks.
+# The edition does not contain the files that match this pattern: example answers, grading fixtures, the
+# site's recordings, and private checks.
 LEFT_OUT = re.compile(
     r"course_pkg/chapters/(?:ch\d\d_\w+/(?:(?:answers|fixtures)(?:\.py$|/)|recordings\.json$)|private_)"
 )

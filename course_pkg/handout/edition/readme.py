@@ -17,7 +17,7 @@ SOME = " It has {}."
 def student_readme(text: str, released: Sequence[str], known: Sequence[str], hidden: Collection[str]) -> str:
     """Return the students' README, made from the course's README `text`.
 
-    The README lists only the chapters in `released` (`known` contains all chapters), and no commands in
+    `known` contains all chapters. The README lists only the chapters in `released`, and no commands in
     `hidden`. Everything between the comments `<!-- instructors -->` and `<!-- end -->` is removed.
     """
     kept = INSTRUCTORS.sub("", text)

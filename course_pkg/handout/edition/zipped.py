@@ -31,7 +31,10 @@ def zip_path(folder: Path) -> Path:
 
 
 def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
-    """Write `files` to the zip at `path`, in a folder called `folder`, or in no folder if `folder` is ""."""
+    """Write `files` to the zip at `path`.
+
+    In the zip, the paths of the files begin with the name `folder`, if it is not empty.
+    """
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.comment = MARK

@@ -30,7 +30,9 @@ class Home:
 
 
 def homes_in(folder: Path, students: list[str] | None = None) -> list[Home]:
-    """Return the homes in `folder`, sorted by name: the homes of `students`, or all homes for None.
+    """Return the homes in `folder`, sorted by name.
+
+    If `students` is None, all homes are returned, otherwise only the homes of these students.
 
     Hidden folders, links and `lost+found` are not home folders. Raises HandoutError if `folder` cannot be
     listed.
@@ -61,7 +63,7 @@ def groups_of(home: Home) -> list[int]:
 def read_students(path: Path) -> list[str]:
     """Return the user names in a file.
 
-    Each line is a name, or the file is a CSV file with the column `username`.
+    The file has one name per line, or it is a CSV file with the column `username`.
 
     Raises HandoutError if the file cannot be read, or if a name is not a valid user name.
     """

@@ -34,7 +34,7 @@ CHUNK = 1 << 20
 def read_home(
     home: Home, folder: str, notebooks: Mapping[str, str], asked: frozenset[str], timeout: float = TIMEOUT
 ) -> tuple[list[WorkFile], list[str]]:
-    """Return the work in the course's `folder` of a home.
+    """Return the student's work in the subfolder `folder` of a home folder.
 
     The second result contains a sentence about each file or folder that could not be collected.
 

@@ -31,8 +31,8 @@ TRIES = 3  # If a file changes while it is read, this many attempts are made.
 class WorkFile:
     """A file of a student: a notebook, or a file of a package.
 
-    `package` is the name of the package's folder, and `asked` is the package's name in the parts that require
-    it.
+    `package` is the name of the package's folder. `asked` is the name under which the parts require the
+    package.
     """
 
     path: str  # `path` is NN_topic.ipynb, or the path inside the package.
@@ -73,7 +73,9 @@ class Walk:
 def work_in(
     home: str, folder: str, notebooks: Mapping[str, str], asked: frozenset[str]
 ) -> Iterator[WorkFile | Problem]:
-    """Yield the work in the course's `folder` of a home folder, read with the rights of this process.
+    """Yield the student's work in the subfolder `folder` of a home folder.
+
+    The files are read with the rights of this process.
 
     `notebooks` maps the name of each notebook's file to its chapter; `asked` contains the names of the
     packages.
@@ -135,7 +137,7 @@ def _below(folder: int, name: str, depth: int, walk: Walk) -> Iterator[WorkFile 
         try:
             with _opened(item, folder) as inner:
                 yield from _below(inner, item, depth - 1, walk)
-        except OSError as error:  # In most cases, the path is a file.
+        except OSError as error:  # This error is usual, because most paths are files.
             if item in walk.asked:
                 yield Problem(_reason(f"the package {item}", error))
 

@@ -35,10 +35,10 @@ class Which(Enum):
 class Graph:
     """A graph that this command uses until leave() is called.
 
-    `uri` is the address of the master. `files` are the open files of the private network. If `files` is
-    empty, the graph uses the network of this machine. In this case, `reason` says why; it is empty if the
-    user asked for the network of this machine. After wait_for_master(), `outgoing` is true if programs in the
-    private network can connect to other computers.
+    `uri` is the address of the master. `files` are the file descriptors of the private network's namespaces.
+    If `files` is empty, the graph uses the network of this machine. In this case, `reason` says why; it is
+    empty if the user asked for the network of this machine. After wait_for_master(), `outgoing` is true if
+    programs in the private network can connect to other computers.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class Graph:
         self.outgoing = facts["outgoing"]
 
     def leave(self) -> None:
-        """Leave the graph; if no other command uses the graph, wait until its processes have ended."""
+        """Leave the graph; if no other command uses it, wait until the graph's processes have ended."""
         received = b""
         with self._connection, suppress(OSError):
             self._connection.shutdown(socket.SHUT_WR)
@@ -82,7 +82,8 @@ class Graph:
             # The holder continues to run for other commands, so this process does not wait for it.
             self._holder.returncode = 0
         if not received.endswith(LAST) and (left := _connected(self._path)):
-            left.close()  # Other commands use the graph. If the holder was killed, its socket is now removed.
+            # The holder still runs. If it had been killed, _connected() would have removed its socket.
+            left.close()
         for file in self.files:
             os.close(file)
         self.files = []
@@ -90,7 +91,7 @@ class Graph:
 
 @contextmanager
 def graph_of_this_command(which: Which) -> Iterator[Graph | None]:
-    """Run the block on a graph, whose address is in ROS_MASTER_URI.
+    """Run the `with` block on a graph; ROS_MASTER_URI contains the address of its master.
 
     If ROS_MASTER_URI is set and `which` is RUNNING, the block gets None, and uses the master at this address
     in the network of this process. Raises GraphError if the graph cannot be started.

@@ -8,10 +8,10 @@ the command leaves the graph or ends, even by SIGKILL. When the last connection 
 graph. The holder does not have to check process ids: the operating system closes the connections of a process
 that has ended, and it refuses new connections to a holder that has ended.
 
-The holder sends a line of JSON with the open files of the namespaces to each command. The holder sends a
-second line when the master answers, or when the master cannot be started. When a command leaves and other
-commands still use the graph, the holder closes the command's connection at once. When the last command
-leaves, the holder ends the graph, sends LAST, and then closes the connection.
+To each command, the holder sends a line of JSON together with the file descriptors of the namespaces. The
+holder sends a second line when the master answers, or when the master cannot be started. When a command
+leaves and other commands still use the graph, the holder closes the command's connection at once. When the
+last command leaves, the holder ends the graph, sends LAST, and then closes the connection.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class Holder:
     def _serve(self, first: socket.socket) -> socket.socket:
         """Accept commands, and close the connection of each command that leaves.
 
-        If no other command is connected, return this connection instead.
+        The connection of the last command is not closed but returned.
         """
         with selectors.DefaultSelector() as selector:
             selector.register(self._listener, selectors.EVENT_READ)

@@ -1,4 +1,4 @@
-"""A private network, as open files of Linux namespaces that other processes can enter.
+"""A private network: Linux namespaces, which other processes can enter through file descriptors.
 
 Programs in a private network can connect only to each other. Their ports and abstract sockets do not exist
 for other users, or for other networks of the same user. root needs only a network namespace. Other users also
@@ -17,15 +17,15 @@ from typing import NoReturn
 from course_pkg.sandbox.linux import namespaces
 
 ENTER = "nsenter"  # a program of util-linux
-# The key is the number of open files; the value contains the kind of each file's namespace.
+# The keys are the possible numbers of file descriptors, and the values are the kinds of their namespaces.
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 
 def create() -> list[int]:
-    """Return open files of a new user namespace, if one is necessary, and of a new network namespace.
+    """Create a network namespace, and a user namespace if it is necessary; return their file descriptors.
 
-    The namespaces exist as long as a process uses them or has their files open. Raises OSError, with the
-    reason, if this machine does not allow them.
+    The namespaces exist as long as a process uses them or has these file descriptors open. Raises OSError,
+    with the reason, if this machine does not allow them.
     """
     if not shutil.which(ENTER):
         raise OSError(f"{ENTER} is not installed")
@@ -40,7 +40,7 @@ def create() -> list[int]:
 
 
 def enter(files: Sequence[int]) -> None:
-    """Enter the namespaces of these open files, if any; the calling process must have only one thread."""
+    """Enter the namespaces with these file descriptors; the calling process must have only one thread."""
     for file, kind in zip(files, KINDS[len(files)], strict=True):
         namespaces.enter(file, kind)
     # A change of the user namespace makes a process unreadable, but other programs of the course read
@@ -49,9 +49,9 @@ def enter(files: Sequence[int]) -> None:
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return a prefix for a command that runs in the namespaces of these open files of this process.
+    """Return a command prefix, which runs a command in the namespaces with these file descriptors.
 
-    The prefix works as long as this process has the files open.
+    The prefix works as long as this process has the file descriptors open.
     """
     paths = [f"/proc/{os.getpid()}/fd/{file}" for file in files]
     user = [f"--user={paths[0]}"] if len(paths) > 1 else []
@@ -59,7 +59,7 @@ def entering(files: Sequence[int]) -> list[str]:
 
 
 def _create(kinds: int) -> list[int]:
-    """Create namespaces in a child process; the child sends the files of the namespaces, and ends."""
+    """Create namespaces in a child process, which sends their file descriptors to this process and ends."""
     ours, theirs = socket.socketpair()
     with ours, theirs:
         child = os.fork()

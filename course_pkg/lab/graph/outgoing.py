@@ -19,7 +19,7 @@ OPTIONS = ("--configure", "--mtu=65520", "--disable-host-loopback", "--netns-typ
 
 
 class Outgoing:
-    """A running slirp4netns; it ends when this process ends, or earlier."""
+    """A running slirp4netns process; it ends when end() is called, or when this process ends."""
 
     def __init__(self, process: SupervisedProcess, ready: int) -> None:
         self._process, self._ready = process, ready

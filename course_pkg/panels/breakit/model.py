@@ -139,7 +139,10 @@ class LabModel(Generic[SceneType]):
             self._report_all()
 
     def play(self, name: str, tools: Iterable[str]) -> None:
-        """Cause the fault `name`, run the tools, and undo the fault: a saved page then shows the outputs."""
+        """Cause the fault `name`, run the tools, and undo the fault.
+
+        After this, a saved page shows the outputs of the tools.
+        """
         number = next(number for number, case in self._cases.items() if case.fault.name == name)
         self.open(number)
         self._worker.finish(STEP)

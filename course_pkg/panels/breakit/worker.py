@@ -28,7 +28,7 @@ class Worker:
                 self._thread.start()
 
     def drop(self) -> None:
-        """Remove the jobs that have not begun from the queue."""
+        """Remove all waiting jobs from the queue."""
         with self._turn:
             self._jobs.clear()
 

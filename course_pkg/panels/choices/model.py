@@ -1,4 +1,4 @@
-"""The model of the choices panel: the student decides all cases and then reads the reasons.
+"""The model of the choices panel: the student chooses an option for each case, and then reads the reasons.
 
 This module runs without a kernel.
 """
@@ -38,7 +38,7 @@ class ChoiceRecord:
 
     `compared` is the time (ISO 8601 in UTC) when the reasons were first shown; it is "" before that time.
     `first` contains the choices at the time `compared`; later choices do not count. `fit` is the number of
-    expected options in `first`. `shown` is True while the panel shows the reasons.
+    choices in `first` that were the expected options. `shown` is True while the panel shows the reasons.
     """
 
     key: str

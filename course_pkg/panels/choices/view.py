@@ -17,7 +17,9 @@ HERE = Path(__file__).parent
 
 
 class _First(TypedDict, total=False):
-    """The first choices: `of` is their number, and `fit` is the number of expected options among them.
+    """The first choices.
+
+    `of` is the number of first choices, and `fit` is the number of those that were the expected options.
 
     `now` is True if the current choices are the first choices.
     """

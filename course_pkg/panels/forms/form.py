@@ -132,7 +132,7 @@ def _seconds(secs: int, nsecs: int) -> str:
 
 
 def rows(fields: Sequence[Field], strings: Mapping[str, StringTree], limit: int = LIMIT) -> list[Row]:
-    """Return a table of a string tree with a row for each value, but at most `limit` rows."""
+    """Return a table with a row for each value in `strings`, but with at most `limit` rows."""
     lines = list(islice(_fields(fields, strings, 0), limit + 1))
     if len(lines) > limit:
         lines[limit - 1 :] = [Row(depth=0, name="…", type="", text="more values than are shown here")]

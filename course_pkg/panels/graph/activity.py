@@ -12,7 +12,7 @@ from course_pkg.panels.graph.picture import Kind, Picture, Shape, namespaces
 if TYPE_CHECKING:
     from course_pkg.ros.trace.activity import Activity, Traffic
 
-# The rate is measured over LONG s. A change of the rate is noticed after SHORT s.
+# The rate is measured over at most LONG seconds. A change of the rate is noticed after SHORT seconds.
 LONG, SHORT = 30.0, 3.9
 LEAST = 1.5  # A rate that was measured over a shorter time than this (s) is not reliable.
 LATE = 0.05  # A busy node may report its counts with a delay of up to this many s.
@@ -70,8 +70,8 @@ class RateMeter:
     def read(self, at: float, messages: int) -> None:
         """Add a count: the number of messages from the beginning until the time `at` (s)."""
         if self._counts and messages < self._counts[-1][1]:
-            # A smaller count means that the publisher was restarted, and the new connection got the same
-            # number.
+            # A smaller count means that the publisher was restarted, and that its new connection has the same
+            # id.
             self._counts.clear()
         self._counts.append((at, messages))
         while at - self._counts[0][0] > LONG:
@@ -212,7 +212,8 @@ class GraphActivity:
     def _note(self, publishers: list[str], carried: list[Traffic]) -> str:
         """Return the rate of a topic.
 
-        For each publisher, the fastest connection counts; the result is the sum of these rates.
+        For each publisher, only the fastest connection is used. The rate of the topic is the sum of these
+        rates.
         """
         assert self.seen is not None
         if self.seen.silent.intersection(publishers):

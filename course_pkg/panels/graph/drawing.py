@@ -15,7 +15,7 @@ MARGIN = 12.0
 ARROW = 9.0  # An arrowhead is this many px long.
 CORNER = 12.0  # Each of the two pointed ends of a service's shape is this many px wide.
 CARD = 4.0  # A folded namespace has a second rectangle with this offset (px).
-# Distances (px) from the middle of a shape to its name, and to the second line.
+# Distances (px) from the middle of a shape to its name, and to the note below the name.
 ABOVE, BELOW = -7.0, 10.0
 TITLE = 13.0  # The middle of a frame's name is this many px below the top of the frame.
 
@@ -28,10 +28,10 @@ def svg(
     notes: Mapping[str, str] | None = None,
     still: bool = False,
 ) -> str:
-    """Return the drawing as SVG; `notes` are the texts below the names of topics, by the key of the topic.
+    """Return the drawing as SVG; `notes` maps the keys of topics to the texts below their names.
 
     In a page, each shape is a button with an accessible name; its attribute `data-key` is the key of the
-    shape. With `still`, the result is a complete file with a style sheet and a text alternative.
+    shape. If `still` is True, the result is a complete file with a style sheet and a text alternative.
     """
     return _Drawing(notes or {}, still).of(layout, title, description)
 

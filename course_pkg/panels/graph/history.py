@@ -18,7 +18,8 @@ class HistoryState(TypedDict, total=False):
     """A recording for a page; it is empty if nothing has changed.
 
     `began` is the time of the first entry (s since the epoch), and `length` is the length of the recording
-    (ms). An entry of `moments` is (ms since `began`, index of the scene, activity).
+    (ms). Each entry of `moments` is a tuple: the time in ms since `began`, the index of the scene, and the
+    activity.
     """
 
     began: float

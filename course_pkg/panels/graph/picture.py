@@ -180,9 +180,9 @@ def _ends(lines: Iterable[Line]) -> set[str]:
 def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
     """Return the picture with some namespaces as folded boxes, and with frames around all other namespaces.
 
-    `choices` maps a namespace to True if the reader folded it, or to False if the reader unfolded it. Without
-    a choice, a namespace is folded if the picture has more than `CROWD` shapes. However, a namespace with
-    more than half of all shapes is not folded.
+    `choices` maps a namespace to True if the reader folded it, or to False if the reader unfolded it. A
+    namespace that is not in `choices` is folded if the picture has more than `CROWD` shapes, and if the
+    namespace contains at most half of them.
     """
     spaces = namespaces(picture)
     crowded = len(picture.shapes) > CROWD
@@ -191,8 +191,8 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
         for name, members in spaces.items()
         if choices.get(name, crowded and 2 * len(members) <= len(picture.shapes))
     }
-    # The loop goes from long to short names, and an entry of a shorter name overwrites an earlier entry.
-    # Therefore, a shape in two folded namespaces belongs to the box of the outer namespace.
+    # The names are sorted from long to short, so the entry of an outer namespace overwrites the entry of an
+    # inner namespace. Therefore, a shape in two folded namespaces belongs to the box of the outer namespace.
     box = {key: name for name in sorted(closed, key=len, reverse=True) for key in spaces[name]}
 
     def shown(key: str) -> str:

@@ -17,14 +17,14 @@ from course_pkg.ros import Activity, ActivityPoller, Node, Snapshot, look, this_
 
 HERE = Path(__file__).parent
 SILENT = "silent"  # A node has this value of `reach` if it accepts connections but does not answer.
-PAUSE = 2.0  # The panel reads the nodes' counters every PAUSE s.
+PAUSE = 2.0  # PAUSE is the time in s between two readings of the nodes' counters.
 
 
 class GraphPanel(Panel):
     """A picture of the graph: the nodes, their topics, and their services.
 
-    The panel updates the picture while a page shows the panel; with `live=False`, the first picture does not
-    change. The picture shows the rates of topics and the latest callers of services. If `noise` is True, the
+    The panel updates the picture while a page shows the panel; with `live=False`, the panel keeps the first
+    picture. The picture shows the rates of topics and the latest callers of services. If `noise` is True, the
     picture also shows /rosout and the logger services of every node. `node` is the kernel's own node; the
     reader can hide this node. By default, `node` is the node of join(). The panel records all pictures, so
     that a page without a kernel can play them.

@@ -43,7 +43,7 @@ class ChapterPart(TypedDict):
 
 
 class ChapterRow(TypedDict):
-    """The student's progress in a chapter: totals, parts, the next step, and problems with results."""
+    """The student's progress in a chapter: totals, parts, the next step, and messages about problems."""
 
     text: str
     parts: list[ChapterPart]

@@ -60,7 +60,7 @@ class Offer:
 
 
 class _Fresh(TypedDict):
-    """A new form replaces these values of the panel's state."""
+    """The values of the panel's state that change with each new form."""
 
     form: FormState
     draft: Draft

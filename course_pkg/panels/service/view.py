@@ -25,10 +25,10 @@ HERE = Path(__file__).parent
 class ServicePanel(Panel):
     """A form for calling any service on the graph.
 
-    `service` is the name of the service. With None, the reader selects a service on the page. `deadline` is
-    the maximum time of a call in s. `kind` is the type of the service. `kind` is needed only for a type that
-    was made in the notebook and belongs to no package. While a page shows the panel, the panel lists the
-    services on the graph.
+    `service` is the name of the service. If `service` is None, the reader selects a service on the page.
+    `deadline` is the maximum time of a call in s. `kind` is the type of the service. `kind` is needed only
+    for a type that was made in the notebook and belongs to no package. While a page shows the panel, the
+    panel lists the services on the graph.
     """
 
     front_end: ClassVar[Path] = HERE / "service.js"

@@ -1,7 +1,7 @@
 """The data of a timeline: the events, with a list of numbers for each property, and the rows of each node.
 
-A saved page contains all these data, so their size is limited. If there are more than 4,000 events, the data
-contain all calls, and messages until the limit is reached. A note states how many events are left out.
+A saved page contains all these data, so their size is limited. If there are more than 4,000 events, all calls
+are included first, and then messages up to this limit. A note states how many events are left out.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 MOST = 4000  # The data contain at most this many events, which take about 200 kB in a saved page.
 KINDS = (LOOKUP, CONNECT, REQUEST, WAIT, RESPONSE, ERROR, HANDLER, PUBLISH, CALLBACK)
 TICKS = 1e6  # The state has times in whole microseconds, so one second has this many ticks.
-# An event with this end was not finished.
+# The end of an event has this value if the event was not finished.
 OPEN = -1
 
 
@@ -166,7 +166,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
 
 
 def _place(thread: _Thread, row: int, events: Sequence[Event], rows: list[int], depths: list[int]) -> None:
-    around: list[float] = []  # The list contains the ends of the events that contain the current event.
+    around: list[float] = []  # The list contains the ends of the events in which the current event is nested.
     for number in sorted(thread.numbers, key=lambda each: (events[each].start, -_end(events[each]))):
         while around and around[-1] <= events[number].start:
             around.pop()

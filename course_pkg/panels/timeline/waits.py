@@ -12,9 +12,10 @@ if TYPE_CHECKING:
 
 
 class Wait(TypedDict):
-    """The calls of one node to one service. The unit of `blocked` (the sum of all waits) and `longest` is s.
+    """The calls of one node to one service.
 
-    `open` is the number of unfinished calls.
+    `blocked` is the sum of all waits in s, and `longest` is the longest wait in s. `open` is the number of
+    unfinished calls.
     """
 
     node: str

@@ -51,9 +51,9 @@ class About(TypedDict, total=False):
 class TopicModel:
     """One topic: its type, the message in the form, the publisher's settings, and the received messages.
 
-    `kind` is the type of the messages. With None, the panel uses the type of the first publisher. The model
-    calls `changed` after each change. The keyword arguments of `changed` are `about`, `settings`, `draft`,
-    `check`, `connections`, `publisher`, `subscription`, `messages`, `latest`, `curve` and `trouble`.
+    `kind` is the type of the messages. If `kind` is None, the panel uses the type of the first publisher. The
+    model calls `changed` after each change. The keyword arguments of `changed` are `about`, `settings`,
+    `draft`, `check`, `connections`, `publisher`, `subscription`, `messages`, `latest`, `curve` and `trouble`.
     `command` sends a command to the topic process, if there is one. Raises NotATopic if `topic` is not a
     valid name.
     """

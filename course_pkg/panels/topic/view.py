@@ -83,7 +83,7 @@ class TopicPanel(Panel):
         return f"TopicPanel({self._topic!r})"
 
     def _look(self) -> None:
-        """Find the nodes on the topic before a page shows the panel: a saved page also shows the nodes."""
+        """Find the nodes on the topic, so that a saved page also shows the nodes."""
         try:
             self._model.see(find_connections(MasterClient(master_uri()), self._topic))
         except GraphError as error:

@@ -39,7 +39,7 @@ class RecordingState(TypedDict):
 
 @dataclass
 class _Track:
-    """One turtle: its pen, its last row, and its latest position if this position has no row."""
+    """One turtle: its pen, its last row, and its latest position, if the movement was too small for a row."""
 
     number: int
     pen: Pen

@@ -23,13 +23,13 @@ from course_pkg.ros.topic.bulk_reader import BulkReader
 HERE = Path(__file__).parent
 TYPES = ("turtlesim/Pose", "turtlesim/Color")
 POSE = struct.Struct("<5f")
-SEND = 0.1  # The panel sends messages to the page every SEND s.
-KEEP = 5.0  # If no page shows the panel, the panel saves its state every KEEP s.
+SEND = 0.1  # SEND is the time in s between two messages to the page.
+KEEP = 5.0  # KEEP is the time in s after which the panel saves its state again if no page shows it.
 ALONE = 300.0  # The recording stops if no page has shown the panel for this time (s).
 
 
 class Page(Enum):
-    """Whether a page shows the panel."""
+    """Whether a page contains the panel, and whether the reader sees the panel."""
 
     NONE = "none"
     PAUSED = "paused"  # A page contains the panel, but the reader has scrolled the panel out of view.
@@ -71,7 +71,7 @@ class TurtlePanel(Panel):
         self._send_all()
 
     def hidden(self) -> None:
-        """Save the recording. Without a page, the panel continues to record for ALONE s."""
+        """Save the recording; if no page shows the panel again, the recording stops after ALONE seconds."""
         self._page, self._left = Page.NONE, time.monotonic()
         self._keep()
 

@@ -47,8 +47,8 @@ NO_FILE = "The file of this type is not on ROS_PACKAGE_PATH. Therefore, the pane
 class FieldNode(TypedDict):
     """A field.
 
-    `fields` contains the inner fields of a message or a time, or of one element of an array of messages or
-    times.
+    `fields` contains the fields of a nested message or time. For an array of messages or times, it contains
+    the fields of one element.
     """
 
     name: str
@@ -194,7 +194,7 @@ class TypeModel:
         self._described: TypeState | None = None
 
     def update(self, known: Catalogue) -> None:
-        """Store all present types. Read the open type again, because its file may have changed."""
+        """Store the names of all types. Read the open type again, because its file may have changed."""
         with self._turn:
             if known != self._known:
                 self._known = known
@@ -204,7 +204,8 @@ class TypeModel:
     def open(self, name: str, half: DefinitionKind | None = None) -> None:
         """Show a type.
 
-        Without `half`, a service type has priority over a message type with the same name.
+        `half` is "srv" or "msg". Without it, a service type has priority over a message type with the same
+        name.
         """
         with self._turn:
             self._open = (name, half or self._half(name))

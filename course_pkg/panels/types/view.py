@@ -14,8 +14,8 @@ from course_pkg.panels.types.model import Catalogue, TypeModel, catalogue
 from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
-PAUSE = 3.0  # The browser checks the files every PAUSE s.
-# Reading all packages uses at most one SHARE-th of the time, because this is slow on a large machine.
+PAUSE = 3.0  # PAUSE is the time in s between two checks of the files.
+# Reading all packages is slow on a large machine, so it uses at most 1 / SHARE of the time.
 SHARE = 50
 
 # The tuple contains the types and the time (ns) when the file of the open type was written.

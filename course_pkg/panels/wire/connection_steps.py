@@ -60,7 +60,7 @@ def new_step(
     bad: bool = False,
     connection: int = 0,
 ) -> Step:
-    """Return a step that happened `seconds` s after the first step."""
+    """Return a new step; `seconds` is the time after the first step."""
     return {
         "title": title,
         "from": source,

@@ -76,7 +76,7 @@ class Reader:
         self.depth = 0
         self.pieces: list[Piece] = []
         self._silent = 0
-        self._folded: int | None = None  # At this offset, the number of pieces reached the maximum.
+        self._folded: int | None = None  # The number of pieces reached the maximum at this offset.
 
     @property
     def rest(self) -> int:
@@ -100,13 +100,13 @@ class Reader:
         return int(number)
 
     def say(self, at: int, value: str, most: int = TEXT) -> None:
-        """Set the value of the last piece, if the piece begins at `at` and was not left out."""
+        """Set the value of the piece at the offset `at`; do nothing if it is not the last stored piece."""
         if self.pieces and self.pieces[-1].at == at and not self._silent:
             self.pieces[-1] = replace(self.pieces[-1], value=shortened(value, most))
 
     @contextmanager
     def group(self, name: str, kind: str = "", value: str = "") -> Iterator[None]:
-        """Put the pieces that the `with` block reads below a heading."""
+        """During the `with` block, show all pieces under a heading."""
         start, place = self.at, len(self.pieces)
         self._keep(Piece(GROUP, start, b"", name, kind, value, self.depth, 0))
         self.depth += 1
@@ -119,7 +119,7 @@ class Reader:
 
     @contextmanager
     def folded(self, name: str) -> Iterator[None]:
-        """Show all bytes that the `with` block reads as one piece."""
+        """During the `with` block, combine all bytes that are read into one piece."""
         start = self.at
         self._silent += 1
         try:

@@ -1,6 +1,6 @@
 """The table of errors of the master, of nodes and of addresses; `handler_errors` explains the columns.
 
-A failed call may also report `unable to contact master`, so these rows are searched before the rows for
+A failed call may also report `unable to contact master`, so this table is searched before the table for
 calls.
 """
 

@@ -75,7 +75,7 @@ def _kernel(pid: int) -> _Kernel:
 
 
 class _Kernel:
-    """This process's node, its private master (if any), and the cleaner process for the case of a SIGKILL."""
+    """This process's node, its private master, and the process that unregisters the node after a SIGKILL."""
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
@@ -119,7 +119,7 @@ class _Kernel:
             if self._shell is not None:
                 self._shell.add_programs(self._node.keep)
             atexit.register(self._at_exit)
-            # Without this line, the end of a forked child would unregister the services and topics of its
+            # Without this line, a forked child that ends would unregister the services and topics of its
             # parent.
             os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
@@ -176,7 +176,7 @@ class _Kernel:
     def _start_cleaner(self, master: MasterClient) -> None:
         """Start a process that unregisters the node if this kernel is killed.
 
-        With a private master, no such process is necessary, because the master ends with the kernel.
+        If the master is private, no such process is necessary, because the master ends with the kernel.
         """
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
@@ -196,7 +196,7 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            # All registrations have been removed. If this variable contained the master's address, rospy
+            # All registrations have been removed. If `master_uri` still contained the master's address, rospy
             # would unregister again, without a time limit.
             manager.master_uri = None
         if self._private is not None:

@@ -123,7 +123,7 @@ def number_parameter(name: str, default: float, least: float, most: float) -> fl
 
 
 def wait_until(condition: Callable[[], object], seconds: float) -> bool:
-    """Wait until `condition` is true; return False after `seconds`, or when the node is shut down."""
+    """Wait until `condition` is true; return False after `seconds` s, or when the node is shut down."""
     outcome = waiting.wait_until(
         lambda: "met" if condition() else rospy.is_shutdown() and "shut down", seconds, INTERVAL
     )

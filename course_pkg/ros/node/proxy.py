@@ -32,7 +32,7 @@ KEEPALIVE = "_use_tcp_keepalive"
 class BoundedProxy(rospy.ServiceProxy):
     """A ServiceProxy with a time limit.
 
-    Each call returns a response or raises an error of rospy, at the latest at the deadline.
+    Each call ends at its deadline or earlier, with a response or with an error.
 
     Several threads may use one proxy. After a restart of the server, a persistent proxy connects again.
     """
@@ -253,7 +253,10 @@ def settle_keepalive(master: MasterClient) -> None:
 
 
 def _hung_up(transport: TCPROSTransport) -> bool:
-    """Return whether the server has closed an idle connection (an open connection has no data to read)."""
+    """Return whether the server has closed an idle connection.
+
+    If the connection is open, there are no data to read.
+    """
     sock = transport.socket
     if sock is None:
         return True

@@ -42,9 +42,9 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _teams(group: Group) -> list[list[Work]]:
-    """Return groups of works: the works with the same file form one group.
+    """Return the students' works in groups: works from the same submitted file form one group.
 
-    Each other work is a separate group.
+    Any other work is a group with one element.
     """
     teams: dict[str, list[Work]] = {}
     for work in group.works:
@@ -60,7 +60,10 @@ def blank_fingerprints(group: Group) -> dict[str, Fingerprint]:
 
 
 def _rarest_line(exercise: Exercise, answer: Answer, one: Fingerprint, other: Fingerprint) -> int:
-    """Return the line of a statement in both answers that the fewest other students have."""
+    """Of the statements that both answers contain, find the one that the fewest students have.
+
+    Return its line number in `answer`, or 0 if the two answers have no statement in common.
+    """
     theirs = {form for form, _ in other.lines}
     shared = [
         (not exercise.counts(form), exercise.having(form), -len(line_of(answer, line)), line)

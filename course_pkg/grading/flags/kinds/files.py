@@ -62,7 +62,7 @@ SYSTEM = frozenset(
 PROGRAMS = ("subprocess.", "os.exec", "os.spawn", "os.posix_spawn", "os.fork", "pty.", "multiprocessing.")
 METHODS = frozenset(
     ["read_text", "read_bytes", "iterdir", "rglob"]
-)  # Only these objects have methods with these names.
+)  # Only pathlib.Path objects have methods with these names.
 PATH_METHODS = frozenset(
     [
         "exists",
@@ -88,7 +88,7 @@ PLACES = re.compile(
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each way of reading files that the exercise's solution does not use."""
+    """Yield a flag for each file access or started program that does not occur in the course's own code."""
     yield from unusual(group, "files", _observe, whole_notebook=False)
 
 

@@ -82,7 +82,7 @@ ATTRIBUTES = frozenset(
 PUBLIC = re.compile(r"course_pkg(\.(srv|msg)\b.*)?")  # These packages contain only types.
 COMMANDS = frozenset(
     ["system", "getoutput", "run_line_magic", "run_cell_magic"]
-)  # These names are attributes of get_ipython() in IPython's spelling.
+)  # IPython converts lines that begin with ! or % into calls of these methods.
 MODULE = re.compile(r"course_pkg(\.[a-z_]+)+")
 
 

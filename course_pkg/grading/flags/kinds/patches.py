@@ -46,7 +46,7 @@ def _changed(node: ast.Attribute | ast.Subscript, program: Program) -> str:
 
 
 def _name(node: ast.expr, program: Program) -> str:
-    """Return the full name of an imported object, even inside type(…) or before an index."""
+    """Return the full name of an imported object, or "" for any other expression."""
     if isinstance(node, ast.Attribute) and not dotted(node, program.names):
         inside = _name(node.value, program)
         return f"{inside}.{node.attr}" if inside else ""
@@ -71,7 +71,7 @@ def _called(node: ast.Call, program: Program) -> Iterator[Observation]:
 
 
 def _replaced(program: Program) -> Iterator[Observation]:
-    """Yield the modules with names that the answer assigns to another object, such as `rospy = Fake()`."""
+    """Yield an observation if the answer replaces an imported module, for example with `rospy = Fake()`."""
     modules = {name for name, full in program.names.items() if name == full}
     for node in program.module.body:
         targets = node.targets if isinstance(node, ast.Assign) else []

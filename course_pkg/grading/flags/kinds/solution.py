@@ -22,11 +22,12 @@ CHANGED = (
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each answer that is identical to the course's solution.
+    """Yield a flag for each answer that is identical or nearly identical to the course's solution.
 
     For a short exercise, many students write the same code as the solution. Therefore, a student's identical
-    short answers are reported only if all of them together have at least ten statements that the student
-    wrote. A similar answer is reported only if this one answer has at least ten such statements.
+    answers are reported only if all of them together have at least ten statements that are not in the blank
+    cells. A nearly identical answer is reported only if the solution of this exercise has at least ten such
+    statements.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}
@@ -54,9 +55,9 @@ def _written(answer: Fingerprint, given: Fingerprint) -> int:
 
 
 def _plain(answer: Answer) -> str:
-    """Return the program without layout and comments.
+    """Return the program in a form that does not depend on comments, spaces and line breaks.
 
-    For languages other than Python, only spaces and line breaks are removed.
+    If the program is not valid Python, comments are kept.
     """
     with suppress(*UNREADABLE):
         if is_python(answer):

@@ -105,7 +105,7 @@ def _rects(verdicts: Counter[Verdict], there: int) -> str:
     for verdict, (kind, _) in KINDS.items():
         width = 100 * verdicts[verdict] / max(1, there)
         if width:
-            shown = max(width - 0.3, 0.3)  # The difference is a gap between two colours.
+            shown = max(width - 0.3, 0.3)  # The subtracted 0.3 is the gap between two colours.
             made.append(f'<rect class="{kind}-mark" x="{start:.2f}%" width="{shown:.2f}%" height="100%"/>')
         start += width
     return "".join(made)
@@ -134,7 +134,7 @@ def _hints(book: Book) -> str:
 def _looks(book: Book) -> str:
     """Return the students who need attention, with the most serious cases first.
 
-    Collapsed notes about the other students follow.
+    Notes about the other students follow, in a list that the reader can unfold.
     """
     found = [(student, attention(book, student)) for student in book.students]
     grave = {student: reasons for student, reasons in found if reasons}

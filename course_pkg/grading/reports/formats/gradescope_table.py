@@ -45,7 +45,7 @@ def _row(book: Book, student: str) -> list[str]:
 
 
 def submission_id(book: Book, student: str) -> str:
-    """Return Gradescope's number of a submission, or "" for any other submission."""
+    """Return the number of a student's submission on Gradescope, or "" for other platforms."""
     for grade in book.of(student):
         for part in grade.origin.split("/"):
             if GRADESCOPE.fullmatch(part):

@@ -49,7 +49,7 @@ def write(book: Book, out: Path) -> None:
 def _row(book: Book, student: str) -> list[str]:
     """Return a student's row.
 
-    Cells for missing submissions are empty, and only the totals include lateness.
+    Cells for missing submissions are empty. Only the totals include the deduction for lateness.
     """
     identity = identity_cells(book.person(student)) if book.class_list.given else []
     cells = [clean.cell(name_of(student)), *identity]
