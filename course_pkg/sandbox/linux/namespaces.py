@@ -52,9 +52,9 @@ def enter(descriptor: int, kind: int) -> None:
 
 
 def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
-    """Get the user id `uid` and the group id `gid` in a new user namespace.
+    """Change to the user id `uid` and the group id `gid` in a new user namespace.
 
-    `outside` are the user id and group id in the parent namespace.
+    `outside` contains the user id and the group id in the parent namespace.
     """
     Path("/proc/self/setgroups").write_text("deny")
     Path("/proc/self/gid_map").write_text(f"{gid} {outside[1]} 1")
@@ -75,9 +75,11 @@ def keep_mounts_private() -> None:
 
 
 def mount_memory(target: str, *, size: int = 0, files: int = 0, read_only: bool = False) -> None:
-    """Mount an empty folder over `target`, for at most `size` bytes and `files` files; 0 means the default.
+    """Mount an empty folder in memory over `target`.
 
-    Empty files use memory, too, so the number of files is limited.
+    `size` is the limit in bytes, and `files` is the limit for the number of files; 0 means the default.
+
+    Empty files use memory, too, so this number needs a limit.
     """
     limits = [f"size={size}"] * bool(size) + [f"nr_inodes={files}"] * bool(files) + ["mode=0777"]
     _mount("tmpfs", target, "tmpfs", MS_NOSUID | MS_NODEV | (MS_RDONLY if read_only else 0), ",".join(limits))
