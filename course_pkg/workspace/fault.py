@@ -55,7 +55,7 @@ def manifest_tags(text: str) -> Iterator[Tag]:
 
 
 def dependencies(text: str, purpose: str) -> set[str]:
-    """Return the packages that a package.xml names for `purpose`: "build" or "run".
+    """Return the dependencies in the `text` of a package.xml; `purpose` is "build" or "run".
 
     Dependencies with a condition are ignored. `text` has to be valid for catkin.
     """

@@ -179,7 +179,7 @@ def _append(name: str, folders: list[Path]) -> None:
 
 
 def _follow(module: ModuleType) -> list[str]:
-    """Import the types that were added to a package; if the type in `module` has changed, return its name."""
+    """Import a package's new types; if `module` contains a type that has changed, return this type's name."""
     if module.__name__.endswith(KINDS):
         # If a build is running or has failed, the student's own import shows the error.
         with suppress(Exception):

@@ -112,7 +112,7 @@ def styled(source: str, style: list[Rule], draw: random.Random) -> str:
 
 
 def handed_in(number: int, answers: Answers) -> Submission:
-    """Return the handed-out notebook with these answers as a submission."""
+    """Return a submission: the students' notebook with these answers."""
     notebook = json.loads(json.dumps(derived(read(NotebookStore().solutions([CHAPTER])[0]))))
     for cell in code_cells(notebook):
         cell["source"] = answers.get(exercise_of(cell), cell["source"])

@@ -275,7 +275,7 @@ def costs(server: Server, notebook: Path) -> tuple[list[float], list[float], lis
 def kill(times: int = 25) -> bool:
     """Kill a process of `course lab` several times, and count the things that remain.
 
-    Return whether none of these remains.
+    Return whether nothing remains.
     """
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     victims["the holder of the graph"] = b"graph/holder.py\0"
@@ -297,7 +297,7 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
     """Kill the process whose command line contains `pattern`, and then stop the command.
 
     An empty `pattern` kills the command itself. The files of the command are in `folder`. Return the time in
-    s until nothing is left, and, for each kind, the number of things that are left after TIMEOUT.
+    s until nothing is left, and the number of things of each kind that are left after TIMEOUT.
     """
     port, before = free_port(), files_in(folder)
     variables = {"TMPDIR": folder, "XDG_STATE_HOME": f"{folder}/state"}

@@ -464,8 +464,8 @@ def types_main() -> int:
 
 
 # turtles: measures the cost of a turtle panel with five moving turtles. The benchmark `turtles` needs an idle
-# machine. `./course test` installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the
-# websocket, and at most 3 % of a core for the kernel.
+# machine. `./course test` installs the browser. The limits are at least 50 frames per second, at most 20
+# KiB/s on the websocket, and at most 3 % of a core for the kernel.
 
 SETUP = """
 from course_pkg import TurtlePanel, join
