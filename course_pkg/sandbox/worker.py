@@ -168,7 +168,7 @@ class Session:
                 return None, self._reason()
             record = _record(reading)
             if record and record["verdict"] in STOPPED and self._was_stopped():
-                # The check failed only because the supervisor had ended the processes.
+                # The check failed only because the supervisor had ended the processes of the part.
                 return None, self._reason()
             return record, "the check runner ended without a verdict"
         finally:

@@ -101,7 +101,7 @@ def installed_uv(places: Places, journal: Journal) -> Path:
 
 
 def uv_environment() -> dict[str, str]:
-    """Return this process's environment, with the user's pip settings as variables of uv."""
+    """Return this process's environment; the user's pip settings are converted into variables of uv."""
     return {**_clean_environment(), **as_uv_variables(_pip_settings(), os.environ)}
 
 

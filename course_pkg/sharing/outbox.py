@@ -26,8 +26,8 @@ class Outbox:
     def put(self, report: Mapping[str, object]) -> str:
         """Add the result of a check; return an error message if the disk cannot be written, else "".
 
-        The result contains the part, the verdict, the time and the hint. It contains neither the student's
-        code nor its values.
+        The result contains the part, the verdict, the time and the hint. The result does not contain the
+        student's code or the values that the code computed.
         """
         name = f"{time.time_ns():020}-{secrets.token_hex(4)}"
         shared = {

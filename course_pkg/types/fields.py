@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 if TYPE_CHECKING:
     import genpy
 
-# A plain value can be converted to JSON: a number, a bool, a string, a sequence for an array, or a mapping
-# from field names to values for a message.
+# A plain value can be converted to JSON. An array is a sequence of plain values, and a message is a mapping
+# from field names to plain values.
 Plain: TypeAlias = "bool | int | float | str | Sequence[Plain] | Mapping[str, Plain] | None"
 # A string tree has the structure of a plain value, but with a string instead of each number and bool.
 StringTree: TypeAlias = "str | Sequence[StringTree] | Mapping[str, StringTree]"

@@ -31,7 +31,7 @@ def default(field: Field) -> Plain:
 
 
 def check(field: Field, value: object, path: str) -> Plain:
-    """Convert any value to a value that the field accepts, and return it.
+    """Convert a value to the type of the field, and return the converted value.
 
     Raises FieldError if the value is not valid for the field.
     """

@@ -143,8 +143,7 @@ def _module_folders() -> list[str]:
 def _find_packages(source: Path) -> tuple[list[Path], list[str]]:
     """Return the folders of the packages in `source`, and a message for each package.xml that is unreadable.
 
-    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and one invalid file stops them with an
-    error.
+    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and end with an error if one file is invalid.
     """
     found, messages, visited = [], [], set()
     for folder, inside, files in os.walk(source, followlinks=True):

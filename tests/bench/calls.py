@@ -33,9 +33,8 @@ from course_pkg.panels import ServicePanel
 from course_pkg.ros import BoundedProxy, NodeProcess, PrivateMaster, join, look, prepare_node
 from course_pkg.ros.trace.recorder import Recorder
 
-# bounded: compares the duration of a call through BoundedProxy with that of a call through
-# rospy.ServiceProxy. The two calls use the same server and alternate in blocks of 20 calls. The benchmark
-# prints the medians and their ratio.
+# bounded: compares a call through BoundedProxy with a call through rospy.ServiceProxy. The two calls use the
+# same server and alternate in blocks of 20 calls. The benchmark prints the medians and their ratio.
 
 
 def bounded_main() -> None:

@@ -2,7 +2,8 @@
 
 `grading.py copies [SEED …]` writes a class of chapter 05. Each of 280 students gets independently written
 answers in a random style. The 20 other students copy a student's answers, and disguise the copies: they
-change names, order and comments. Ten of them copy all exercises, and ten copy only two of four exercises.
+change names, order and comments. Ten of these 20 students copy all four exercises, and the other ten copy
+only two exercises.
 """
 
 from __future__ import annotations

@@ -7,8 +7,8 @@ usage: ./course run python tests/bench/lab.py start [RUNS [NOTEBOOK]]
 
 - `start` prints the time from the command to a page with a rendered notebook and an idle kernel.
 - `click` prints the time from a click to Python and back to the page.
-- `kill` kills `course lab`, its master, its kernel or the holder of its graph by SIGKILL, and prints how many
-  processes, sockets, mounts and files were left. Each is killed TIMES times, by default 25.
+- `kill` kills `course lab`, its master, its kernel and the holder of its graph by SIGKILL, each process TIMES
+  times (default 25), and prints how many processes, sockets, mounts and files were left.
 - `isolation` compares `course lab` with `course lab --shared-graph`: the start, a click, and a check.
 
 The measurements of `start` and `click` alternate between the two servers. `./course test` installs the
@@ -201,7 +201,7 @@ def started(command: Sequence[str | Path], env: Mapping[str, str], cwd: Path | N
 
 @contextmanager
 def stock(notebook: Path, state: Path) -> Iterator[str]:
-    """Run the unchanged JupyterLab with its settings in `state`; yield the address of the notebook."""
+    """Run the unchanged JupyterLab with settings in the folder `state`; yield the address of the notebook."""
     port = free_port()
     command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", f"--port={port}"]
     command += [f"--ServerApp.root_dir={ROOT}", "--IdentityProvider.token=t"]
@@ -331,7 +331,7 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
 def files_in(folder: str) -> set[str]:
     """Return all files, sockets and folders in a folder.
 
-    Another process may remove some of them during the search.
+    Another process may remove some of these files during the search.
     """
     return {os.path.join(root, name) for root, folders, files in os.walk(folder) for name in folders + files}
 
@@ -339,8 +339,8 @@ def files_in(folder: str) -> set[str]:
 def started_with(folder: str) -> list[int]:
     """Return all processes of this computer with TMPDIR=`folder`.
 
-    If none of these processes exists, no private network of the command exists, because a network ends with
-    the last process that uses it or has it open.
+    A private network ends with the last process that uses it or has it open. If there are no such processes,
+    the private networks of the command have therefore ended.
     """
     found = []
     for process in Path("/proc").glob("[0-9]*"):

@@ -60,7 +60,7 @@ class Cells:
         self._paused = 0
 
     def begin(self, cell: str | None, source: str = "") -> None:
-        """Begin a run of `cell`, and end the objects that its last run created."""
+        """Begin a run of `cell`, and end the objects that the last run of this cell created."""
         if self._current is not None:
             self._depth += 1
             return

@@ -65,7 +65,7 @@ def note_creations(cells: Cells) -> None:
 def close_all(closes: list[Close]) -> None:
     """End the objects of a run, from newest to oldest.
 
-    Action servers end before all other objects, because they publish their results.
+    Action servers end before all other objects, because an ending action server publishes results.
     """
     if not closes:
         return
@@ -187,7 +187,7 @@ def _close_action(server: actionlib.ActionServer) -> None:
 def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
     """End an action server and cancel a running goal.
 
-    The goal continues if its function ignores the cancellation.
+    If the function of the goal ignores the cancellation, the goal continues.
     """
     with server.terminate_mutex:
         server.need_to_terminate = True

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 METHOD = "structured_traceback"  # IPython formats an error with this method.
 DEFAULT_MODE = "Context"  # Errors are shortened only in this default mode of %xmode.
-CALLS = 2  # For a SyntaxError in an imported file, at most this number of calls is shown.
+CALLS = 2  # For a SyntaxError in an imported file, the error message shows at most this number of calls.
 # rospy's log messages about an exception contain this text.
 TRACEBACK = "Traceback (most recent call last)"
 LOGGER = "rosout"

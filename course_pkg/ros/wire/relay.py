@@ -50,7 +50,7 @@ class RelayedConnection:
     def since(self, offset: int, *, from_client: bool) -> float:
         """Return the arrival time of a byte in s since `opened`.
 
-        `offset` is the index of the byte in all bytes of its direction.
+        `offset` counts the bytes of this direction, from 0.
         """
         count = 0
         for chunk in self.chunks:

@@ -103,8 +103,8 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 def _root_capabilities() -> Iterator[str]:
     """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
 
-    bwrap covers some folders of the /proc that it mounts. The kernel then does not allow the inner sandboxes
-    to mount their own /proc.
+    bwrap mounts a new /proc, and covers some folders of this /proc. The kernel then does not allow the inner
+    sandboxes to mount their own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):

@@ -70,7 +70,7 @@ def become_root() -> None:
 
 
 def keep_mounts_private() -> None:
-    """Separate the mounts of this namespace from the mounts of its parent; new mounts are then not shared."""
+    """Separate the mounts of this namespace and of the parent namespace; new mounts are then not shared."""
     _mount("none", "/", "", MS_REC | MS_PRIVATE, "")
 
 
@@ -79,7 +79,7 @@ def mount_memory(target: str, *, size: int = 0, files: int = 0, read_only: bool 
 
     `size` is the limit in bytes, and `files` is the limit for the number of files; 0 means the default.
 
-    Empty files use memory, too, so this number needs a limit.
+    Empty files use memory, too, so the number of files needs a limit.
     """
     limits = [f"size={size}"] * bool(size) + [f"nr_inodes={files}"] * bool(files) + ["mode=0777"]
     _mount("tmpfs", target, "tmpfs", MS_NOSUID | MS_NODEV | (MS_RDONLY if read_only else 0), ",".join(limits))
@@ -99,7 +99,7 @@ def mount_processes() -> None:
 
 
 def bind(source: str, target: str) -> None:
-    """Make `source` also visible at `target`, including all mounts inside it."""
+    """Make `source`, with all mounts inside `source`, also visible at `target`."""
     _mount(source, target, "", MS_BIND | MS_REC, "")
 
 
@@ -143,7 +143,7 @@ def be_readable() -> None:
 
 
 def give_up_privileges() -> None:
-    """Drop all capabilities, also for programs that this process executes."""
+    """Drop all capabilities of this process, and of the programs that this process executes."""
     for number in range(CAPABILITIES):
         # The call fails if this kernel does not have the capability.
         _libc.prctl(PR_CAPBSET_DROP, number, 0, 0, 0)
