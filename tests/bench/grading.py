@@ -326,7 +326,8 @@ def reference_main() -> None:
 #     # %% 05.1 right: TITLE
 #     # %% 05.1 wrong: TITLE | why: WHAT IS WRONG, for a person who reads the report
 #
-# It prints the report of each wrong answer, and of each answer whose verdict differs from its header.
+# The benchmark prints the report of each wrong answer, and of each answer whose verdict is not the one in the
+# header.
 
 WRITTEN = re.compile(
     r"# %% (?P<check>\d\d\.\d+) (?P<kind>right|wrong): (?P<title>[^|]+?)(?:\s*\| why: (?P<why>.+))?$"
@@ -334,7 +335,7 @@ WRITTEN = re.compile(
 
 
 def answers_main() -> int:
-    """Check the answers. Return the number of answers whose verdict differs from their header."""
+    """Check the answers. Return the number of answers whose verdict is not the one in the header."""
     folder, *wanted = sys.argv[1:]
     paths = [path for path in sorted(Path(folder).glob("*.py")) if not wanted or path.stem in wanted]
     written = [answer for path in paths for answer in _written(path)]

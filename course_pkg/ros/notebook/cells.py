@@ -86,7 +86,7 @@ class Cells:
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 
     def created(self, thing: Hashable, close: Close) -> None:
-        """Record that the current run, if any, created `thing`; `close` is the function that ends `thing`."""
+        """If there is a current run, record that this run created `thing`; `close` ends `thing`."""
         if run := self.run:
             run.created[thing] = close
 
