@@ -64,7 +64,10 @@ def now() -> str:
 
 
 def _lock(file: IO[bytes]) -> bool:
-    """Acquire the lock of `file`, and return whether it was free; closing the file releases the lock."""
+    """Acquire the lock of `file`, or return False if another process has the lock.
+
+    Closing the file releases the lock.
+    """
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -17,7 +17,7 @@ MOST = 4.0  # On a busy machine, a time limit grows by at most this factor.
 
 
 class Deadline:
-    """A point in time, `seconds` from now on the monotonic clock.
+    """A deadline on the monotonic clock, `seconds` s after this object is created.
 
     If `seconds` is None, the deadline never passes.
     """
@@ -48,7 +48,7 @@ def wait_until(
     interval: float = INTERVAL,
     stopped: threading.Event | None = None,
 ) -> Value:
-    """Return the first true value of `condition`, or its last value after `timeout` s.
+    """Return the first true value of `condition`; after `timeout` s, return its last value.
 
     The condition is evaluated immediately, then every `interval` s, and once more after the deadline. If the
     event `stopped` is set, the wait ends early.

@@ -53,7 +53,7 @@ def _released(checkout: Path) -> list[str]:
 def _deliver(places: Places, name: str, delivered: dict[str, str]) -> bool:
     """Copy the file `name` if the user has no changed copy.
 
-    Return False if the user has one, which needs a message.
+    Return False if the user has a changed copy and there is a new version; the caller then shows a message.
     """
     content, own = (places.checkout / name).read_bytes(), places.own / name
     fresh, last = digest([content]), delivered.get(name)

@@ -24,9 +24,9 @@ class Message(TypedDict, total=False):
 
     ready: bool  # The fork server has imported all modules.
     job: bool  # The worker sends a job.
-    supervisor: int  # The process with this id is a supervisor that has started its processes.
+    supervisor: int  # This is the process id of a supervisor that has started its processes.
     port: int  # The master of the part uses this port.
-    over: int  # A supervisor with this wait status, and all its descendants, have ended.
+    over: int  # A supervisor and all its descendants have ended; this is the supervisor's wait status.
 
 
 def pair() -> tuple[socket.socket, socket.socket]:

@@ -1,4 +1,4 @@
-"""The check runner of one part: a trusted process in the part's network, which is forked for one check."""
+"""The check runner of one part: a trusted process that is forked for one check, in the part's network."""
 
 from __future__ import annotations
 

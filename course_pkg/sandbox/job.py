@@ -35,7 +35,7 @@ class WorkFile:
         return base64.b64decode(self.content)
 
     def below(self, folder: str) -> WorkFile:
-        """Return a copy of this file whose path is below `folder`."""
+        """Return a copy of this object with a path below `folder`."""
         return replace(self, path=f"{folder}/{self.path}")
 
     def write(self, folder: Path) -> None:

@@ -69,7 +69,7 @@ def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
 
 
 def message_writer(descriptor: int) -> Send:
-    """Return a function that writes messages to `descriptor` as lines of JSON, and never blocks."""
+    """Return a function that writes messages to `descriptor` as lines of JSON; the function never blocks."""
     os.set_blocking(descriptor, False)
 
     def send(message: Mapping[str, str]) -> None:

@@ -32,7 +32,7 @@ MEMORY_INTERVAL = 0.1  # This is the time in s between two measurements of the m
 # mapped files (proc(5)).
 # If processes share a memory page, the page counts for each of these processes.
 QUICK = ("RssAnon:", "RssShmem:")
-# A shared page counts only once: each process that shares the page gets a part of its size.
+# A shared page counts only once: its size is divided among the processes that share the page.
 EXACT = ("Pss_Anon:", "Pss_Shmem:")
 OPEN = 4096  # No process of a sandbox has a file descriptor of this number or above.
 SIGNALS = {signal.SIGTERM, signal.SIGCHLD}
@@ -48,7 +48,7 @@ def supervise(
     *,
     isolation: Isolation,
 ) -> NoReturn:
-    """Start the master, the command runner and the student's process, and wait for the student's process.
+    """Start the master, the command runner and the student's process; wait until the student's process ends.
 
     After SIGTERM, the supervisor does not wait any longer. All processes of the part end together with this
     process.
@@ -113,7 +113,7 @@ def _set_environment(folder: str, port: int, listener: int) -> None:
 
 
 def _start(work: Callable[[], None]) -> int:
-    """Fork a process that ends together with this process, and unblock its signals; return its process id."""
+    """Fork a process that ends together with this process; return the process id."""
 
     def run() -> None:
         namespaces.die_with_parent()
@@ -176,7 +176,7 @@ def _close_all_but(descriptor: int) -> None:
 
 
 def _watch(student: int, folder: str, isolation: Isolation) -> int:
-    """Wait for the end of the student's process, too much memory or disk usage, or SIGTERM.
+    """Wait until the student's process ends, the memory or disk limit is exceeded, or SIGTERM arrives.
 
     Return the exit status.
     """

@@ -1,7 +1,7 @@
 """The trusted process of a sandbox worker: it reads one job per line, and prints one result per line.
 
-The two arguments of the worker are the kind of isolation (see isolation.py), and the folder of an
-instructor's private parts or "".
+The worker has two arguments. The first argument is the kind of isolation (see isolation.py). The second
+argument is the folder with an instructor's private exercises, or "".
 """
 
 from __future__ import annotations
@@ -30,15 +30,14 @@ END_TIMEOUT = 8.0  # A supervisor has to end all its descendants within this tim
 KILLED_TIMEOUT = 30.0  # The fork server has to report a killed supervisor within this time in s.
 # After the end of the student's process, a check runner has to finish within this time in s.
 VERDICT_TIMEOUT = 3.0
-# One read returns at most this number of bytes; all messages of the student's process together may also have
-# at most this number of bytes.
+# This is the maximum number of bytes for one read, and for all messages of the student's process together.
 CHUNK = 65536
 
 LIMITS = {
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
-# A check runner may write one of these verdicts after a supervisor has ended all processes at a limit.
+# If a supervisor ends all processes because of a limit, the check runner may write one of these verdicts.
 STOPPED = (Verdict.FAILED, Verdict.UNDECIDED)
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",
@@ -137,7 +136,7 @@ class Session:
         return reading, stack.enter_context(ours)
 
     def _placed(self, stack: ExitStack) -> tuple[int, int, socket.socket]:
-        """Return the part's network, its master's port, and the socket to which the check client connects."""
+        """Return the part's network, the port of the part's master, and the socket for the check client."""
         message, descriptors = receive(self._fork_server, PLACE_TIMEOUT)
         if "over" in message:
             self._over = int(message["over"])
@@ -169,7 +168,8 @@ class Session:
                 return None, self._reason()
             record = _record(reading)
             if record and record["verdict"] in STOPPED and self._was_stopped():
-                return None, self._reason()  # The record only describes that the check lost its master.
+                # The check failed only because the supervisor had ended the processes of the part.
+                return None, self._reason()
             return record, "the check runner ended without a verdict"
         finally:
             end([runner])

@@ -30,8 +30,9 @@ class SandboxWorker:
     After a WorkerFailed error, the next call of `run` starts the worker again.
 
     When the thread that first called `run` ends, the processes in the sandbox end, too. `private` is the
-    folder of an instructor's private parts, which no submission can read. If `sandboxed` is false, there is
-    no sandbox. If `users` is true, the sandbox consists of other users of the machine (see users.py).
+    folder with an instructor's private exercises; no submission can read this folder. If `sandboxed` is
+    false, there is no sandbox. If `users` is true, the sandbox consists of other users of the machine (see
+    users.py).
     """
 
     def __init__(self, *, sandboxed: bool = True, users: bool = False, private: str = "") -> None:

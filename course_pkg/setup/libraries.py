@@ -101,12 +101,12 @@ def installed_uv(places: Places, journal: Journal) -> Path:
 
 
 def uv_environment() -> dict[str, str]:
-    """Return this process's environment, with the user's pip settings as variables of uv."""
+    """Return this process's environment; the user's pip settings are converted into variables of uv."""
     return {**_clean_environment(), **as_uv_variables(_pip_settings(), os.environ)}
 
 
 def as_uv_variables(settings: Mapping[str, list[str]], environ: Mapping[str, str]) -> dict[str, str]:
-    """Return pip's `settings` as variables of uv, without variables that are already set in `environ`.
+    """Convert pip's `settings` into variables of uv; omit variables that are already set in `environ`.
 
     uv does not read pip.conf.
     """
@@ -168,7 +168,7 @@ def base_python() -> str:
 
 
 def _is_on_base(places: Places) -> bool:
-    """Return whether the environment is in the folder in which it was created, with this interpreter."""
+    """Return whether the environment was created in its current folder and with the current interpreter."""
     if not environment_works(places):
         return False
     program = "import os, sys; print(os.path.realpath(sys._base_executable), sys.version, sys.prefix)"

@@ -11,7 +11,8 @@ FORWARDER = "slirp4netns"  # This program connects a private network with other 
 DEVICE = "/dev/net/tun"  # slirp4netns uses this device.
 RESOLVER = Path("/etc/resolv.conf")
 KERNEL = Path("/proc/sys")
-# A kernel setting, its value that forbids namespaces for ordinary users, and the value that allows them.
+# Each item is a kernel setting, a value that forbids namespaces for ordinary users, and a value that allows
+# them.
 SETTINGS = (
     ("kernel.unprivileged_userns_clone", "0", "1"),
     ("kernel.apparmor_restrict_unprivileged_userns", "1", "0"),

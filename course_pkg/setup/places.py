@@ -96,7 +96,10 @@ class Places(NamedTuple):
         return self.cache.parent / "tools"
 
     def make_cache(self) -> None:
-        """Create the cache folder; raises SetupError, with the next step for the user."""
+        """Create the cache folder.
+
+        Raises SetupError if this is impossible; the error message contains the next step for the user.
+        """
         if any(letter.isspace() for letter in str(self.cache)):
             raise SetupError(
                 f"catkin cannot build in {self.cache}, because the name of this folder "

@@ -21,8 +21,8 @@ GREEN, RED, PLAIN = "\033[32m", "\033[31m", "\033[0m"
 class Progress:
     """Shows the running steps on stderr.
 
-    If `total` is given, the line also contains the number of finished `unit` (such as "cells") and the
-    estimated remaining time.
+    If `total` is given, the line also contains the number of finished items and the estimated remaining time.
+    `unit` is the plural name of the items, such as "cells".
     """
 
     def __init__(self, stream: TextIO | None = None, *, total: int = 0, unit: str = "") -> None:
@@ -84,7 +84,7 @@ class Progress:
             self._line(self._counted(now))
 
     def note(self, text: str) -> None:
-        """Show `text`, an explanation of a wait, unless the same text was shown last."""
+        """Show `text`, which explains a wait, unless the previous call showed the same text."""
         with self._lock:
             seen, self._note = self._note, text
         if text and text != seen:

@@ -16,7 +16,7 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.progress import Progress
 from course_pkg.setup.stamps import Stamps, digest, locked
 
-# The lock files of libraries, each with the text that it adds to the title of its step.
+# Each key is the name of a lock file, and its value is added to the title of the step that installs it.
 EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
 
 
@@ -37,7 +37,7 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
 
     If nothing is missing, this function takes a few milliseconds and prints nothing. A shared installation is
     complete, except for the libraries of the hub, which the first `course hub` of an administrator adds.
-    Raises SetupError, with the next step for the user, if a step fails.
+    Raises SetupError if a step fails; the error message contains the next step for the user.
     """
     stages = steps_of(places, grade=grade, hub=hub, test=test)
     if all(step.is_done() for stage in stages for step in stage):

@@ -21,7 +21,7 @@ def address() -> str:
 
 
 def keep_about(folder: Path, url: str, about: Mapping[str, object]) -> None:
-    """Store the description that the service at `url` gives of itself in `folder`, for the notice.
+    """Store the data for the notice in `folder`; `about` is the response of the service at `url`.
 
     Raises OSError.
     """

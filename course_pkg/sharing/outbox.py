@@ -24,10 +24,10 @@ class Outbox:
         self.folder = folder or state_folder() / FOLDER
 
     def put(self, report: Mapping[str, object]) -> str:
-        """Add the result of a check; return a message if the disk cannot be written, or "".
+        """Add the result of a check; return an error message if the disk cannot be written, else "".
 
-        The result contains the part, the verdict, the time and the hint. It contains neither the student's
-        code nor its values.
+        The result contains the part, the verdict, the time and the hint. The result does not contain the
+        student's code or the values that the code computed.
         """
         name = f"{time.time_ns():020}-{secrets.token_hex(4)}"
         shared = {
@@ -48,7 +48,7 @@ class Outbox:
         return ""
 
     def first(self, most: int) -> list[dict[str, object]]:
-        """Return the oldest results, at most `most`.
+        """Return the oldest results; `most` is their maximum number.
 
         Delete files that `put` has not written, or that are too old.
 
@@ -76,7 +76,7 @@ class Outbox:
 
 
 def _hint(report: Mapping[str, object]) -> str:
-    """Return the hint of the first assertion that does not hold, or this assertion's text; "" if all hold."""
+    """Return the hint or the text of the first assertion that does not hold; "" if all assertions hold."""
     assertions = report.get("assertions")
     for each in assertions if isinstance(assertions, Sequence) else ():
         if not each["holds"]:

@@ -45,7 +45,7 @@ def start_sender(warn: Callable[[str], object]) -> threading.Thread | None:
 
 
 class Sender:
-    """Sends results to the service at `url`; `stopped` ends `run`."""
+    """Sends results to the service at `url`, until another thread sets the event `stopped`."""
 
     def __init__(self, url: str, token: str, outbox: Outbox, warn: Callable[[str], object]) -> None:
         self._url, self._token, self._outbox, self._warn = url, token, outbox, warn

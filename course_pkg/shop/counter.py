@@ -29,10 +29,11 @@ class Counter:
         self._visits: list[Visit] = []
 
     def let_in(self, now: float, after: Sequence[float], stay: float) -> list[Visit]:
-        """Plan a visit of `stay` s for each element of `after`, and return the new visits.
+        """Plan a visit for each delay in `after`, and return the new visits.
 
-        `after` contains delays in s from the time `now`. Visits that earlier calls have planned for the
-        future are removed. Raises FieldError for impossible times; the visits then do not change.
+        A delay is a time in s from `now` until a customer comes; `stay` is the length of each visit in s.
+        Visits that earlier calls have planned for the future are removed. Raises FieldError for impossible
+        times; the visits then do not change.
         """
         if len(after) > MOST:
             raise FieldError(

@@ -16,7 +16,8 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-POLL = 0.25  # This is the time in s between two checks whether the camera still sends messages.
+# A waiting thread checks the time of the camera's last message after each interval of this length in s.
+POLL = 0.25
 # If an Eye receives no valid frame for this many s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0
 
@@ -31,14 +32,14 @@ class CameraMessage(Protocol):
 
 
 class Customer(NamedTuple):
-    """A customer at the counter: the customer's number, and the time of the first message with it."""
+    """A customer at the counter: the number, and the time of the first message that contained this number."""
 
     number: int
     arrived: Time
 
 
 class Watch:
-    """The customers at the counter.
+    """Stores the customers at the counter, from the messages of a camera.
 
     Acquire the condition `changed` before you read the customers or wait for a change.
     """
@@ -47,7 +48,7 @@ class Watch:
         self.changed = threading.Condition()
         self._now = now
         self._there: tuple[Customer, ...] = ()
-        self._last = -float("inf")  # The camera's last message arrived at this time of time.monotonic().
+        self._last = -float("inf")  # The camera's last message arrived at this value of time.monotonic().
 
     @property
     def silent_for(self) -> float:
@@ -106,7 +107,7 @@ class Eye(Generic[Frame]):
         self.changed = threading.Condition()
         self._sees = sees
         self._seen = False
-        self._last = -float("inf")  # The newest valid frame arrived at this time of time.monotonic().
+        self._last = -float("inf")  # The newest valid frame arrived at this value of time.monotonic().
 
     def hear(self, frame: Frame) -> None:
         """Process a frame, but ignore a malformed frame; this method is the callback of a subscriber."""

@@ -103,7 +103,7 @@ class Exporter(HTMLExporter):
 
     @property
     def default_config(self) -> Config:
-        """The settings: the MIME types for pages in order of preference, without scripts."""
+        """The settings of nbconvert, with the MIME types that a page may show, in order of preference."""
         own = Config({"NbConvertBase": {"display_data_priority": SHOWN}})
         inherited: Config = super().default_config.copy()
         inherited.merge(own)

@@ -51,7 +51,7 @@ class Choice(NamedTuple):
 
 
 class LearningPath(NamedTuple):
-    """A selection of chapters that require no other chapter.
+    """A selection of chapters that a reader can understand without any other chapter.
 
     A path with two possible last chapters has two choices.
     """

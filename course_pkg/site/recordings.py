@@ -6,7 +6,7 @@ these keys:
 - `record`: the requests that a service panel sends, or the cases of BreakIt with their tools. The
   page answers with the recorded responses.
 - `pick`: the name of the service, if the code of the cell does not name a service.
-- `watch`: the seconds for which the panel works as if a page showed it.
+- `watch`: the time in s during which the panel works as if it were visible on a page.
 - `calls`: the calls that the notebook's own node makes during these seconds. Each call has the name of a
   service, its type, and the fields of the request.
 """
@@ -94,7 +94,7 @@ def record_panel(panel: Panel, plan: Plan) -> None:
 
 
 def _call_during(seconds: float, calls: Sequence[tuple[str, str, Mapping[str, float]]]) -> None:
-    """Make the calls at equal intervals during `seconds` s."""
+    """Make the calls at equal intervals; `seconds` is the total time in s."""
     # The import is here, because only a recording with calls needs rospy.
     from course_pkg.ros import this_node
 

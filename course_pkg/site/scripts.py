@@ -53,7 +53,7 @@ class _Modules:
         self._given: set[Path] = set()
 
     def name(self, path: Path) -> str:
-        """Return the name of the constant for the exports of the module at `path`."""
+        """Return the name of the constant that stores the exports of the module at `path`."""
         return "_" + re.sub(r"\W", "_", str(path.resolve().relative_to(self._folder).with_suffix("")))
 
     def needed(self, path: Path) -> Iterator[str]:

@@ -11,7 +11,7 @@ from std_srvs.srv import EmptyRequest, EmptyResponse
 
 SPEED = 1.0  # This is the default speed in m/s.
 TURN = 1.0  # This is the default angular velocity in rad/s.
-SLICE = 0.02  # The clock is checked once in this time (s), so a new rate takes effect within this time.
+SLICE = 0.02  # A new rate takes effect within this time in s, because keep_driving() waits at most this time.
 
 Publish = Callable[[Twist], None]
 
@@ -37,7 +37,7 @@ class Toggling:
         return (SPEED, 0.0) if self.forward else (0.0, TURN)
 
     def handle_toggle(self, _request: EmptyRequest) -> EmptyResponse:
-        """Change between going straight and turning, as the handler of toggle_forward."""
+        """Change between going straight and turning; this method is the handler of toggle_forward."""
         self.forward = not self.forward
         return EmptyResponse()
 
@@ -52,7 +52,7 @@ def to_twist(velocity: tuple[float, float]) -> Twist:
 def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> None:
     """Publish the driver's velocity `driver.rate` times per second, until `over()` is true.
 
-    The rate may change meanwhile.
+    The rate may change while this function runs.
     """
     last = -float("inf")
     while not over():

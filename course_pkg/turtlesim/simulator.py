@@ -1,4 +1,7 @@
-"""The simulator as a node. One thread moves the world; all other threads queue jobs for this thread."""
+"""The simulator as a node.
+
+One thread updates the simulation; all other threads put jobs into the queue of this thread.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +32,7 @@ Result = TypeVar("Result")
 
 
 class Simulator:
-    """The node's services, and the loop that moves the world."""
+    """The node's services, and the loop that updates the simulation."""
 
     def __init__(self) -> None:
         self._jobs: SimpleQueue[Callable[[], None]] = SimpleQueue()
@@ -166,7 +169,7 @@ class Simulator:
         rospy.loginfo(f"Spawning turtle [{turtle.name}] at {place}")
 
     def _background(self) -> Colour:
-        """Return the background colour from the node's parameters; invalid parameters have the default."""
+        """Return the background colour from the node's parameters, with defaults for invalid parameters."""
         own = rospy.get_param(rospy.get_name(), {})  # One call to the master reads all parameters.
         given = {**DEFAULTS, **own} if isinstance(own, dict) else DEFAULTS
         red, green, blue = (

@@ -137,7 +137,10 @@ class World:
         return self.add(self.make(x, y, theta, name))
 
     def make(self, x: float, y: float, theta: float, name: str = "") -> Turtle:
-        """Return a new turtle that is not in the world yet. Raises NameTaken if its name is used."""
+        """Return a new turtle that is not in the world yet.
+
+        Raises NameTaken if another turtle uses this name.
+        """
         name = name or self._free_name()
         if name in self.turtles:
             raise NameTaken(f"A turtled named [{name}] already exists")
@@ -190,6 +193,9 @@ def normalized(angle: float) -> float:
 
 
 def _near_canvas(point: Point) -> Point:
-    """Return `point`, or, if it is far from the canvas, a nearer point. This limits the drawing time."""
+    """If `point` is far from the canvas, return a nearer point; otherwise, return `point`.
+
+    This limits the drawing time.
+    """
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

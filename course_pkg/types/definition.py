@@ -82,7 +82,7 @@ class Comments:
 
 
 def comments(text: str) -> Comments:
-    """Return the comment at the top, and each field's comment after the field or directly above it."""
+    """Return the comment at the top, and the comments that are after a field or directly above it."""
     entries = list(lines(text))
     start = next((index for index, line in enumerate(entries) if line.text.strip()), 0)
     top = _leading_comment(entries[start:])

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 if TYPE_CHECKING:
     import genpy
 
-# The values of JSON: an array is a sequence of plain values, and a message is a mapping from field names to
-# plain values.
+# A plain value can be converted to JSON. An array is a sequence of plain values, and a message is a mapping
+# from field names to plain values.
 Plain: TypeAlias = "bool | int | float | str | Sequence[Plain] | Mapping[str, Plain] | None"
-# A tree with the structure of a plain value, but with a string instead of each number and bool.
+# A string tree has the structure of a plain value, but with a string instead of each number and bool.
 StringTree: TypeAlias = "str | Sequence[StringTree] | Mapping[str, StringTree]"
 
 FLOAT32_MAX: float = struct.unpack("<f", b"\xff\xff\x7f\x7f")[0]
@@ -66,7 +66,7 @@ class Kind(str, Enum):
 
     @property
     def is_scalar(self) -> bool:
-        """Whether a value of this kind is one string in a string tree."""
+        """Whether a value of this kind is a single number, bool or string."""
         return self in (Kind.INTEGER, Kind.FLOAT, Kind.BOOL, Kind.STRING)
 
 

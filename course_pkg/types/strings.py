@@ -24,7 +24,7 @@ _SECONDS = re.compile(r"([+-]?)(\d*)(?:\.(\d{1,9})0*)?", re.ASCII)
 
 
 def format_value(field: Field, value: Plain) -> StringTree:
-    """Return a plain value as a string tree: nested dicts and lists of strings."""
+    """Convert a value into a string tree: nested dicts and lists of strings."""
     if field.kind is Kind.ARRAY:
         assert field.item is not None
         # This code has to be fast, because an image has a million elements.
@@ -42,7 +42,7 @@ def format_value(field: Field, value: Plain) -> StringTree:
 
 
 def parse_value(field: Field, text: StringTree, path: str) -> Plain:
-    """Return the plain value of a string tree. Raises FieldError."""
+    """Convert a string tree into a value of the field. Raises FieldError."""
     if field.kind is Kind.ARRAY:
         return _parse_array(field, text, path)
     if field.kind in (Kind.TIME, Kind.DURATION) and isinstance(text, str) and "{" not in text:
@@ -50,7 +50,7 @@ def parse_value(field: Field, text: StringTree, path: str) -> Plain:
     if field.kind is Kind.MESSAGE or field.fields:
         return parse_fields(field.fields, text, path, allowed(field))
     if not isinstance(text, str):
-        # The text may also be a plain value.
+        # `text` may also be a value that needs no conversion, such as a number.
         return check(field, text, path)
     if field.kind is Kind.STRING:
         return check(field, text, path)
@@ -58,7 +58,7 @@ def parse_value(field: Field, text: StringTree, path: str) -> Plain:
 
 
 def parse_fields(fields: tuple[Field, ...], tree: StringTree, path: str, expected: str) -> dict[str, Plain]:
-    """Return the plain values of a message's fields, in the order of the fields. Raises FieldError."""
+    """Convert the string tree of a message into a dict, in the order of the fields. Raises FieldError."""
     if isinstance(tree, str):
         tree = _parse_flow(tree, "{", "}", path, expected)
     require_names(fields, tree, path, expected)

@@ -1,4 +1,4 @@
-"""Service and message types: their fields, and the conversion between plain values and messages."""
+"""Service and message types: their fields, and the conversion between dicts and messages."""
 
 from __future__ import annotations
 
@@ -57,26 +57,28 @@ class MessageType:
         return {each.name: default(each) for each in self.fields}
 
     def check(self, plain: Mapping[str, Plain] | genpy.Message) -> dict[str, Plain]:
-        """Check a message or a dict of values, and return the plain values of its fields.
+        """Check a message or a dict of values, and return the values of its fields as a dict.
 
         Raises FieldError.
         """
         return check_fields(self.fields, plain, "", self._shape)
 
     def parse(self, tree: StringTree) -> dict[str, Plain]:
-        """Return the plain values of a string tree. Raises FieldError."""
+        """Convert a string tree into a dict of values. Raises FieldError."""
         return parse_fields(self.fields, tree, "", self._shape)
 
     def format(self, plain: Mapping[str, Plain]) -> dict[str, StringTree]:
-        """Return plain values as a string tree, which `parse` can read."""
+        """Convert a dict of values into a string tree, which `parse` can read."""
         return {each.name: format_value(each, plain[each.name]) for each in self.fields}
 
     def to_message(self, plain: Mapping[str, Plain]) -> genpy.Message:
-        """Return a message with these plain values. Raises FieldError."""
+        """Return a message with these values. Raises FieldError."""
         return build(self.cls, self.fields, self.check(plain))
 
     def to_values(self, message: genpy.Message) -> dict[str, Plain]:
-        """Return the plain values of a message; a float32 becomes the shortest number with the same value.
+        """Return the values of a message.
+
+        A float32 becomes the shortest number with the same value.
 
         Raises FieldError if the message contains a value that does not fit its field.
         """
@@ -86,7 +88,7 @@ class MessageType:
     def built(self) -> bool:
         """Whether Python can import the class from its package.
 
-        If not, the class was generated from the text.
+        If not, the class was generated from the definition.
         """
         return not hasattr(self.cls, "_dependencies")
 
@@ -116,8 +118,8 @@ class ServiceType:
 def service_type(type_or_name: str | ServiceType | ServiceClass) -> ServiceType:
     """Return the service type for a full name (`std_srvs/SetBool`) or for a generated class.
 
-    A type that is on ROS_PACKAGE_PATH but not built is generated from its text.
-    Raises UnknownType, or BrokenDefinition for a text that ROS does not accept.
+    If a type on ROS_PACKAGE_PATH is not built, its class is generated from the definition. Raises
+    UnknownType, or BrokenDefinition for a definition that ROS does not accept.
     """
     if isinstance(type_or_name, ServiceType):
         return type_or_name
@@ -134,7 +136,7 @@ def service_type(type_or_name: str | ServiceType | ServiceClass) -> ServiceType:
 def message_type(type_or_name: str | MessageType | MessageClass) -> MessageType:
     """Return the message type for a full name (`geometry_msgs/Point`) or for a generated class.
 
-    Types that are not built, and the errors, are handled as in `service_type`.
+    If a type is not built, its class is generated; the errors are the same as in `service_type`.
     """
     if isinstance(type_or_name, MessageType):
         return type_or_name
@@ -152,7 +154,7 @@ def message_type(type_or_name: str | MessageType | MessageClass) -> MessageType:
 def type_in_file(name: str, kind: DefinitionKind) -> ServiceType | MessageType:
     """Return the type that a .srv or .msg file defines now, even if an older version is built.
 
-    Raises UnknownType, or BrokenDefinition for a text that ROS does not accept.
+    Raises UnknownType, or BrokenDefinition for a definition that ROS does not accept.
     """
     file = definition_file(name, kind)
     if file is None:
@@ -164,7 +166,7 @@ def type_in_file(name: str, kind: DefinitionKind) -> ServiceType | MessageType:
 
 
 def compile_service(name: str, text: str) -> ServiceType:
-    """Return the service type for a .srv text, with the name `name`.
+    """Return the service type called `name` that is defined by the text of a .srv file.
 
     This function is stricter than genmsg, which accepts some mistakes (no `---` line, two `---` lines, a name
     that is a keyword of Python). Raises BrokenDefinition.
@@ -173,7 +175,7 @@ def compile_service(name: str, text: str) -> ServiceType:
 
 
 def compile_message(name: str, text: str) -> MessageType:
-    """Return the message type for a .msg text, with the name `name`.
+    """Return the message type called `name` that is defined by the text of a .msg file.
 
     The mistakes and the errors are the same as for `compile_service`.
     """

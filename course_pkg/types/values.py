@@ -1,4 +1,4 @@
-"""The plain values of a field: the default value, the check of a value, and the conversion for genpy."""
+"""The values of a field: the default value, the check of a value, and the conversion for genpy."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def default(field: Field) -> Plain:
 
 
 def check(field: Field, value: object, path: str) -> Plain:
-    """Convert any value to a plain value of the field, and return it.
+    """Convert a value to the type of the field, and return the converted value.
 
     Raises FieldError if the value is not valid for the field.
     """
@@ -100,7 +100,7 @@ def build(cls: MessageClass, fields: tuple[Field, ...], values: Mapping[str, Pla
 
 
 def allowed(field: Field) -> str:
-    """Return a description of a field's values, such as `a float32 from -3.4e38 to 3.4e38, such as 1.5`."""
+    """Return a description of a field's valid values, for example "an int8 from -128 to 127"."""
     if field.kind is Kind.INTEGER:
         return f"{_article(field.type)} {field.type} from {field.low} to {field.high}"
     if field.kind is Kind.FLOAT:
@@ -124,7 +124,7 @@ def member_path(path: str, name: str) -> str:
 
 
 def brief(value: object) -> str:
-    """Return a short text of a value for an error message."""
+    """Return the representation of a value, shortened for an error message."""
     text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}…"
 

@@ -2,7 +2,7 @@
 
 CMake breaks its messages into lines of about 75 characters. A message names the file that reported the error;
 the student's line is in the call stack below the message. A row of a table is (pattern, file, problem,
-remedy); an empty `file` means the file that the message names.
+remedy). If `file` is empty, the fault is in the file that the message names.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _COMMAND = re.compile(r"(?P<comment>#\s*)?(?P<name>[A-Za-z_]\w*)[ \t]*\(")
 
 @dataclass(frozen=True)
 class Message:
-    """One message in one line of text, with the line of a package's CMakeLists.txt that caused it."""
+    """One message as one line of text, and the line of CMakeLists.txt that caused this message."""
 
     text: str
     file: str

@@ -1,4 +1,4 @@
-"""A fault in a package; its line in a package.xml is found even if the file is not valid XML."""
+"""A fault in a package; the functions find the line of a fault even in an invalid package.xml."""
 
 from __future__ import annotations
 
@@ -48,14 +48,14 @@ def without_comments(text: str) -> str:
 
 
 def manifest_tags(text: str) -> Iterator[Tag]:
-    """Yield the opening tags in their order, without the tags in comments."""
+    """Yield the opening tags in the order of the file, except tags in comments."""
     bare = without_comments(text)
     for found in _TAG.finditer(bare):
         yield Tag(found["name"], bare.count("\n", 0, found.start()) + 1, found["text"].strip())
 
 
 def dependencies(text: str, purpose: str) -> set[str]:
-    """Return the packages that a package.xml names for `purpose`: "build" or "run".
+    """Return the dependencies in the `text` of a package.xml; `purpose` is "build" or "run".
 
     Dependencies with a condition are ignored. `text` has to be valid for catkin.
     """

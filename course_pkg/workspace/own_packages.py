@@ -143,8 +143,7 @@ def _module_folders() -> list[str]:
 def _find_packages(source: Path) -> tuple[list[Path], list[str]]:
     """Return the folders of the packages in `source`, and a message for each package.xml that is unreadable.
 
-    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and one invalid file stops them with an
-    error.
+    The tools of ROS read every package.xml on ROS_PACKAGE_PATH, and end with an error if one file is invalid.
     """
     found, messages, visited = [], [], set()
     for folder, inside, files in os.walk(source, followlinks=True):
@@ -179,7 +178,7 @@ def _append(name: str, folders: list[Path]) -> None:
 
 
 def _follow(module: ModuleType) -> list[str]:
-    """Import the types that were added to a package; if the type in `module` has changed, return its name."""
+    """Import a package's new types; if `module` contains a type that has changed, return this type's name."""
     if module.__name__.endswith(KINDS):
         # If a build is running or has failed, the student's own import shows the error.
         with suppress(Exception):

@@ -54,7 +54,7 @@ def test_a_students_notebook_has_no_answer(root: Path) -> None:
 
 
 def repair(source: str) -> list[Cell]:
-    """Return the cells of chapter 04, where `source` is the solution of each part."""
+    """Return the cells of chapter 04; `source` is the solution of every part."""
     cells = []
     for part in parts_of("04"):
         cells += [exercise(part.check, part.points, source), check(part.check)]

@@ -28,7 +28,7 @@ def executed(plot: str, *, source: str = "plot()", panel: str = "prediction") ->
 
 
 def stored(notebook: Notebook, before: Notebook) -> Notebook:
-    """Return the notebook that the store writes for `notebook` if `before` is stored already."""
+    """Return `notebook` as the store writes it; `before` is the notebook that is already stored."""
     notebook = copy.deepcopy(notebook)
     add_pictures(notebook, before)
     tidy(notebook)

@@ -33,9 +33,8 @@ from course_pkg.ros import BoundedProxy, NodeProcess, PrivateMaster, join, look,
 from course_pkg.ros.trace.recorder import Recorder
 from tests.bench.commands import milliseconds, run_command, times_of
 
-# bounded: compares the duration of a call through BoundedProxy with that of a call through
-# rospy.ServiceProxy. The two calls use the same server and alternate in blocks of 20 calls. The benchmark
-# prints the medians and their ratio.
+# bounded: compares a call through BoundedProxy with a call through rospy.ServiceProxy. The two calls use the
+# same server and alternate in blocks of 20 calls. The benchmark prints the medians and their ratio.
 
 
 def bounded_main() -> None:
@@ -201,7 +200,7 @@ def reference() -> Callable[[str, int, float], int | None]:
 
 
 class Street:
-    """A separate process that runs the till; the process is restarted after each exit."""
+    """Runs the till (the node of a cash register) in a separate process, and restarts it after each exit."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -295,7 +294,10 @@ def books(folder: Path) -> list[dict[str, Any]]:
 
 
 class Till:
-    """The ROS node of the till. The node writes each request to a file before it sends the response."""
+    """The till is the ROS node of a cash register.
+
+    The node writes each request to a file before it sends the response.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -417,7 +419,7 @@ def recorder_main() -> int:
 
 
 def started(way: str, core: int) -> subprocess.Popen[bytes]:
-    """Start a server that records its calls if `way` is "recorded"."""
+    """Start a server; if `way` is "recorded", the server records its calls."""
     server = subprocess.Popen([sys.executable, "-c", SERVER, way, str(core), "0"])
     rospy.wait_for_service(way, timeout=20)
     return server

@@ -174,8 +174,8 @@ def graph_main() -> int:
 # `./course test` installs the browser.
 
 EVENTS, LENGTH = 2000, 10.0  # s
-# The first drawing may take at most this many ms. Moving the view must reach at least this many frames per
-# second.
+# The first drawing may take at most this many ms. While the view moves, the page must draw at least this many
+# frames per second.
 DRAW_BAR, PAN_BAR = 500.0, 30.0
 # The benchmark draws the timeline this many times, and moves the view for this many ms.
 REPEATS, TIMELINE_WATCH = 9, 2000
@@ -464,8 +464,8 @@ def types_main() -> int:
 
 
 # turtles: measures the cost of a turtle panel with five moving turtles. The benchmark `turtles` needs an idle
-# machine. `./course test` installs the browser. Bars: at least 50 frames per second, at most 20 KiB/s on the
-# websocket, and at most 3 % of a core for the kernel.
+# machine. `./course test` installs the browser. The limits are at least 50 frames per second, at most 20
+# KiB/s on the websocket, and at most 3 % of a core for the kernel.
 
 SETUP = """
 from course_pkg import TurtlePanel, join

@@ -124,7 +124,7 @@ def mirror(codename: str) -> str:
 
 
 def tell_surroundings(system: Path) -> None:
-    """Copy files into `system` that the package downloads need."""
+    """Copy the files that are needed for package downloads into `system`."""
     for name in SURROUNDINGS:
         source, target = Path(name), system / name[1:]
         if source.is_dir():

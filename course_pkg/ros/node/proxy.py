@@ -69,7 +69,8 @@ class BoundedProxy(rospy.ServiceProxy):
         """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            if call.over:  # The call may have ended while this action was armed, so disarm the action here.
+            # The call may have ended before cancel() added this action; nothing else disarms it then.
+            if call.over:
                 self._disarm(call)
 
     def close(self) -> None:
@@ -95,7 +96,8 @@ class BoundedProxy(rospy.ServiceProxy):
             # If the socket is shut down while rospy uses it, rospy raises one of these errors.
             if call.error is None:
                 raise
-            raise call.error from None  # rospy's error says that the socket is closed; `call.error` says why.
+            # rospy's error only says that the socket is closed; `call.error` contains the reason.
+            raise call.error from None
         finally:
             call.over = True
             self._running.discard(call)
@@ -241,7 +243,7 @@ class _Call:
         self.error = self.error or error
         sock = self.transport.socket if self.transport else None
         if sock is not None:
-            # Before the socket is connected, shutdown() fails; the watchdog calls this method again.
+            # If the socket is not connected yet, shutdown() fails; the watchdog then repeats this method.
             with suppress(OSError):
                 sock.shutdown(socket.SHUT_RDWR)
 

@@ -41,7 +41,7 @@ def can_begin_again() -> bool:
 
 
 def begin_again() -> None:
-    """Make rospy ready for another init_node(), and clear its registrations.
+    """Make rospy ready for another init_node(), and clear rospy's lists of registrations.
 
     The old node must already be shut down.
     """

@@ -42,7 +42,7 @@ class Subscription:
         self._subscriber: rospy.Subscriber | None = rospy.Subscriber(topic, cls, self._receive)
 
     def wait(self, count: int = 1, timeout: float = 5.0) -> list[Message]:
-        """Wait until `count` messages are stored, and return the first `count` of them.
+        """Wait until `count` messages are stored, and return the first `count` messages.
 
         Raises NothingHeard when fewer than `count` messages are stored after `timeout` s.
         """

@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Callable
 
-LINGER = 5.0  # This is the longest time in s between two checks whether any action is armed.
+LINGER = 5.0  # The thread checks the armed actions again after at most this time in s.
 REPEAT = 0.02  # An armed action runs again after this time in s.
 
 
@@ -27,7 +27,7 @@ class Watchdog:
         self._thread: threading.Thread | None = None
 
     def arm(self, deadline: float, action: Callable[[], None]) -> int:
-        """Run `action` after `deadline` (s of time.monotonic()); return the number to pass to disarm()."""
+        """Run `action` after `deadline`, a value of time.monotonic(); return the argument for disarm()."""
         number = next(self._numbers)
         self._armed[number] = (deadline, action)
         if self._thread is None or deadline < self._wake:
@@ -52,8 +52,8 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                # Another thread may arm an action while the next lines run. The value inf makes arm() wake up
-                # this thread.
+                # Another thread may arm an action while the next lines run. While `_wake` is inf, each call
+                # of arm() wakes up this thread.
                 self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)

@@ -55,12 +55,12 @@ class Cells:
         self._runs: dict[str, CellRun] = {}
         self._cells: dict[str, str] = {}  # The dict maps the `source` of a run to the id of its cell.
         self._current: CellRun | None = None
-        # This is the number of cells that run inside the current cell, for example with %%capture.
+        # This is the number of runs inside the current run; for example, %%capture starts another run.
         self._depth = 0
         self._paused = 0
 
     def begin(self, cell: str | None, source: str = "") -> None:
-        """Begin a run of `cell`, and end the objects that its last run created."""
+        """Begin a run of `cell`, and end the objects that the last run of this cell created."""
         if self._current is not None:
             self._depth += 1
             return
@@ -81,20 +81,20 @@ class Cells:
 
     @property
     def run(self) -> CellRun | None:
-        """The run to which new objects of the current thread belong, or None."""
+        """The run that records the new objects of the current thread, or None."""
         run = self._current
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 
     def created(self, thing: Hashable, close: Close) -> None:
-        """Record that the current run, if any, created `thing`; `close` is the function that ends `thing`."""
+        """If there is a current run, record that this run created `thing`; `close` ends `thing`."""
         if run := self.run:
             run.created[thing] = close
 
     @contextmanager
     def paused(self) -> Iterator[None]:
-        """Do not assign the objects that the block creates to any cell.
+        """Do not record the objects that are created in the block.
 
-        A new run of the cell does not end these objects.
+        These objects are kept when the cell runs again.
         """
         self._paused += 1
         try:
@@ -106,7 +106,7 @@ class Cells:
     def check(self) -> Iterator[None]:
         """After the block, end all objects that the block created.
 
-        A service of the block does not replace a service of a cell.
+        A service that is created in the block does not replace a service that was created by a cell.
         """
         before, self._current = self._current, CellRun(temporary=True, threads=_thread_ids())
         run = self._current
@@ -117,9 +117,9 @@ class Cells:
             self._close_all(list(run.created.values()))
 
     def later_run(self, source: str) -> CellRun | None:
-        """Return the last run of the cell that had the code `source` before.
+        """Return the last run of a cell; an earlier run of this cell had the file name `source`.
 
-        If the cell still has this code, return None.
+        If `source` is the file name of the last run, return None.
         """
         run = self._runs.get(self._cells.get(source, ""))
         return run if run is not None and run.source != source else None

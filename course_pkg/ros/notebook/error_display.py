@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 METHOD = "structured_traceback"  # IPython formats an error with this method.
 DEFAULT_MODE = "Context"  # Errors are shortened only in this default mode of %xmode.
-CALLS = 2  # For a SyntaxError in an imported file, at most this number of calls is shown.
+CALLS = 2  # For a SyntaxError in an imported file, the error message shows at most this number of calls.
 # rospy's log messages about an exception contain this text.
 TRACEBACK = "Traceback (most recent call last)"
 LOGGER = "rosout"
@@ -82,7 +82,7 @@ class ErrorDisplay:
             self._all = False
 
     def _place(self, filename: str) -> str:
-        """Return the name by which an error message shows `filename`: a cell, or the name of the file."""
+        """Return the text for `filename` in an error message: a description of a cell, or the file's name."""
         if filename == self._source:
             return "This cell"
         kind, name = self._shell.compile.format_code_name(filename) or ("", filename)
@@ -112,7 +112,7 @@ class ThreadErrors(logging.Handler):
         self._shown.clear()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Show the exception that the thread of `record` is handling, if `record` is about this exception."""
+        """If `record` is rospy's message about an exception, show the exception that this thread handles."""
         error = sys.exc_info()[1]
         if error is not None and TRACEBACK in record.getMessage() and _in_background():
             self._show(error)
@@ -122,7 +122,7 @@ class ThreadErrors(logging.Handler):
             self._show(ended.exc_value)
 
     def _show(self, error: BaseException) -> None:
-        """Show `error`, but the same error only once below each cell."""
+        """Show `error`, unless the same error is already shown below the current cell."""
         text = "\n".join(readable_traceback(error, self._place_of, HANDLER_HEADER))
         if text not in self._shown:
             self._shown.add(text)

@@ -48,12 +48,13 @@ class Program:
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
-        """Wait until the output contains `line`, if given, and the program serves `service`, if given.
+        """Wait until the output contains `line`, until the program offers `service`, or until both are true.
 
         Without `line` and `service`, wait until the program ends.
 
         Returns the exit status, or None while the program is running. Raises NodeFailed after `timeout` s, or
-        if the program ends without the line or the service; the message contains the last output.
+        if the program ends before it prints the line or offers the service. The error message contains the
+        last output.
         """
         if line:
             self._process.wait_for_output(line, timeout)
@@ -106,7 +107,7 @@ class ProgramMagics:
 def _words(line: str) -> list[str]:
     """Return the words of a command, without a final `&`.
 
-    Magics always start programs in the background.
+    A magic ignores `&`, because it always starts a program in the background.
     """
     words = shlex.split(line)
     return words[:-1] if words[-1:] == ["&"] else words

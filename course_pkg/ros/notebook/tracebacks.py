@@ -73,7 +73,7 @@ def _shortened(calls: list[list[str]], room: int) -> list[str]:
 
 
 def _before(error: BaseException, place_of: PlaceOf) -> list[str]:
-    """Return a line about the exception that was being handled when `error` was raised, if any."""
+    """If another exception led to `error`, return a line about that exception; otherwise, return []."""
     former = error.__cause__ or (None if error.__suppress_context__ else error.__context__)
     frames = list(students_frames(former.__traceback__)) if former is not None else []
     if former is None or not frames:

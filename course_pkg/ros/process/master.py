@@ -22,7 +22,7 @@ from course_pkg.waiting import at_this_load, wait_until
 READY = 15.0
 ATTEMPTS = 5
 ENDED = -1  # This value is used instead of the master's process id if the process has ended.
-OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # With these variables, ROS binds to other addresses than 127.0.0.1.
+OTHER_ADDRESSES = ("ROS_IP", "ROS_IPV6")  # With these variables, ROS would not bind to 127.0.0.1.
 
 
 class PrivateMaster:
@@ -147,7 +147,10 @@ def _pid(client: MasterClient) -> int:
 
 
 def _port(asked: int | None) -> int:
-    """Return `asked`, or any free port of 127.0.0.1; raises PortBusy if `asked` is in use."""
+    """Return the requested port, or any free port of 127.0.0.1 if `asked` is None.
+
+    Raises PortBusy if the requested port is in use.
+    """
     try:
         return free_port(candidates=[asked or 0])
     except OSError as error:

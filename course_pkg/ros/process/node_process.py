@@ -27,7 +27,7 @@ GRACE = 3.0  # A node has to end within this time in s after SIGINT; a node with
 
 
 class NodeProcess:
-    """A command that runs one or more nodes; the command ends when this process ends, or earlier.
+    """A command that runs one or more nodes; the command ends with the current process, or earlier.
 
     A temporary file stores the output. The file is deleted together with this object.
     """
@@ -112,7 +112,7 @@ class NodeProcess:
     def stop(self, grace: float = GRACE, *, unregister: bool = True) -> None:
         """End the process with SIGINT, or with SIGKILL after `grace` s.
 
-        The registrations of its nodes are removed from the master.
+        If `unregister` is true, the process then has no registrations at the master.
         """
         if not self.running:
             return

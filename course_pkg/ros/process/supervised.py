@@ -26,9 +26,9 @@ class SupervisedProcess:
     """A command and its descendants; all of them end when this process ends, or earlier.
 
     When the command ends, its background processes also get SIGTERM, and SIGKILL after 2 s. The command runs
-    in the folder `cwd` and inherits the descriptors `inherit`. At the end, the supervisor deletes the folder
-    `remove`, and unregisters the node `withdraw` (the master's URI, the node's name, the node's URI). If
-    `command` is empty, the supervisor does nothing except this clean-up after this process has ended.
+    in the folder `cwd` and inherits the file descriptors in `inherit`. At the end, the supervisor deletes the
+    folder `remove`, and unregisters the node `withdraw` (the master's URI, the node's name, the node's URI).
+    If `command` is empty, the supervisor does nothing except this clean-up after this process has ended.
 
     If `foreground` is true, the command uses the standard input and the terminal of this process, and it
     receives Ctrl-C. If `output` is None, the command also prints to the terminal. Raises GraphError if the

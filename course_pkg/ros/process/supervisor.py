@@ -49,7 +49,7 @@ class Supervisor:
         for number in (signal.SIGCHLD, *FORWARDED, signal.SIGUSR1):
             signal.signal(number, self._handle)
         for number in FROM_TERMINAL if foreground else ():
-            # The terminal sends this signal to the command directly.
+            # The terminal also sends this signal to the command, so the supervisor ignores the signal.
             signal.signal(number, signal.SIG_IGN)
         signal.pthread_sigmask(signal.SIG_SETMASK, ())  # The owner may have blocked some signals.
         os.set_inheritable(report, False)

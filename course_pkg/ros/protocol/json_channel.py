@@ -28,7 +28,7 @@ class JsonChannel:
         self._socket = sock
         self._limit = limit
         self._received = bytearray()
-        # This number of bytes at the start of _received contain no newline character.
+        # The first `_searched` bytes of `_received` contain no newline character.
         self._searched = 0
         self._sending = threading.Lock()
 

@@ -79,10 +79,10 @@ def withdraw_below(master: MasterClient, prefix: str) -> list[Registration]:
 
 
 def registered_at(ports: Collection[int]) -> list[Registration]:
-    """Return the registrations with these ports at the master of ROS_MASTER_URI; without a master, return [].
+    """Return the registrations whose addresses have one of these ports; without a master, return [].
 
-    A process listens on the ports of its registrations. Read the ports of a process while it is running,
-    because an ended process listens on no port.
+    The function uses the master at ROS_MASTER_URI. A process listens on the ports of the addresses that it
+    registers. Read the ports of a process while it is running, because an ended process listens on no port.
     """
     if ports:
         with suppress(GraphError):  # Without a master, there are no registrations.
@@ -95,7 +95,7 @@ def registered_at(ports: Collection[int]) -> list[Registration]:
 def remove_stale(
     uri: str | None = None, timeout: float = 2.0, nodes: Collection[str] | None = None
 ) -> list[Registration]:
-    """Unregister ended nodes (only those in `nodes`, if given), and return the removed registrations."""
+    """Unregister all ended nodes, or only the ended nodes in `nodes`; return the removed registrations."""
     master = MasterClient(uri or master_uri(), timeout)
     return withdraw(master, _stale(master, nodes, min(timeout, TIMEOUT)))
 

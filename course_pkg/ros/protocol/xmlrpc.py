@@ -46,8 +46,8 @@ class XmlRpcClient:
         """Call `method` and return its response value.
 
         The time limit is the shorter of `timeout` s and the client's own timeout. Raises TimeoutError at the
-        time limit, and another OSError if no program accepts the connection. Raises one of NO_ANSWER if the
-        response is not valid XML-RPC or is a fault.
+        time limit, and another OSError if no program accepts the connection. Raises one of the errors in
+        NO_ANSWER if the response is not valid XML-RPC or is a fault.
         """
         deadline = time.monotonic() + self.limit(timeout)
         return decode(self._exchange(encode(method, *args), deadline))
@@ -89,7 +89,7 @@ def encode(method: str, *args: RpcValue) -> bytes:
 
 
 def decode(body: bytes) -> RpcValue:
-    """Return the value in the body of a response; raises one of NO_ANSWER if the body is invalid."""
+    """Return the value in the body of a response; raises an error of NO_ANSWER if the body is invalid."""
     value: RpcValue = loads(body)[0][0]  # type: ignore[assignment]  # typeshed has another union of types
     return value
 
@@ -167,7 +167,7 @@ class _Connection(HTTPConnection):
 
 
 class _DeadlineSocket(socket.socket):
-    """A socket with one deadline for all operations; `deadline` is a time of time.monotonic()."""
+    """A socket with one deadline for all operations; `deadline` is a value of time.monotonic()."""
 
     deadline = 0.0
 

@@ -29,7 +29,7 @@ def numbers(message: MessageType) -> list[str]:
 
 
 def measurement(message: MessageType) -> str:
-    """Return the path of the number that is most probably the measurement, or "" without any number.
+    """Return the path of the number that is most probably the measurement, or "" if there is no number.
 
     Fields in a std_msgs/Header and settings of the sensor, such as `range_min`, are not measurements. Among
     all other fields, the function selects the first float, or else the first integer, or else the first bool.
@@ -67,7 +67,7 @@ def _walk(value: Message, steps: Sequence[int | str]) -> Message:
 
 
 def _first_numbers(message: MessageType, without: str = "") -> Iterator[tuple[str, Kind]]:
-    """Yield the path and the kind of the first MOST numbers; skip fields of the message type `without`."""
+    """Yield the path and the kind of the first MOST numbers; skip fields whose message type is `without`."""
     every = (found for field in message.fields for found in _paths(field, field.name, without))
     return islice(every, MOST)
 

@@ -74,7 +74,11 @@ class PublisherReport(TypedDict, total=False):
 
 
 class MessageReport(TypedDict):
-    """A message that arrived `ago` s before the report; `texts` is None if its values cannot be displayed."""
+    """A received message.
+
+    `ago` is the time in s between the message and the report. `texts` is None if the values of the message
+    cannot be displayed.
+    """
 
     number: int
     ago: float
@@ -86,7 +90,7 @@ class MessageReport(TypedDict):
 
 
 class Curve(TypedDict):
-    """The recent points [s since the start, value] of a number, and the count of all its values."""
+    """The recent points [time in s since the start, value] of a number, and the count of all values."""
 
     points: list[list[float]]
     count: int

@@ -12,7 +12,7 @@ from course_pkg.ros.topic.reports import Figures
 WINDOW = 3.0  # A rate is measured over this time in s.
 FEW = 5  # At least this number of messages is used, even if they are older than WINDOW.
 MOST = 5000  # A rate is computed from at most this number of messages.
-SILENCE = 3.0  # If no message arrives for this multiple of the mean gap, no statistics are returned.
+SILENCE = 3.0  # If no message arrives for SILENCE mean gaps (at least 2 s), no statistics are returned.
 SPAN = 20.0  # A series contains only values that are at most this old (s).
 STEP = 0.1  # At most four values are stored for each time step of this length in s.
 
@@ -27,7 +27,7 @@ class RateStatistics:
         self._times: deque[float] = deque(maxlen=MOST)
 
     def beat(self, at: float) -> None:
-        """Record an event at the time `at` (s of time.monotonic())."""
+        """Record an event at the time `at`, a value of time.monotonic()."""
         with self._lock:
             self._times.append(at)
 

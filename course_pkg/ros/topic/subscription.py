@@ -27,7 +27,9 @@ Extract = Callable[[bytes], float]
 
 @dataclass(frozen=True)
 class ReceivedMessage:
-    """A message: its `number` (from 1), the time `at` (s of time.monotonic()), its publisher, and its bytes.
+    """A message, its publisher, and its bytes.
+
+    The first message has the `number` 1, and `at` is a value of time.monotonic().
 
     `size` is the length of the message in bytes. `body` is empty if the message is too long to be stored.
     """
@@ -55,7 +57,7 @@ class TopicSubscription:
         self._subscriber = rospy.Subscriber(topic, rospy.AnyMsg, self._receive, tcp_nodelay=True)
 
     def plot(self, md5: str, extract: Extract | None) -> None:
-        """Start a new series of values; `extract` reads the value from messages with this MD5 sum."""
+        """Start a new series; `extract` reads a value from each message whose type has the MD5 sum `md5`."""
         self._md5, self._extract, self.series = md5, extract, DownsampledSeries()
 
     def new_messages(self) -> list[ReceivedMessage]:

@@ -55,7 +55,7 @@ class Traffic:
 class Activity:
     """All counts of one poll.
 
-    `at` is a time of time.monotonic() (s). `silent` contains the nodes that returned no valid response.
+    `at` is a value of time.monotonic(). `silent` contains the nodes that returned no valid response.
     `callers` maps each service to its callers, the latest caller first. `callers` omits services whose
     servers do not count callers.
     """

@@ -37,7 +37,7 @@ class _Collected:
 
 @contextmanager
 def recorded(node: str, uri: str, master: MasterClient) -> Iterator[Recording]:
-    """Record all nodes during the block, for the kernel's `node` at `uri`.
+    """Record all nodes during the block; `node` and `uri` are the name and the address of the kernel's node.
 
     The recording is empty until the block ends.
     """
@@ -104,7 +104,7 @@ def _fill(recording: Recording, collected: _Collected, start: float, end: float)
 
 
 def _ended(recording: Recording, collected: _Collected) -> list[str]:
-    """Return the nodes that other nodes have recorded, and that ended before they sent their own records."""
+    """Return the nodes that occur in records of other nodes, but ended before they sent their own records."""
     peers = {event.peer for event in recording.events if event.kind != PUBLISH}
     peers |= {peer for event in recording.events if event.kind == PUBLISH for peer in event.peer.split(", ")}
     known = {*recording.nodes, *collected.unrecorded, *LEFT_OUT, MASTER, "unknown", ""}

@@ -76,7 +76,7 @@ class Exchange:
 
 
 def match_events(records: Iterable[NodeRecord], start: float, end: float) -> tuple[Event, ...]:
-    """Return the events of all nodes between two times (s of time.monotonic()), sorted by their start."""
+    """Return the events of all nodes between two values of time.monotonic(), sorted by their start."""
     spans = [Span(record, data) for record in records for data in record.spans if _overlaps(data, start, end)]
     spans.sort(key=lambda each: each.start)
     _match_calls(spans)

@@ -203,14 +203,15 @@ class Recorder:
             span.end = time.monotonic()
             if note:
                 span.note = note[:LONGEST]
-            # With this order, a reader always finds the span in at least one of the two collections.
+            # The span is added to `_ended` first, so that other threads always find it in at least one
+            # collection.
             self._ended.append(span)
             self._lasting.discard(span)
 
     def since(self, start: float) -> ProcessRecord:
         """Return the record of all actions that were running at `start`, or that began later.
 
-        `start` is a time of time.monotonic() in s.
+        `start` is a value of time.monotonic().
         """
         recent = [span for span in self._spans() if span.end is None or span.end >= start]
         return {

@@ -11,7 +11,7 @@ CONNECT = "connect"  # The caller connects to the server, and they exchange head
 REQUEST = "request"  # The caller sends the request.
 WAIT = "wait"  # The caller waits until the response arrives.
 RESPONSE = "response"  # The caller has received the response.
-# The call fails; `note` is the error message, and `peer` is its sender, if any.
+# The call fails. `note` is the error message; if the server sent the message, `peer` is the server, else "".
 ERROR = "error"
 HANDLER = "handler"  # The server handles a request.
 PUBLISH = "publish"  # A node publishes a message.

@@ -108,7 +108,8 @@ class RecordedTopicTransport(TCPROSTransport):
     def write_data(self, data: bytes) -> bool:
         """Send a message.
 
-        The transfer is recorded first, because a subscriber may receive the message immediately.
+        The transfer is recorded before the message is sent, because a subscriber may receive the message
+        immediately.
         """
         if not isinstance(data, TaggedBytes) or self.connection is None:
             return bool(TCPROSTransport.write_data(self, data))
@@ -141,7 +142,7 @@ class Batch:
             if self._msgs[index] is msg and self._connection is not None:
                 self._index = index
                 return [(self._connection, self._first + index, self._peer)]
-        # The callback also has a second topic, and this message is a latched message of the second topic.
+        # The callback has two topics, and `msg` is a latched message of the other topic.
         return []
 
 

@@ -25,7 +25,7 @@ CHUNK = 65536  # At most this number of bytes is forwarded at a time.
 
 @dataclass(frozen=True)
 class Chunk:
-    """Bytes that arrived together, at a time of time.monotonic(), from the client or from the server."""
+    """Bytes that arrived together from the client or the server; `at` is a value of time.monotonic()."""
 
     at: float
     from_client: bool
@@ -36,9 +36,9 @@ class Chunk:
 class RelayedConnection:
     """One connection and its bytes, in the order of their arrival."""
 
-    opened: float  # The connection was opened at this time of time.monotonic().
+    opened: float  # The connection was opened at this value of time.monotonic().
     chunks: list[Chunk] = field(default_factory=list)
-    # This is "client" or "server" for the program that closed first, and empty while the connection is open.
+    # The program that closed the connection first: "client", "server", or "" while the connection is open.
     closed_by: str = ""
     refused: str = ""  # This is the error message if the server could not be reached.
     lost: int = 0  # This number of bytes was forwarded but not stored.
@@ -48,7 +48,10 @@ class RelayedConnection:
         return b"".join(chunk.data for chunk in self.chunks if chunk.from_client is from_client)
 
     def since(self, offset: int, *, from_client: bool) -> float:
-        """Return the arrival time of the byte at `offset` of one direction, in s since `opened`."""
+        """Return the arrival time of a byte in s since `opened`.
+
+        `offset` counts the bytes of this direction, from 0.
+        """
         count = 0
         for chunk in self.chunks:
             if chunk.from_client is from_client:
@@ -158,7 +161,7 @@ class Relay:
 def _copy(
     source: socket.socket, sink: socket.socket, from_client: bool, connection: RelayedConnection
 ) -> None:
-    """Forward the bytes from `source` to `sink`; when `source` ends the stream, end it at `sink`, too."""
+    """Forward the bytes from `source` to `sink`; after the last byte, end the stream to `sink`."""
     kept = 0
     # A reset connection, or a connection that close() ended, is not an error.
     with suppress(OSError):

@@ -40,7 +40,7 @@ INVENTED = {
 }
 WRITABLE = 512 << 20  # The trusted processes can write at most this number of bytes.
 # The inner sandboxes can mount their own /proc only if no mount covers a folder of the outer sandbox's /proc.
-# After this, the process drops all privileges.
+# This command therefore mounts a new /proc, and then drops all privileges.
 AS_ROOT = (
     "mount -t proc proc /proc && exec setpriv --reuid {0} --regid {0} --clear-groups --inh-caps=-all "
     '--bounding-set=-all --no-new-privs -- "$0" "$@"'
@@ -48,7 +48,7 @@ AS_ROOT = (
 
 
 def refusal() -> str:
-    """Return why this machine cannot create a sandbox, and what the user can do, or ""."""
+    """If this machine cannot create a sandbox, return the reason and what the user can do; else return ""."""
     if sys.platform != "linux" or not (found := shutil.which("bwrap")):
         return (
             "bubblewrap is not installed (on Debian and Ubuntu: apt-get install bubblewrap python3-seccomp)."
@@ -103,8 +103,8 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 def _root_capabilities() -> Iterator[str]:
     """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
 
-    bwrap covers some folders of the /proc that it mounts. The kernel then does not allow the inner sandboxes
-    to mount their own /proc.
+    bwrap mounts a new /proc, and covers some folders of this /proc. The kernel then does not allow the inner
+    sandboxes to mount their own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):
@@ -129,7 +129,7 @@ def _file_system(shown: Sequence[Path]) -> Iterator[str]:
 def _shadows(shown: Sequence[Path]) -> Iterator[str]:
     """Yield options that copy the visible paths in /tmp and /dev/shm to another folder.
 
-    Each part mounts new folders at /tmp and /dev/shm, and mounts the copies of these paths in them.
+    Each part mounts new folders at /tmp and /dev/shm, and then mounts the copies in these new folders.
     """
     inside = [path for path in dict.fromkeys(shown) if any(map(path.is_relative_to, MEMORY_FOLDERS))]
     for number, path in enumerate(inside):
@@ -139,7 +139,7 @@ def _shadows(shown: Sequence[Path]) -> Iterator[str]:
 
 
 def _shown(source: Path, target: Path) -> Iterator[str]:
-    """Yield the options that make `source` visible at `target`; every user can read its parent folders."""
+    """Yield the options that mount `source` at `target`; every user can read the folders above `target`."""
     for parent in reversed(target.parents[:-1]):
         yield from ("--perms", "0755", "--dir", str(parent))
     yield from ("--ro-bind", str(source), str(target))

@@ -11,11 +11,11 @@ from typing import Any, NoReturn
 from course_pkg.sandbox.linux import namespaces
 
 STUDENT = 1000  # The student's code inside the sandbox has this uid and gid.
-MEMORY = 1 << 30  # Each process may use at most this address space in bytes.
-# A check runner may use at most this address space in bytes, mostly for the stacks of its threads.
+MEMORY = 1 << 30  # The address space of each process has this limit in bytes.
+# The address space of a check runner has this limit in bytes; the stacks of its threads need most of it.
 CHECK_RUNNER = 2 << 30
-TOGETHER = 768 << 20  # All processes of a part together may use at most this memory in bytes.
-# At most this number of processes and threads may run; a launch file with three nodes has about 60.
+TOGETHER = 768 << 20  # The total memory of all processes of a part has this limit in bytes.
+# At most this number of processes and threads may run; a launch file with three nodes starts about 60.
 PROCESSES = 200
 # The total size of all files in each of the folders /student and /tmp has this limit in bytes.
 DISK = 128 << 20
@@ -80,7 +80,7 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 
 def _mount_memory_folders() -> None:
-    """Mount empty folders for this sandbox only, with the visible paths of the outer sandbox."""
+    """Mount folders in memory for this sandbox; they contain only the visible paths of the outer sandbox."""
     shadows = {path: f"{SHADOW}/{number}" for number, path in enumerate(shadowed_paths())}
     for path, place in shadows.items():
         if os.path.isdir(path):

@@ -52,9 +52,9 @@ def enter(descriptor: int, kind: int) -> None:
 
 
 def become(uid: int, gid: int, *, outside: tuple[int, int]) -> None:
-    """Get the user id `uid` and the group id `gid` in a new user namespace.
+    """Change to the user id `uid` and the group id `gid` in a new user namespace.
 
-    `outside` are the user id and group id in the parent namespace.
+    `outside` contains the user id and the group id in the parent namespace.
     """
     Path("/proc/self/setgroups").write_text("deny")
     Path("/proc/self/gid_map").write_text(f"{gid} {outside[1]} 1")
@@ -70,14 +70,16 @@ def become_root() -> None:
 
 
 def keep_mounts_private() -> None:
-    """Separate the mounts of this namespace from the mounts of its parent; new mounts are then not shared."""
+    """Separate the mounts of this namespace and of the parent namespace; new mounts are then not shared."""
     _mount("none", "/", "", MS_REC | MS_PRIVATE, "")
 
 
 def mount_memory(target: str, *, size: int = 0, files: int = 0, read_only: bool = False) -> None:
-    """Mount an empty folder over `target`, for at most `size` bytes and `files` files; 0 means the default.
+    """Mount an empty folder in memory over `target`.
 
-    Empty files use memory, too, so the number of files is limited.
+    `size` is the limit in bytes, and `files` is the limit for the number of files; 0 means the default.
+
+    Empty files use memory, too, so the number of files needs a limit.
     """
     limits = [f"size={size}"] * bool(size) + [f"nr_inodes={files}"] * bool(files) + ["mode=0777"]
     _mount("tmpfs", target, "tmpfs", MS_NOSUID | MS_NODEV | (MS_RDONLY if read_only else 0), ",".join(limits))
@@ -97,7 +99,7 @@ def mount_processes() -> None:
 
 
 def bind(source: str, target: str) -> None:
-    """Make `source` also visible at `target`, including all mounts inside it."""
+    """Make `source`, with all mounts inside `source`, also visible at `target`."""
     _mount(source, target, "", MS_BIND | MS_REC, "")
 
 
@@ -141,7 +143,7 @@ def be_readable() -> None:
 
 
 def give_up_privileges() -> None:
-    """Drop all capabilities, also for programs that this process executes."""
+    """Drop all capabilities of this process, and of the programs that this process executes."""
     for number in range(CAPABILITIES):
         # The call fails if this kernel does not have the capability.
         _libc.prctl(PR_CAPBSET_DROP, number, 0, 0, 0)

@@ -128,8 +128,8 @@ def clear(users: Users) -> None:
 def _kill_all(uid: int, killer: int) -> None:
     """Kill all processes of `uid` in one system call, so that no process can fork before it is killed.
 
-    Only the effective user of the killing process is `uid`, so the killed processes cannot send signals to
-    it.
+    The killing process uses `uid` only as its effective user id, so the killed processes cannot send signals
+    to the killing process.
     """
     if not (pid := os.fork()):
         try:
@@ -152,7 +152,7 @@ def _processes_of(uid: int) -> Iterator[int]:
 
 
 def disk_is_full(folder: str, users: Users) -> bool:
-    """Return whether `users` have too many bytes or files in the folders of a part or in shared folders."""
+    """Return whether a part's folders and the users' files in shared folders exceed the limits."""
     size, count = 0, 0
     items = [item.path for shared in SHARED for item in _items_of(shared, set(users))]
     for path in _below([os.path.dirname(folder), *items]):
@@ -194,10 +194,10 @@ def _remove(path: str) -> None:
 
 
 def refusal(hidden: Iterable[Path] = ()) -> str:
-    """Return why this machine cannot run students' code as another user, or "".
+    """If this machine cannot run students' code as another user, return the reason; else return "".
 
-    The other user must be able to read the course and the environment, but not the checks, the solutions and
-    the paths `hidden`.
+    The other user must be able to read the course and the environment, and must not be able to read the
+    checks, the solutions or the paths in `hidden`.
     """
     if os.geteuid() != 0:
         return "Only root can run students' code as another user."

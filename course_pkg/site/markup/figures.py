@@ -84,7 +84,7 @@ def _width(root: ElementTree.Element) -> float:
 
 
 def _carried(path: Path, element: ElementTree.Element, prefix: str) -> None:
-    """Give an element its HTML name and an id that is unique on the page.
+    """Remove the namespace from an element's tag, and add `prefix` to its id and to its references.
 
     Raises SiteError for a forbidden element such as a script, or if an attribute runs code or loads a file.
     """

@@ -2,8 +2,8 @@
 
 Arguments: `[SEED …]`. The benchmark writes a class of chapter 05. Each of 280 students gets independently
 written answers in a random style. The 20 other students copy a student's answers, and disguise the copies:
-they change names, order and comments. Ten of them copy all exercises, and ten copy only two of four
-exercises.
+they change names, order and comments. Ten of these 20 students copy all four exercises, and the other ten
+copy only two exercises.
 """
 
 from __future__ import annotations
@@ -112,7 +112,7 @@ def styled(source: str, style: list[Rule], draw: random.Random) -> str:
 
 
 def handed_in(number: int, answers: Answers) -> Submission:
-    """Return the handed-out notebook with these answers as a submission."""
+    """Return a submission: the students' notebook with these answers."""
     notebook = json.loads(json.dumps(derived(read(NotebookStore().solutions([CHAPTER])[0]))))
     for cell in code_cells(notebook):
         cell["source"] = answers.get(exercise_of(cell), cell["source"])

@@ -199,8 +199,8 @@ def nbgrader_python() -> Path:
 
 
 # kill: kills the grader by SIGKILL at random moments. Arguments: `[TIMES]`. Six submissions are graded once
-# without a kill. Then the benchmark kills a run after a random time, and continues the run; it does this
-# TIMES times (default 20). The grades must be equal after each run, and no process may remain.
+# without a kill. Then the benchmark does the following TIMES times (default 20): it kills a run after a
+# random time, and continues the run. The grades must be equal after each run, and no process may remain.
 
 COURSE = Places.of().checkout / "course"
 
@@ -223,7 +223,7 @@ def kill_main() -> None:
 
 
 def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bool:
-    """Kill a run, and continue the run. Return whether its grades are `expected` and no process remains."""
+    """Kill a run, and continue the run. Return whether the grades are `expected` and no process remains."""
     moment = random.uniform(0.2, whole)  # noqa: S311 -- not a secret
     process = start(submissions, out)
     time.sleep(moment)

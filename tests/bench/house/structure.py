@@ -1,4 +1,4 @@
-"""Measures the size and the structure of the code, and compares each number with its bar."""
+"""Measures the size and the structure of the code, and compares each number with its limit."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ NOTEBOOK = "notebooks/05_write_a_server.ipynb"
 
 @dataclass
 class Work:
-    """What one student measured, in s."""
+    """The measurements for one student; times are in s."""
 
     start: float = 0.0
     checks: list[float] = field(default_factory=list)

@@ -97,7 +97,7 @@ def test_a_prediction_is_kept_and_compared(lab: Lab, lab_page: Page) -> None:
 
 
 def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
-    """When all cases are decided, the panel shows the reasons, and later choices do not count."""
+    """When each case has an answer, the panel shows the reasons, and later choices are not counted."""
     with running_notebook(lab_page, lab, "choose", CHOICES, CHOOSE, 'predictions("03")', PLOT):
         choices = panel(lab_page, "Choices")
         first = choices.get_by_role("radiogroup", name="Joint values")
