@@ -66,7 +66,8 @@ def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, 
     errors of all other notebooks, by name. A KeyboardInterrupt ends all kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
-    # In the main thread, nbclient would handle SIGINT itself, but interrupt only one kernel.
+    # In the main thread, nbclient would handle SIGINT itself, and would interrupt only one kernel. Therefore,
+    # the kernels run in another thread.
     with progress.painting(), closing(asyncio.new_event_loop()) as loop, ThreadPoolExecutor(1) as thread:
         task = loop.create_task(_run_all(notebooks, finished, progress))
         try:

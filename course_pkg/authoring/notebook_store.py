@@ -51,7 +51,7 @@ class NotebookStore:
         return [path for path in derived if path.name not in names]
 
     def problems(self) -> list[str]:
-        """Return the problems of all solutions; each message contains the notebook and the cell."""
+        """Return the problems of all solutions; each message names the notebook and the cell."""
         return [text for path in self.solutions() for text in problems(path.stem, read(path))]
 
 

@@ -72,7 +72,7 @@ class Detector:
 
     @contextmanager
     def _place(self) -> Iterator[None]:
-        """Count as a waiting caller during the block.
+        """Increase the number of waiting callers during the block.
 
         Raises ServiceException if too many callers are waiting.
         """

@@ -126,7 +126,7 @@ def _works(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) -> None:
-    """Close, open and move the arm in a random order, so that a program that only counts its calls fails."""
+    """Close, open and move the arm in a random order; a program with a fixed list of responses then fails."""
     closed = False
     for _ in range(context.random.integer(5, 8)):
         data = context.random.choice([True, False])

@@ -126,7 +126,7 @@ def is_anybody_there(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Try new names, so that a function that only counts its calls fails."""
+    """Try new names, so that a function with a fixed list of results fails."""
     fixed = (
         "The result was wrong for a second service. The result has to depend on the given "
         "service, not on earlier calls."

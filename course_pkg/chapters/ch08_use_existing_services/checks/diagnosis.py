@@ -113,11 +113,9 @@ def find_the_cause(context: CheckContext) -> None:
 
 
 def _services(context: CheckContext, kind: str, other: str, changed: ServiceClass) -> dict[str, str]:
-    """Provide services for all results except "ok", and return the result for each name.
+    """Prepare a case for each possible result; return the result for each service name.
 
-    The first result is "ok".
-
-    The names are random, so the names do not show the results.
+    The first result is "ok". The names are random, so that they do not show the results.
     """
     works, missing, gone, typed, copied, renewed = (f"/{context.random.word()}" for _ in range(6))
     package = f"{context.random.word()}_pkg"

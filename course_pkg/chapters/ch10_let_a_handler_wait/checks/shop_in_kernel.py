@@ -70,7 +70,7 @@ class CheckedShelf:
         self._turn = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next thread wait longer, until the other threads have started, even on a busy machine."""
+        """Let the next calls of read() and write() wait until the other threads have started."""
         self._long_waits = FIRST
 
     @remote
