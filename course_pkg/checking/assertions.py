@@ -88,7 +88,7 @@ class Results:
         # This function returns the last call as text; a report needs this text only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
-        self.marked: set[str] = set()  # The check has marked these goals.
+        self.marked: set[str] = set()  # The check has marked these goals as fulfilled.
         # The dict contains the separately examined goals, and whether each goal holds.
         self._goals: dict[str, bool] = {}
 

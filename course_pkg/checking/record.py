@@ -141,6 +141,6 @@ def _reason(error: Exception) -> str:
 
 
 def _listed(parts: list[str], most: int = 5) -> str:
-    """Return the ids of parts as one text with at most `most` ids."""
+    """Return a string with the ids of the first parts; it contains no more than `most` ids."""
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(parts[:most]) + more

@@ -91,7 +91,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Answers all other addresses."""
+    """Refuses requests to all other addresses."""
 
     def get(self) -> None:
         """Send 404."""
@@ -173,7 +173,7 @@ class Asset(TeacherHandler):
 
 
 class Changes(TeacherHandler):
-    """What has changed on the page."""
+    """Sends the changes of the class to the page."""
 
     async def get(self) -> None:
         """Wait for a change, and send it."""

@@ -65,7 +65,7 @@ def kill_server(stage: Stage) -> None:
 
 
 def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:
-    """Return the text of a visitor that becomes a node and then runs `lines`."""
+    """Return the source of a visitor's program, which starts a node and then runs `lines`."""
     return f'import rospy\n{imports}\n\nrospy.init_node("visitor")\n{lines}\n'
 
 

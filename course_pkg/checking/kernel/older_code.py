@@ -28,7 +28,7 @@ class OlderCode:
         self._later_run = later_run
 
     def of_value(self, name: str, value: Value) -> str:
-        """Return what the student should do first if `value` is older than the last run of its cell."""
+        """If `value` is older than the last run of its cell, return an instruction, else ""."""
         run = self._run_after(value)
         if run is None:
             return ""
@@ -40,7 +40,7 @@ class OlderCode:
         )
 
     def of_service(self, service: str) -> str:
-        """Return what the student should do first if the handler of `service` is older than its cell."""
+        """If the handler of `service` is older than its cell, return an instruction, else ""."""
         handler = _handler_of(service)
         run = self._run_after(handler)
         if run is None:

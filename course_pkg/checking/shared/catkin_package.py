@@ -26,7 +26,7 @@ BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-# A package that contains only scripts needs no path except this path.
+# If a package contains only scripts, this path is sufficient; the package needs no build.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 # Without -j2, catkin_make sets a load limit, and make would wait while the machine is busy.
 CATKIN_MAKE = "catkin_make -j2"

@@ -78,8 +78,7 @@ class Proxies:
 
 
 class Gate:
-    """A service that responds `hold` s after `count` clients have called it, or after it has waited TOGETHER
-    s."""
+    """A service that waits at most TOGETHER s for `count` calls, and responds `hold` s later."""
 
     def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
         self.most = 0  # `most` is the maximum number of clients that waited at the same time.

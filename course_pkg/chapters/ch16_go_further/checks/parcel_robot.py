@@ -264,7 +264,7 @@ def _cancels(
 
 
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
-    """Assert that the charge did not change because of the impossible goal before the last goal."""
+    """Assert that the impossible goal, which came before the last goal, did not change the charge."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     battery.during(3 * PERIOD)  # A wrong charge may be published only for a short time.
     context.expect(
