@@ -99,7 +99,7 @@ CANCELLED = "Cancel the goal when the time limit is over, and return the number 
     goals=[FETCHED, CANCELLED, "Wait for the action server with the same limit."],
 )
 def bounded_goal(context: CheckContext) -> None:
-    """Run the function with a robot that is fast, slow, late, or ignores cancellations, and without a robot."""
+    """Run the function without a robot, and with robots that are fast, slow, late, or cannot be cancelled."""
     _in_time(context)
     context.fulfilled(FETCHED)
     _too_late(context)
