@@ -2,11 +2,11 @@
 
 There are three rules for the removal of an answer. All other bytes of the cell stay unchanged.
 
-1. The body of a function or method becomes its docstring, if it has one, and `...`.
+1. `...` replaces the body of a function or method; a docstring is kept.
 2. `name = value` at the top level becomes `name = ...`. The line does not change if the value is a call of a
    function or class of the same cell (`counter = Counter()`), because it then contains no part of the answer.
-3. The line `%%writefile` at the top of a cell does not change. Rules 1 and 2 apply to Python below this line.
-   In any other text, only the comment lines at the top remain, and `...` replaces all other lines.
+3. The line `%%writefile` at the top of a cell does not change. If the written file is a Python file, rules 1
+   and 2 apply. In any other file, only the comment lines at the top remain, and `...` replaces all others.
 
 If students have to repair a given text, the exercise cell contains this text instead (`start`, see
 checking/parts.py). The check fails if the text is unchanged.

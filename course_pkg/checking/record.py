@@ -88,9 +88,9 @@ class StudentRecord:
         return self.folder / f"{check}.json"
 
     def _before(self, check: str) -> tuple[PartRecord | None, str]:
-        """Return the earlier record of a part, and a message.
+        """Return the earlier record of a part, and "".
 
-        If the file is damaged, rename it and return None.
+        If the file is damaged, rename it, and return None and a message.
         """
         try:
             return self._read(check), ""

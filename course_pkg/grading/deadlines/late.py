@@ -1,7 +1,4 @@
-"""Lateness.
-
-Reads a table of late days, and computes the deduction of points from options of `course grade`.
-"""
+"""Reads a table of late days, and computes the deduction of points from options of `course grade`."""
 
 from __future__ import annotations
 

@@ -15,8 +15,9 @@ from course_pkg.waiting import at_this_load, wait_until
 WAITS_FOR_EVER = (
     "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
 )
-# These times in s are for a count without a subscriber. The student's function waits 2 s, and then publishes
-# ALONE (11) numbers in 1.1 s. The subscriber connects COMES (2.3) s after the publisher.
+# These times in s are for a call of the student's function without a subscriber. The student's function waits
+# 2 s, and then publishes ALONE (11) numbers in 1.1 s. The subscriber connects COMES (2.3) s after the
+# publisher.
 NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "If there is no subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.

@@ -124,7 +124,7 @@ def _says(
     pause: float = 0.0,
     before: float = float("inf"),
 ) -> None:
-    """Call state(), and assert that it returns `word`; repeat this until there were `times` calls.
+    """Call state() once or several times (`times`), and assert that each call returns `word`.
 
     There is a pause of `pause` s between two calls. A call that ends after the time `before` may return any
     of the three strings. The fastest call must be fast; other calls may be slow, because the machine may be

@@ -21,8 +21,8 @@ LONG = 2.0
 LATER = 0.6  # A customer comes after this many s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this many s, the customers change although no client waits.
-# If fewer calls of watch.next() are made in LONG s, but the handler does not wait for a notification, it has
-# a fixed pause that is too long.
+# A handler that waits for notifications makes few calls of watch.next(). If a handler without such a wait
+# makes fewer calls than this in LONG s, its pauses are too long.
 SELDOM = 8
 LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
 

@@ -63,7 +63,7 @@ STORED = "Look up the address once, and use the stored address for all calls."
     ],
 )
 def persistent_client(context: CheckContext) -> None:
-    """Respond, refuse, close the connection, stop the server, and start the server at another address."""
+    """Call a server that responds, refuses, closes the connection, stops, or starts at another address."""
     name = f"/{context.random.word()}"
     volumes = context.random.numbers(8, 10.0, 90.0)
     acts: list[Act] = [{"volume": each} for each in volumes[:5]]

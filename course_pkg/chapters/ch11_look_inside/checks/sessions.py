@@ -97,7 +97,7 @@ def totals_of_sessions(context: CheckContext) -> None:
 
 
 def _shares_no_total(context: CheckContext, kind: ServiceClass, session: str) -> None:
-    """Call a new object of the class in a session that the first object knows."""
+    """Create a second object of the class, and call it in a session that the first object has used."""
     name, amount = f"/{context.random.word()}", context.random.integer(20, 900)
     context.prepare(ANOTHER)
     opened = context.run("another_sessions.open", Its("Sessions"), name, worded="Sessions()")

@@ -59,7 +59,7 @@ ERRORS = [
 
 
 class Adder:
-    """Returns the sum of two numbers; if `act` is not None, the server does `act` instead."""
+    """Returns the sum of two numbers; if `act` is not None, the server executes `act` instead."""
 
     def __init__(self) -> None:
         self.act: Act | None = None

@@ -64,7 +64,7 @@ LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows
     goals=[DELIVERED, STOPPED, LIMITED, "Open and close the door."],
 )
 def parcel_robot(context: CheckContext) -> None:
-    """Start robots with and without a capacity; read the battery, move the door, deliver and cancel."""
+    """Start robots with and without a capacity; read the battery, move the door, send and cancel goals."""
     folder = context.folder(files=[FILE])
     with started(context, folder, f"_capacity:={FEW}") as first, started(context, folder) as second:
         battery = context.subscribe(first.name("battery"), "std_msgs/Float32")
