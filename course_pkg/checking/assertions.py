@@ -117,7 +117,7 @@ class Results:
         self._goals[goal] = fulfilled and self._goals.get(goal, True)
 
     def passes(self, assertion: str) -> None:
-        """Record that `assertion` holds; it may still fail when it is checked again."""
+        """Record that `assertion` holds; the same assertion may still fail later."""
         self._assertions.setdefault(assertion, Assertion(assertion, holds=True))
 
     def fails(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:

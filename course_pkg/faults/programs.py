@@ -33,7 +33,7 @@ rospy.spin()
 def keeper(body: str = WELL, **changes: str) -> str:
     """Return a program that serves /door; `body` is the code of its handler.
 
-    The function replaces each key of `changes` in the program by its value.
+    In the text of the program, the function replaces each key of `changes` with the value of this key.
     """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():

@@ -100,7 +100,7 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
 
 
 def md5_in(folder: Folder) -> tuple[str, str]:
-    """Import the type with the build in `folder`; return its MD5 sum and "".
+    """Import the generated type from the build in `folder`; return its MD5 sum and "".
 
     If the import fails, return "" and the output of the command.
     """

@@ -40,7 +40,7 @@ CLOSES = "Shut /move_arm down. Return the state after the call, and return wheth
     goals=[MOVES, CLOSES, "After the maintenance, serve /move_arm again, and continue to count."],
 )
 def close_for_maintenance(context: CheckContext) -> None:
-    """Start the program; call /move_arm, close it twice, open it twice, and call it again."""
+    """Start the program; call /move_arm, close this service twice, open it twice, and call it again."""
     require_shebang(
         context,
         FILE,
