@@ -87,7 +87,7 @@ WHY = {
     deadline=20.0,
 )
 def find_the_cause(context: CheckContext) -> None:
-    """Provide a service for each possible result; then do this again with new names and in a random order."""
+    """Prepare a service name for each possible result; repeat this with new names in a random order."""
     context.prepare(KINDS)
     kind, other = context.random.shuffled(list(TYPES))[:2]
     changed = compile_service(TYPES[kind], CHANGED).cls

@@ -1,4 +1,4 @@
-"""A shelf that shows mistakes of threads without a lock, and a shop in the kernel that uses this shelf."""
+"""A shelf that reveals a missing lock, and a shop in the kernel that uses this shelf."""
 
 from __future__ import annotations
 
