@@ -2,14 +2,14 @@
 
 There are three rules for the removal of an answer. All other bytes of the cell stay unchanged.
 
-1. The body of a function or method becomes its docstring, if it has one, and `...`.
-2. `name = value` at the top level becomes `name = ...`. A line does not change if its value calls a function
-   or class of the same cell (`counter = Counter()`), because such a line contains no part of the answer.
-3. The line `%%writefile` at the top of a cell does not change. Rules 1 and 2 apply to Python below this line.
-   In any other text, only the comment lines at the top remain, and `...` replaces all other lines.
+1. `...` replaces the body of a function or method; a docstring is kept.
+2. `name = value` at the top level becomes `name = ...`. The line does not change if the value is a call of a
+   function or class of the same cell (`counter = Counter()`), because it then contains no part of the answer.
+3. The line `%%writefile` at the top of a cell does not change. If the written file is a Python file, rules 1
+   and 2 apply. In any other file, only the comment lines at the top remain, and `...` replaces all others.
 
-These rules are not enough if students have to repair a given text. In this case, the check contains the given
-text (`start`, see checking/parts.py). The check reports an unchanged text.
+If students have to repair a given text, the exercise cell contains this text instead (`start`, see
+checking/parts.py). The check fails if the text is unchanged.
 """
 
 from __future__ import annotations
@@ -194,10 +194,10 @@ def _dots(target: ast.expr) -> str:
 
 
 def _parsed(source: str) -> tuple[str, ast.Module]:
-    """Return the syntax tree of `source` and the parsed text, which has the same length as `source`.
+    """Parse `source`, and return the parsed text (which has the same length as `source`) and its syntax tree.
 
-    If `source` is not valid Python, the function first masks the lines that only IPython understands. Raises
-    AuthoringError if the masked text is not valid Python.
+    If `source` is not valid Python, a name of the same length replaces each part that only IPython
+    understands. Raises AuthoringError if the masked text is not valid Python.
     """
     try:
         return source, ast.parse(source)
@@ -210,7 +210,7 @@ def _parsed(source: str) -> tuple[str, ast.Module]:
 
 
 def _masked(line: str) -> str:
-    """Return `line`; a name of the same length replaces a magic, a shell command or `name?`."""
+    """Return `line` with a name of the same length in place of a magic, a shell command or `name?`."""
     found = MAGIC.match(line)
     if not found:
         return line

@@ -41,8 +41,9 @@ def workers_here(notebooks: int) -> int:
 def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
     """Run the solutions of `chapters`, such as ["05"], or of all chapters, and store them with their outputs.
 
-    Raises AuthoringError if a solution stops before its last cell, or if one of its checks does not pass. The
-    message contains all errors and reports. In this case, the files of these solutions do not change.
+    If a solution stops before its last cell, or if one of its checks does not pass, the file of this solution
+    does not change. After all solutions have run, the function then raises AuthoringError with all errors and
+    reports.
     """
     paths = {path.stem: path for path in NotebookStore(root).solutions(chapters)}
     stored = {name: read(path) for name, path in paths.items()}
@@ -66,7 +67,8 @@ def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, 
     errors of all other notebooks, by name. A KeyboardInterrupt ends all kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
-    # In the main thread, nbclient would handle SIGINT itself, but interrupt only one kernel.
+    # In the main thread, nbclient would handle SIGINT itself, and would interrupt only one kernel. Therefore,
+    # the kernels run in another thread.
     with progress.painting(), closing(asyncio.new_event_loop()) as loop, ThreadPoolExecutor(1) as thread:
         task = loop.create_task(_run_all(notebooks, finished, progress))
         try:
@@ -95,7 +97,7 @@ async def _run_all(
 
 
 def _about_check(name: str, check: str, report: str) -> str:
-    """Return the message about a check that did not pass; the message contains its report."""
+    """Return a message about a check that did not pass; the message contains the report."""
     shown = indent(report, "  ") or "  The cell shows no report."
     return f"{name}: check {check} has not passed, so nothing was stored for this chapter:\n{shown}"
 

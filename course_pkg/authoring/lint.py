@@ -1,4 +1,4 @@
-"""Finds the problems of a solution notebook; each message contains the notebook and the cell."""
+"""Finds the problems of a solution notebook; each message names the notebook and the cell."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ class NotebookStore:
         return [path for path in derived if path.name not in names]
 
     def problems(self) -> list[str]:
-        """Return the problems of all solutions; each message contains the notebook and the cell."""
+        """Return the problems of all solutions; each message names the notebook and the cell."""
         return [text for path in self.solutions() for text in problems(path.stem, read(path))]
 
 
@@ -107,7 +107,7 @@ def read(path: Path) -> Notebook:
 
 
 def text_of(notebook: Notebook) -> str:
-    """Return the content of the file for `notebook`. Raises AuthoringError if its format is invalid."""
+    """Return the content of the file for `notebook`. Raises AuthoringError if the format is invalid."""
     try:
         nbformat.validate(notebook)
     except nbformat.ValidationError as error:

@@ -12,7 +12,8 @@ from course_pkg.panels.stills import STILLS
 from course_pkg.types.fields import Plain
 
 SVG = "image/svg+xml"
-# The metadata of a measured picture have this key; its value is a digest of the drawing code.
+# This key is in the metadata of each picture that shows measured times; its value is a digest of the drawing
+# code.
 MADE_BY = "code"
 
 
@@ -32,9 +33,9 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
     """Add a still picture to each panel of `executed`; `executed` itself is changed.
 
     The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
-    show a recording, contain measured times, so they differ in each run. The function uses the picture in the
-    notebook `stored` instead if three things have not changed: the code of the cells up to this cell, the
-    drawing code, and the output's data in other MIME types.
+    show a recording, contain measured times, so they differ in each run. The function keeps the picture from
+    the notebook `stored` if three things have not changed: the code of the cells up to this cell, the drawing
+    code, and the output's data in other MIME types.
     """
     panels = SavedPanels(executed)
     before = {cell["id"]: cell for cell in code_cells(stored)}

@@ -1,4 +1,4 @@
-"""`course test`: runs the tests and the tools that check the code at the same time."""
+"""`course test`: runs the tests, and at the same time the tools that check the code."""
 
 from __future__ import annotations
 

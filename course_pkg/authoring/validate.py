@@ -50,7 +50,7 @@ def _copied(notebook: Path, folder: Path) -> Path:
 
 
 def command(notebooks: Sequence[Path], *, workers: int, compare: bool = True) -> list[str]:
-    """Return the command of `validate`.
+    """Return the command line that `validate` runs.
 
     The command does not use the configuration of the repository's own tests.
     """

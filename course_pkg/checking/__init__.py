@@ -1,7 +1,7 @@
 """The checks: each check is a separate node that examines a student's work from outside the kernel.
 
 A notebook calls `check("05.1")`. An author declares a check with `part`; the check receives a `CheckContext`.
-`matches` returns a pattern for hints, and `ANYTHING` is equal to every value.
+`matches` returns a pattern for hints, and `ANYTHING` is a pattern that matches every value.
 """
 
 from typing import TYPE_CHECKING

@@ -17,9 +17,9 @@ from course_pkg.types import Plain
 # value matches. If such a function raises an exception, for example because the value has another type, the
 # value does not match.
 Condition: TypeAlias = "Plain | bytes | re.Pattern[str] | Callable[[Any], object]"
-ANYTHING: Condition = re.compile("")  # This condition matches every value, for the last hint of a list.
-# One hint for every wrong value, or pairs (condition, hint): the first condition that matches selects the
-# hint.
+ANYTHING: Condition = re.compile("")  # This condition matches every value.
+# Hints are either one hint for every wrong value, or a list of pairs (condition, hint). In a list, the first
+# condition that matches selects the hint.
 Hints: TypeAlias = "str | Sequence[tuple[Condition, str]]"
 
 
@@ -28,7 +28,7 @@ class AssertionFailed(Exception):
 
 
 def matches(pattern: str) -> re.Pattern[str]:
-    """Return a condition for `hints` that matches a value whose text contains `pattern`, ignoring case."""
+    """Return a condition: it matches a value if `pattern` (in any case) occurs in the value's text."""
     return re.compile(pattern, re.IGNORECASE | re.DOTALL)
 
 
@@ -88,7 +88,7 @@ class Results:
         # This function returns the last call as text; a report needs this text only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
-        self.marked: set[str] = set()  # The check has marked these goals.
+        self.marked: set[str] = set()  # The check has marked these goals as fulfilled.
         # The dict contains the separately examined goals, and whether each goal holds.
         self._goals: dict[str, bool] = {}
 
@@ -117,7 +117,7 @@ class Results:
         self._goals[goal] = fulfilled and self._goals.get(goal, True)
 
     def passes(self, assertion: str) -> None:
-        """Record that `assertion` holds; it may still fail when it is checked again."""
+        """Record that `assertion` holds; the same assertion may still fail later."""
         self._assertions.setdefault(assertion, Assertion(assertion, holds=True))
 
     def fails(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:

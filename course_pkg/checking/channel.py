@@ -56,8 +56,8 @@ class Channel(JsonChannel):
     def ask(self, do: str, *, timeout: float, **arguments: Plain) -> dict[str, Json]:
         """Send the request `do` to the check client, and return its reply.
 
-        The time limit is `timeout` s, or longer on a busy machine. Raises ChannelBroken if the reply belongs
-        to another request, and the exceptions of JsonChannel.
+        The time limit is `timeout` s, or longer on a busy machine. Raises the exceptions of JsonChannel, and
+        ChannelBroken if the reply belongs to another request.
         """
         self._asked += 1
         limit = at_this_load(timeout)

@@ -37,6 +37,6 @@ def unpack(packed: str) -> str:
 
 
 def load(module: dict[str, object], packed: str) -> None:
-    """Run packed source as the code of the module whose global names are `module`."""
+    """Run packed source as the code of a module; `module` is the dict of the module's global names."""
     code = compile(unpack(packed), str(module["__file__"]), "exec", dont_inherit=True)
     exec(code, module)  # noqa: S102 -- it is the module's own source

@@ -23,8 +23,8 @@ ITEMS = 10_000
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
     """Return `value`, which must be an instance of `kind`.
 
-    Raises CheckError if student code has changed the check's own code in the kernel, so that the value has
-    another type.
+    Raises CheckError if `value` has another type, because student code has changed the check's own code in
+    the kernel.
     """
     if not isinstance(value, kind):
         raise CheckError(

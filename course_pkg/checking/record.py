@@ -88,9 +88,9 @@ class StudentRecord:
         return self.folder / f"{check}.json"
 
     def _before(self, check: str) -> tuple[PartRecord | None, str]:
-        """Return the earlier record of a part, and a message.
+        """Return the earlier record of a part, and "".
 
-        If the file is damaged, rename it and return None.
+        If the file is damaged, rename it, and return None and a message.
         """
         try:
             return self._read(check), ""
@@ -141,6 +141,6 @@ def _reason(error: Exception) -> str:
 
 
 def _listed(parts: list[str], most: int = 5) -> str:
-    """Return the ids of parts as one text with at most `most` ids."""
+    """Return a string with the ids of the first parts; it contains no more than `most` ids."""
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(parts[:most]) + more

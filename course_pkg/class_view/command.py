@@ -1,4 +1,4 @@
-"""Runs `course class`: with its own tokens, or as a service of a JupyterHub."""
+"""Runs `course class`, either with a file of tokens, or as a service of a JupyterHub."""
 
 from __future__ import annotations
 

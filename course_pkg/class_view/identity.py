@@ -100,7 +100,7 @@ class HubIdentity:
         return f"{self.service.base}hub/api/oauth2/authorize?{urlencode({**query, 'state': state})}"
 
     async def token_for(self, code: str) -> str:
-        """Return the token for the code that the hub has sent with the user, or "" for an invalid code."""
+        """Exchange the OAuth code from the hub's redirect for a token; return "" if the code is invalid."""
         form = {
             "client_id": self.service.client,
             "client_secret": self.service.token,

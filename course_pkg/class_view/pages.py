@@ -91,7 +91,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Answers all other addresses."""
+    """Refuses requests to all other addresses."""
 
     def get(self) -> None:
         """Send 404."""
@@ -165,7 +165,7 @@ class Page(TeacherHandler):
 
 
 class Asset(TeacherHandler):
-    """The page's script and style sheet."""
+    """Sends the page's script and style sheet."""
 
     def get(self, name: str) -> None:
         """Send a file."""
@@ -173,7 +173,7 @@ class Asset(TeacherHandler):
 
 
 class Changes(TeacherHandler):
-    """What has changed on the page."""
+    """Sends the changes of the class to the page."""
 
     async def get(self) -> None:
         """Wait for a change, and send it."""
@@ -183,10 +183,10 @@ class Changes(TeacherHandler):
 
 
 class Callback(TeacherHandler):
-    """The end of a login at the hub."""
+    """Receives the redirect from the hub at the end of a login."""
 
     async def prepare(self) -> None:
-        """Accept each request, because get() examines the code in it."""
+        """Accept each request, because get() examines the request."""
 
     async def get(self) -> None:
         """Exchange the code for a token, and open the page."""
@@ -208,7 +208,7 @@ class Callback(TeacherHandler):
 
 
 class About(Handler):
-    """What students may know about the service."""
+    """Sends the settings of the service that students may know."""
 
     async def get(self) -> None:
         """Send the teacher's name, and after how many days results are deleted."""

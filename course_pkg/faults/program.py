@@ -56,7 +56,7 @@ class Seen:
 class Program:
     """A Python program or a command in a separate process.
 
-    The process ends when this process ends, or earlier.
+    The process ends at the latest when the current process ends.
 
     A Python program waits for begin(); a command begins at once.
     """

@@ -33,7 +33,7 @@ rospy.spin()
 def keeper(body: str = WELL, **changes: str) -> str:
     """Return a program that serves /door; `body` is the code of its handler.
 
-    The function replaces each key of `changes` in the program by its value.
+    In the text of the program, the function replaces each key of `changes` with the value of this key.
     """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():
@@ -65,7 +65,7 @@ def kill_server(stage: Stage) -> None:
 
 
 def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:
-    """Return the text of a visitor that becomes a node and then runs `lines`."""
+    """Return the source of a visitor's program, which starts a node and then runs `lines`."""
     return f'import rospy\n{imports}\n\nrospy.init_node("visitor")\n{lines}\n'
 
 

@@ -135,7 +135,7 @@ class Stage:
         return self.keeper
 
     def serve_too(self, program: Program) -> None:
-        """Start another program that serves /door, and wait until it responds; raises NodeFailed."""
+        """Start another server of /door, and wait until it responds; on failure, raise NodeFailed."""
         program.begin()
         self.await_that(lambda: self._answers(program), program)
 

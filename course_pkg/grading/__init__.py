@@ -1,5 +1,5 @@
-"""Grading.
+"""Grades submissions.
 
-Grades submissions: a sandbox runs the reference notebook with the student's answers, and a process outside
-checks the results.
+A sandbox runs the reference notebook with the student's answers, and a process outside the sandbox checks the
+results.
 """

@@ -1,4 +1,4 @@
-"""Reads an instructor's private parts and points from a separate folder that students never see.
+"""Reads an instructor's additional exercises and points from a separate folder that students never see.
 
 private_05.py   further parts for exercises of chapter 05, declared like the chapter's own checks, with ids
                 such as "05.1.1": they are examined after the student's cell of exercise 05.1

@@ -109,7 +109,7 @@ def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) ->
 
 
 def telling_line(printed: str) -> str:
-    """Return the last line with an error, or else the last line, without colours and this folder's path."""
+    """Return the last line with an error, or else the last line; remove its colours and the folder's path."""
     lines = [line.strip() for line in COLOUR.sub("", printed).splitlines() if line.strip()]
     telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]
     return (telling or lines or ["nothing"])[-1].replace(f"{os.getcwd().rstrip('/')}/", "/")

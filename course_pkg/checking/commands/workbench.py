@@ -34,7 +34,7 @@ class CommandFolders:
     def __init__(self, find: Callable[[str], Path]) -> None:
         self._find = find  # The function returns the path of a student's file.
         self._open = ExitStack()
-        self._root: Path | None = None  # All folders are in this one, which is created with the first folder.
+        self._root: Path | None = None  # This folder contains all other folders.
         self._folders: list[Path] = []
         self._running: list[_Running] = []
 
@@ -171,8 +171,8 @@ def _finished(command: Sequence[str], folder: Path, timeout: float) -> Reply:
 def _scheduled(pid: int) -> Reply:
     """Return the CPU time of a process's main thread, and its waiting time for a CPU, in s.
 
-    Source: /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). Without this file, the reply
-    is empty.
+    Source: /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). If this file cannot be read,
+    the result is empty.
     """
     try:
         ran, queued, _ = Path(f"/proc/{pid}/schedstat").read_text().split()

@@ -197,7 +197,7 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 def _described(error: BaseException) -> Json:
     called = traceback.walk_tb(error.__traceback__)
-    # These lines are in cells.
+    # Keep only the lines of code in cells.
     lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
         "type": type(error).__name__,

@@ -1,8 +1,8 @@
 """Find a student's function or class that is older than the code in its cell.
 
-If the code in use is older, the check examines other code than the student sees in the cell. One cause is a
-syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but not
-the cell that creates the service.
+If the code in use is older, the check does not examine the code that the student sees in the cell. One cause
+is a syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but
+not the cell that creates the service.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class OlderCode:
         self._later_run = later_run
 
     def of_value(self, name: str, value: Value) -> str:
-        """Return what the student should do first if `value` is older than the last run of its cell."""
+        """If `value` is older than the last run of its cell, return an instruction, else ""."""
         run = self._run_after(value)
         if run is None:
             return ""
@@ -40,7 +40,7 @@ class OlderCode:
         )
 
     def of_service(self, service: str) -> str:
-        """Return what the student should do first if the handler of `service` is older than its cell."""
+        """If the handler of `service` is older than its cell, return an instruction, else ""."""
         handler = _handler_of(service)
         run = self._run_after(handler)
         if run is None:
@@ -62,7 +62,7 @@ class OlderCode:
     def _defined_again(self, function: FunctionType) -> bool:
         """Return whether the last run defined the function with the same code.
 
-        In that case, only other code of the cell has changed.
+        If the result is True, only other code in the cell has changed.
         """
         first, *rest = function.__qualname__.split(".")
         current = self._namespace.get(first)

@@ -99,7 +99,7 @@ class FaultyServer(ScriptedServer):
             return self.plan.popleft() if due else None
 
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
-        """Reply to the handshake, unless the next fault is Frozen; ignore the plan for a probe."""
+        """Reply to the handshake, unless the next fault is Frozen; a probe removes no fault from the plan."""
         if header.get("probe") == "1":
             with self._plan_lock:
                 frozen = bool(self.plan) and isinstance(self.plan[0].what, Frozen)

@@ -62,7 +62,7 @@ class Node:
             self.master.register_service(former.node, service, former.uri, former.node_uri)
 
     def forget_topics(self, made: Callable[[str], bool]) -> None:
-        """Unregister all publishers and subscribers of the topics for whose names `made` returns True.
+        """Unregister publishers and subscribers of the topics; `made` selects topics by name.
 
         A student's function may have left these topics registered.
         """

@@ -64,7 +64,7 @@ class Service:
         return self._answered(self._call([self._request(*values, **fields)])[0])
 
     def at_once(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
-        """Call with all `requests` at the same time, each in its own thread; return the replies in order.
+        """Make a call for each of `requests`, all at the same time; return the replies in order.
 
         The method asserts that the service responds to each request.
         """
@@ -74,7 +74,7 @@ class Service:
         return replies
 
     def replies(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
-        """Call with all `requests` at the same time, without an assertion; return the replies in order."""
+        """Do the same as at_once(), but without an assertion."""
         return self._call([self._request(**fields) for fields in requests])
 
     def refused(self, assertion: str, *, saying: str = "", hints: Hints = (), **fields: Value) -> str:

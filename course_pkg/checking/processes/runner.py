@@ -100,7 +100,7 @@ def _require_marks(part: Part, marked: set[str]) -> None:
 
 
 def _not_attempted(part: Part, channel: Channel) -> str:
-    """Return what to do first if a name that the check needs is missing or blank, else ""."""
+    """If a name that the check needs is missing or blank, return an instruction for the student, else ""."""
     for need in part.needs:
         replies = {name: channel.ask("look", timeout=LOOK, name=name) for name in need.split("|")}
         blank = next((name for name, reply in replies.items() if reply.get("kind") == "blank"), "")
@@ -123,7 +123,7 @@ def _not_attempted(part: Part, channel: Channel) -> str:
 
 
 def _unchanged(part: Part, channel: Channel) -> str:
-    """Return what to do if a file that has to be repaired was not changed, else ""."""
+    """If a file that has to be repaired was not changed, return an instruction for the student, else ""."""
     first, _, text = part.start.partition("\n")
     path = first.removeprefix("%%writefile").strip()
     now = channel.ask("source", timeout=LOOK, name=f"file:{path}").get("text") if path else None

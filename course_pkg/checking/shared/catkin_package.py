@@ -1,8 +1,8 @@
 """A check's copy of a student's catkin package, built in a separate folder, and the programs of this copy.
 
-The check adds its own version of each missing file, so one file can be examined before the student has
-written all files. In grading, a submission contains only the cells of the notebook, so files can be missing
-in grading, too.
+If the student has not written a file, the check adds the course's version of this file. Therefore, one file
+can be examined before the student has written the others. Files can also be missing in grading, because a
+submission contains only the cells of the notebook.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-# A package that contains only scripts needs no path except this path.
+# If a package contains only scripts, this path is sufficient; the package needs no build.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 # Without -j2, catkin_make sets a load limit, and make would wait while the machine is busy.
 CATKIN_MAKE = "catkin_make -j2"

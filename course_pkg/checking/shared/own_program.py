@@ -13,10 +13,10 @@ TIMEOUT = 2.0  # A node has to respond within this time in s.
 
 
 def require_own_nodes(context: CheckContext, space: str, besides: Collection[str] = ()) -> None:
-    """Assert that no node in the namespace `space` is a program of the course, except the nodes `besides`.
+    """Assert that no node in the namespace `space` is a program of the course; ignore the nodes in `besides`.
 
-    Every program of the course returns the record of its calls through the slave API; a program that uses
-    only rospy or roscpp has no such method. A report shows this assertion only if it fails.
+    Every program of the course has an additional method in its slave API, which returns a record of calls; a
+    program that uses only rospy or roscpp has no such method. A report shows this assertion only if it fails.
     """
     for node in context.look().nodes:
         if node.name.startswith(f"{space}/") and node.name not in besides and _returns_a_record(node.uri):
@@ -32,7 +32,7 @@ def require_own_nodes(context: CheckContext, space: str, besides: Collection[str
 
 
 def require_kernel(context: CheckContext, nodes: Collection[str]) -> None:
-    """Assert that all `nodes` are the student's kernel, not a program that the student's code has started.
+    """Assert that each of `nodes` is the kernel's node, not the node of another program.
 
     A report shows this assertion only if it fails.
     """

@@ -19,7 +19,7 @@ def require_shebang(
     assertion: str = "its first line is #!/usr/bin/env python3",
     program: str = "python3",
 ) -> None:
-    """Assert that the first line of the student's file is a shebang with `program`, and not with Python 2.
+    """Assert that the file's first line is a shebang for `program`, and that it does not use Python 2.
 
     There are hints for five cases: no shebang, a shebang that is not in the first line, another program,
     Windows line endings, and a byte order mark. If a hint is not given, `missing` is used.

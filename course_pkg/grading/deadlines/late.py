@@ -1,7 +1,4 @@
-"""Lateness.
-
-Reads a table of late days, and computes the deduction of points from options of `course grade`.
-"""
+"""Reads a table of late days, and computes the deduction of points from options of `course grade`."""
 
 from __future__ import annotations
 
@@ -77,7 +74,7 @@ class LateTable:
         return self.rows.get((student, chapter), self.rows.get((student, ""), 0.0))
 
     def applied(self, submissions: Sequence[Submission]) -> list[Submission]:
-        """Return the submissions with the days late from the table, where the table has a row for them."""
+        """Return the submissions; for each submission in the table, use the table's late days."""
         return [
             self._late(each)
             if (each.student, each.chapter) in self.rows or (each.student, "") in self.rows

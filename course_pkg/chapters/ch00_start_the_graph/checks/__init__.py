@@ -152,7 +152,7 @@ def read_the_graph(context: CheckContext) -> None:
     needs=["ask_for_volume"],
 )
 def ask_a_question(context: CheckContext) -> None:
-    """Serve random volumes, so that only a real call returns the right volume."""
+    """Respond with random volumes, so that only a real call returns the right volume."""
     for _ in range(2):
         name = f"/{context.random.word()}"
         length, width, height = context.random.numbers(3, 0.5, 9.0)
@@ -278,7 +278,7 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     goals=[RECEIVED, MISSED],
 )
 def count_what_was_missed(context: CheckContext) -> None:
-    """Run the function twice with different pauses; each time, a new topic publishes consecutive numbers."""
+    """Run the function twice with different pauses, each time with consecutive numbers on a new topic."""
     # The second pause is longer than the 2 s of the chapter, so that a fixed pause fails.
     for shortest in (0.25, 2.2):
         topic = f"/{context.random.word()}"

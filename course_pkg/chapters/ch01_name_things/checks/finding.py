@@ -1,4 +1,4 @@
-"""Checks of functions that find services and publishers of nodes that run, or that are only registered."""
+"""Checks of functions that find services and running publishers; some names only have dead registrations."""
 
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -26,7 +26,7 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
     goals={FOUND: 2, "Return None if there is no such service.": 1},
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve a random name and similar names, three times in namespaces of different depths.
+    """Serve a service with a random name, and services with similar names; do this at three namespace depths.
 
     After that, pass the name of a service that does not exist.
     """
@@ -126,7 +126,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Call the function with new names, so that a function that only counts its calls fails."""
+    """Call the function with new names, so that a function with a fixed list of results fails."""
     volumes: list[float | None] = [*context.random.numbers(context.random.integer(2, 4), 1.0, 9.0)]
     missing: list[float | None] = [None] * context.random.integer(1, 3)
     for volume in context.random.shuffled([*volumes, *missing]):
@@ -184,7 +184,8 @@ def who_really_publishes(context: CheckContext) -> None:
     """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]
-    # In each order, a dead node is between running nodes, so a loop must not end at a dead node.
+    # In each order, a dead node comes between running nodes, so a loop that ends at a dead node misses some
+    # nodes.
     living, dead = context.random.shuffled(sorted(names[:5])[::2]), sorted(names[:5])[1::2]
     for number, name in enumerate([living[0], dead[0], living[1], dead[1], living[2]]):
         context.fake_node(name, topic, NUMBER, alive=number % 2 == 0, reused=number == 3)

@@ -15,8 +15,9 @@ from course_pkg.waiting import at_this_load, wait_until
 WAITS_FOR_EVER = (
     "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
 )
-# These times in s are for a count without a subscriber. The student's function waits 2 s, and then publishes
-# ALONE (11) numbers in 1.1 s. The subscriber connects COMES (2.3) s after the publisher.
+# These times in s are for a call of the student's function without a subscriber. The student's function waits
+# 2 s, and then publishes ALONE (11) numbers in 1.1 s. The subscriber connects COMES (2.3) s after the
+# publisher.
 NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "If there is no subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.
@@ -56,7 +57,7 @@ LATCHED = "Send the last value to every node that subscribes later."
     goals={COUNTS: 3, "Begin to publish after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
-    """Subscribe to two counts with different rates; then start a third count without a subscriber."""
+    """Let the student's function publish at two different rates; then start it without a subscriber."""
     for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
         topic = f"/{context.random.word()}"
         subscription = context.subscribe(topic, "std_msgs/UInt32")
@@ -84,7 +85,7 @@ def count_aloud(context: CheckContext) -> None:
 
 
 def _counts_alone(context: CheckContext, topic: str) -> None:
-    """Start a count without a subscriber; subscribe when the function should already publish."""
+    """Start the function without a subscriber; subscribe at a time when the function must already publish."""
     late: list[Subscription] = []
 
     def come() -> None:
@@ -192,7 +193,8 @@ def _counts(context: CheckContext, arrivals: list[Arrival], count: int) -> None:
 def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> None:
     """Assert that the average rate is right, and that the messages arrive at equal intervals."""
     seen = rate(arrivals)
-    # On a busy machine, each pause is longer. A program that pauses twice has half of the rate.
+    # On a busy machine, each pause takes longer, so the rate may be lower. The limit stays above half of the
+    # rate, because a program that pauses twice for each number publishes at half of the rate.
     lowest = max(0.75 / at_this_load(1.0), 0.55)
     context.require(
         "the average rate is the given rate",
@@ -272,7 +274,7 @@ def a_notice(context: CheckContext) -> None:
 
 
 def _set(context: CheckContext, topic: str, value: float) -> float:
-    """Call set(value) of the student's notice for `topic`; return the duration of this call in s."""
+    """Call set(value) of the student's class Notice for `topic`; return the duration of this call in s."""
     hints = [
         (
             matches("TimesUp"),

@@ -1,4 +1,4 @@
-"""Checks of subscribers: one publishes mirrored messages, and two others need different queues."""
+"""Checks of subscribers: one node mirrors joint states, and one node needs two different queues."""
 
 import statistics
 import threading
@@ -413,9 +413,10 @@ def two_queues(context: CheckContext) -> None:
 def _drawn(
     context: CheckContext, at_once: int, drawn: list[tuple[float, Value]], sent: Mapping[float, float]
 ) -> None:
-    """Assert that each angle in `drawn` (time, angle) was the newest angle at its time.
+    """Assert that each drawn angle was the newest published angle at the time of its drawing.
 
-    `sent` contains the time of each published angle.
+    `drawn` contains the times and the angles of the drawings, and `sent` contains the time of each published
+    angle.
     """
     angles = [angle for _, angle in drawn]
     context.require(

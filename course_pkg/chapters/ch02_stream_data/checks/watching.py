@@ -124,10 +124,11 @@ def _says(
     pause: float = 0.0,
     before: float = float("inf"),
 ) -> None:
-    """Assert that state() returns `word` in each of `times` calls that end before the time `before`.
+    """Call state() once or several times (`times`), and assert that each call returns `word`.
 
-    The check pauses `pause` s between two calls. The duration of the fastest call shows whether state()
-    waits, because a busy machine makes only some of the calls slow.
+    There is a pause of `pause` s between two calls. A call that ends after the time `before` may return any
+    of the three strings. The fastest call must be fast; other calls may be slow, because the machine may be
+    busy.
     """
     took = []
     for _ in range(times):

@@ -39,7 +39,7 @@ def begin(start, *topics):
 def end():
     for name, names in ear.names.items():
         names[name] = ear.say
-"""  # The kernel code reports the calls, because the topic may not show that two calls run at the same time.
+"""  # This code reports the calls, because the greetings on the topic do not show whether two calls overlap.
 MIXED_UP = (
     "Your function publishes on `customers`, which is the wrong topic. Subscribe to `customers`, "
     "and publish on `greetings`."
@@ -130,7 +130,7 @@ def _greets(
     if numbers[2] > max(numbers[:2]):
         # numbers[2] is the last number that _told() publishes. A subscriber with queue_size=1 receives this
         # message. A node that stores only the largest number ignores the message, because an earlier number
-        # is larger. Therefore, exactly one hint is right.
+        # is larger. Therefore, the check can distinguish these two mistakes, and gives the right hint.
         numbers[0], numbers[2] = numbers[2], numbers[0]
     first, later = numbers[:5], numbers[5:]
     start, call = Its("start_greeting"), "start_greeting()"

@@ -65,7 +65,7 @@ class Cashier:
         rospy.spin()
 
     def run_client(self, patience: float, pause: float) -> None:
-        """Call until there is no new customer; repeat this every `pause` s until the node is shut down."""
+        """Every `pause` s, request customers until there is no new one; return after a shutdown."""
         self.offer_report()
         due = time.monotonic()
         while not rospy.is_shutdown():

@@ -1,8 +1,8 @@
 """The node `detector`: finds new customers in the messages on `counter`, which a camera publishes.
 
 The node publishes the number of each customer once on `customers` (std_msgs/UInt32). The node also serves
-`detect_customer` (course_pkg/DetectCustomer). A call waits for a customer for at most the time in the
-request.
+`detect_customer` (course_pkg/DetectCustomer). A call waits for a customer; the request contains the maximum
+waiting time.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ class Detector:
 
     @contextmanager
     def _place(self) -> Iterator[None]:
-        """Count as a waiting caller during the block.
+        """Increase the number of waiting callers during the block.
 
         Raises ServiceException if too many callers are waiting.
         """

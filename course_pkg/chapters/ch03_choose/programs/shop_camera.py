@@ -63,8 +63,8 @@ class ShopCamera:
             visits = self._counter.let_in(time.time(), after, stay)
             self._changed.notify()
         # A client waits for a number that is higher than the last number that it received. Therefore, the
-        # numbers must continue after a restart of this node. Without a master, the parameter cannot be
-        # stored, and the numbers start again at 1.
+        # numbers must continue after a restart of this node. If no master is running, the parameter cannot be
+        # stored; the numbers then start again at 1 after a restart.
         with suppress(OSError, rospy.ROSException):
             rospy.set_param("~number", self._counter.number)
         return visits

@@ -41,7 +41,7 @@ class Pair:
 def who_talks_to_whom(context: CheckContext) -> None:
     """Try differences that change the MD5 sum, and differences that do not change it."""
     again = context.random.shuffled(_pairs(context))[: context.random.integer(6, 9)]
-    # In a random order, a function that only counts its calls fails.
+    # The order is random, so that a function with a fixed list of results fails.
     for pair in (*_pairs(context), *again):
         for server, client in context.random.shuffled(
             [(pair.server, pair.client), (pair.client, pair.server)]

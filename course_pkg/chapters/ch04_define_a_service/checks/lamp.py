@@ -100,9 +100,9 @@ def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
 
 
 def md5_in(folder: Folder) -> tuple[str, str]:
-    """Return the MD5 sum of the type that Python finds in `folder`, and "".
+    """Import the generated type from the build in `folder`; return its MD5 sum and "".
 
-    If Python finds no type, return "" and the error output.
+    If the import fails, return "" and the output of the command.
     """
     line = "python3 -c 'from lamp_services.srv import Lamp; print(Lamp._md5sum)'"
     done = folder.command("bash", "-c", f". devel/setup.bash && {line}", within=10.0, worded=line)
@@ -110,7 +110,7 @@ def md5_in(folder: Folder) -> tuple[str, str]:
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return the fault as a fault in the student's file, because the check's own files are correct."""
+    """Return `fault` with the student's file as its place, because the check's own files are correct."""
     theirs = given[0].removeprefix("src/")
     if GENERATION.search(fault.problem):
         fault = replace(fault, remedy=RUNTIME)

@@ -40,7 +40,7 @@ CLOSES = "Shut /move_arm down. Return the state after the call, and return wheth
     goals=[MOVES, CLOSES, "After the maintenance, serve /move_arm again, and continue to count."],
 )
 def close_for_maintenance(context: CheckContext) -> None:
-    """Start the program; call /move_arm, close it twice, open it twice, and call it again."""
+    """Start the program; call /move_arm, close this service twice, open it twice, and call it again."""
     require_shebang(
         context,
         FILE,
@@ -126,7 +126,7 @@ def _works(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, maintenance: Service, moves: int) -> None:
-    """Close, open and move the arm in a random order, so that a program that only counts its calls fails."""
+    """Close, open and move the arm in a random order; a program with a fixed list of responses then fails."""
     closed = False
     for _ in range(context.random.integer(5, 8)):
         data = context.random.choice([True, False])

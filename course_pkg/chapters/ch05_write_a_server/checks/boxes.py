@@ -196,7 +196,7 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 
 def _unclear(named: list[str], side: str, reason: str) -> str:
-    """Return the hint for a message with the names `named`; the right message contains only `side`."""
+    """Return the hint for an error message that names the sides `named` instead of only `side`."""
     if len(re.findall(NUMBER, reason)) > MANY:
         return "The message contains too many numbers. Write only the value of the negative side."
     if "{" in reason:

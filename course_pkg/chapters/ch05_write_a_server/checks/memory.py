@@ -174,9 +174,9 @@ def a_counter_that_resets(context: CheckContext) -> None:
 
 
 def _starts_from_zero(context: CheckContext) -> None:
-    """Count once with a new object while /count is not at zero.
+    """Call a new Counter() once while the count of /count is not 0; the new counter must return 1.
 
-    A class with another interface is not tested.
+    If the student has no class Counter, nothing is tested.
     """
     if not context.has("Counter"):
         return

@@ -138,7 +138,7 @@ def read_the_arguments(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, program: str) -> None:
-    """Try valid and invalid lists of arguments, so that a program that only counts its calls fails."""
+    """Try valid and invalid lists of arguments, so that a program with a fixed list of results fails."""
     counts = [3] * context.random.integer(2, 4) + [2] * context.random.integer(1, 2) + [4, 5]
     for count in context.random.shuffled(counts):
         numbers = context.random.numbers(count, 0.5, 9.0)

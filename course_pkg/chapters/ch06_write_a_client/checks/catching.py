@@ -94,7 +94,7 @@ def catch_what_can_happen(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, sides: list[float]) -> None:
-    """Try new servers that respond or refuse, so that a function that only counts its calls fails."""
+    """Try new servers that respond or refuse, so that a function with a fixed list of results fails."""
     responding = volumes(context, context.random.integer(2, 4))
     failing = [None] * context.random.integer(2, 4)
     for volume in context.random.shuffled([*responding, *failing]):

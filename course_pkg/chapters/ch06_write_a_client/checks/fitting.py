@@ -44,7 +44,7 @@ class Case:
     # If `remapped` is True, getGeometry is remapped; otherwise, the program runs in another namespace.
     remapped: bool = False
     late: bool = False  # `late` is True if the service starts after the program.
-    ends: str = ""  # If this run and all earlier runs are right, the student has fulfilled the goal `ends`.
+    ends: str = ""  # `ends` is a goal; the student has reached it if this run and all earlier runs are right.
 
 
 COMPARED = "Call getGeometry, and print whether the volume is at most LIMIT."

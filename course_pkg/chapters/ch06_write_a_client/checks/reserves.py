@@ -148,7 +148,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         ],
     )
     took = frozen.took
-    if took - working.took >= LONGEST:  # A busy machine makes only some of the calls slow.
+    if took - working.took >= LONGEST:  # The first call may be slow only because the machine is busy.
         took = min(took, _first_of(context, names, "frozen", "second").took)
     context.require(
         "a frozen service delays the result by about one second",
@@ -180,7 +180,7 @@ def ask_the_next_one(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: Mapping[str, float]) -> None:
-    """Mix lists with and without a working service, so that a function that only counts its calls fails."""
+    """Mix lists with and without a working service, so that a function with a fixed list of results fails."""
     used = [*context.random.shuffled(list(works))[:2], *[""] * context.random.integer(1, 3)]
     for working in context.random.shuffled(used):
         failing = context.random.shuffled(["nowhere", "refuses"])[: context.random.integer(1, 2)]

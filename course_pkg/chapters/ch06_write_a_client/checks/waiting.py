@@ -8,9 +8,10 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.waiting import at_this_load
 
 # The function gets this time limit in s, for existing and for missing services; a busy machine connects
-# within it.
+# within this time.
 SAME = 1.5
-STARTS, LATER = 1.3, 4.0  # A service starts after STARTS s, and the function may wait for it for LATER s.
+# A service starts after STARTS s, and the function may wait LATER s for this service.
+STARTS, LATER = 1.3, 4.0
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
 
@@ -126,7 +127,7 @@ def is_anybody_there(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext) -> None:
-    """Try new names, so that a function that only counts its calls fails."""
+    """Try new names, so that a function with a fixed list of results fails."""
     fixed = (
         "The result was wrong for a second service. The result has to depend on the given "
         "service, not on earlier calls."

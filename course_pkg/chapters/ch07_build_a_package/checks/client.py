@@ -59,7 +59,7 @@ def the_client(context: CheckContext) -> None:
 
 def _prints_the_answer(context: CheckContext, package: BuiltPackage) -> None:
     sides = context.random.numbers(3, 0.5, 9.0, digits=1)
-    # The area has one decimal place, so print(round(area, 2)) prints only one.
+    # The area has only one decimal place, so print(round(area, 2)) does not print two decimal places.
     area, volume = context.random.number(100.0, 900.0, digits=1), context.random.number(100.0, 900.0)
     server = context.serve(SERVICE, geometry_class(), lambda _: {"area": area, "volume": volume})
     done = _run(package, [*map(str, sides), f"__name:={context.random.word()}"])

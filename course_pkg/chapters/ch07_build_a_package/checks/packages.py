@@ -1,6 +1,6 @@
 """The two packages of chapter 07.
 
-For each missing file, the check uses its own version.
+If the student has not written a file, the check uses the course's version of this file.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ class ExampleCall:
     answer: Fields
 
     def given(self, received: Value) -> Value:
-        """Return the fields of a received request that the call has set, even in nested messages."""
+        """Return the values that `received` has in the fields of this call, even in nested messages."""
         return _given(self.fields, received)
 
     def mixed_up(self, received: Fields) -> bool:
@@ -39,7 +39,7 @@ def _nothing(context: CheckContext) -> ExampleCall:
 
 
 def _numbers(context: CheckContext) -> ExampleCall:
-    """Return a call with two negative numbers; in the dict, the second field comes first."""
+    """Return a call with two negative numbers; the dict contains the second field before the first field."""
     a, b, total = (-number for number in context.random.integers(3, 100, 999))
     return ExampleCall("negative numbers", "course_pkg/AddTwoInts", {"b": b, "a": a}, {"sum": total})
 

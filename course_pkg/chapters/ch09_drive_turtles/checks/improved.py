@@ -98,7 +98,7 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: Service) -> Service:
-    """Set speeds, and try impossible speeds; return a proxy of the service that sets them."""
+    """Set speeds, and try impossible speeds; return a proxy of the service that sets the speed."""
     change = world.service(
         "change_speed",
         CHANGE_SPEED,

@@ -180,8 +180,6 @@ def refuses(context: CheckContext, service: Service, assertion: str, **fields: f
     """Assert that the node refuses a request on purpose.
 
     With rospy, the node does this with a ServiceException.
-
-    With rospy, the node does this with a ServiceException.
     """
     (number,) = fields.values()
     why = (

@@ -18,7 +18,7 @@ from course_pkg.workspace import explain
 
 # A node must be on the graph within this many s; it takes 1 s on an idle machine.
 STARTING = 30.0
-SETTLING = 4.0  # SETTLING is the maximum time in s until this node serves its services.
+SETTLING = 4.0  # SETTLING is the time limit in s for the node to serve its services after it is on the graph.
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SIMULATOR = "simulator"
 SERVED = ("spawn", "toggle_forward", "change_rate", "change_speed", "start_stop")
@@ -27,12 +27,10 @@ LOGGERS = ("/get_loggers", "/set_logger_level")  # Every node has these services
 
 
 class World:
-    """The names in a new namespace, which the student's program uses.
+    """A new namespace for the student's program.
 
-    The program may use relative and absolute names.
-
-    A relative name such as "spawn" is resolved in the namespace of the node, and an absolute name is
-    remapped. The names of `services` and the topics of an additional `turtle` are remapped.
+    A relative name in the program, such as "spawn", is resolved in this namespace. The absolute names of
+    `services` and of the turtles' topics are remapped to it; `turtle` is the name of an additional turtle.
     """
 
     def __init__(

@@ -105,7 +105,7 @@ ERRORS = [
     deadline=45.0,
 )
 def wait_for_another_call(context: CheckContext) -> None:
-    """Take an item from a filled basket and from an empty basket; put an item into it while a client waits.
+    """Take an item from a full and from an empty basket; put an item into the basket while a client waits.
 
     At the end, let many clients call both services at the same time.
     """

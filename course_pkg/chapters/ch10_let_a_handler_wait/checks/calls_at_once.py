@@ -78,7 +78,7 @@ class Proxies:
 
 
 class Gate:
-    """A service that responds `hold` s after `count` clients have called it, or after TOGETHER s."""
+    """A service that waits at most TOGETHER s for `count` calls, and responds `hold` s later."""
 
     def __init__(self, count: int, words: list[str], hold: float = 0.0) -> None:
         self.most = 0  # `most` is the maximum number of clients that waited at the same time.
@@ -185,7 +185,7 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
 
 
 def _called(context: CheckContext, count: int, gate: Gate) -> None:
-    # Threads that the function did not join may still call later.
+    # Threads that the function did not join may call the service after the function has returned.
     wait_until(lambda: gate.requests >= count, TOGETHER)
     context.expect(
         "the service is called `count` times",

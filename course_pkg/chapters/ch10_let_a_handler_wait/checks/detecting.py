@@ -21,7 +21,8 @@ LONG = 2.0
 LATER = 0.6  # A customer comes after this many s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this many s, the customers change although no client waits.
-# A handler that makes fewer calls of watch.next() in LONG s, but does not really wait, is too slow.
+# A handler that waits for notifications makes few calls of watch.next(). If a handler without such a wait
+# makes fewer calls than this in LONG s, its pauses are too long.
 SELDOM = 8
 LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
 
@@ -108,9 +109,9 @@ FOUND = (
     goals={FOUND: 2, "Respond to several clients at the same time.": 1},
 )
 def wait_for_a_customer(context: CheckContext) -> None:
-    """Call without a customer; then with a present, a known and a late customer.
+    """Call without a customer, with a customer who is there, and with a customer who comes later.
 
-    Then call from several clients.
+    Then make several calls at the same time.
     """
     counter, name = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(A_SHOP)

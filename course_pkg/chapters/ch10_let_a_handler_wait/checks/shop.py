@@ -75,7 +75,7 @@ class Till:
         self._changed = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next call wait for a second call, but only for a limited time."""
+        """Let the next call wait until there is a second call; the wait takes at most MEETING s."""
         self._meets = True
 
     def __call__(self, request: Message) -> Act:

@@ -1,4 +1,4 @@
-"""A shelf that shows mistakes of threads without a lock, and a shop in the kernel that uses this shelf."""
+"""A shelf that reveals a missing lock, and a shop in the kernel that uses this shelf."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ class CheckedShelf:
         self._turn = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next thread wait longer, until the other threads have started, even on a busy machine."""
+        """Let the next calls of read() and write() wait until the other threads have started."""
         self._long_waits = FIRST
 
     @remote

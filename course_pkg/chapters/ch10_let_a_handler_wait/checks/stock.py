@@ -56,7 +56,7 @@ EMPTIED = 'Sell the things to one client after the other. When the shelf is empt
     goals=[EMPTIED, "Sell each thing only once, even if 50 clients call at the same time."],
 )
 def safe_with_fifty_clients(context: CheckContext) -> None:
-    """Empty a small shelf with single calls; then make fifty simultaneous calls for fewer things."""
+    """Take all things from a small shelf with single calls; then make fifty simultaneous calls."""
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
     few = context.random.integer(2, 4)
@@ -93,7 +93,7 @@ def _opened(context: CheckContext, name: str, shelf: CheckedShelf, timeout: floa
 
 
 def _sells_what_comes_later(context: CheckContext, take: Service, things: int) -> None:
-    """Take a thing after the shelf was filled again with `things` things."""
+    """Take a thing after `things` new things were put on the shelf."""
     context.expect(
         'the message is the number of things that are left, or "sold out"',
         expected=str(things - 1),

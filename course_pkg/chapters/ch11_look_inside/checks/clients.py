@@ -63,7 +63,7 @@ STORED = "Look up the address once, and use the stored address for all calls."
     ],
 )
 def persistent_client(context: CheckContext) -> None:
-    """Respond, refuse, close the connection, stop the server, and start the server at another address."""
+    """Call a server that responds, refuses, closes the connection, stops, or starts at another address."""
     name = f"/{context.random.word()}"
     volumes = context.random.numbers(8, 10.0, 90.0)
     acts: list[Act] = [{"volume": each} for each in volumes[:5]]
@@ -96,9 +96,9 @@ def persistent_client(context: CheckContext) -> None:
 
 
 def _next_act(acts: list[Act]) -> Act:
-    """Return the next act of the list. A refusal is repeated until the check removes it from the list.
+    """Return the server's next action. A refusal is repeated until the check removes it from the list.
 
-    After the last act, close the connection.
+    If the list is empty, close the connection.
     """
     if not acts:
         return HangUp()
@@ -272,7 +272,7 @@ SAID_NO = (
     goals=[STORED, "Look up the address again if no server is at the stored address any more."],
 )
 def client_with_a_known_address(context: CheckContext) -> None:
-    """Call, unregister the name, refuse a call, and start the server at another address."""
+    """Call a service that runs, is unregistered, refuses, or has moved to another address."""
     name = f"/{context.random.word()}"
     numbers = [context.random.numbers(2, 10.0, 90.0) for _ in range(3)]
     answers: list[Act] = [dict(zip(("area", "volume"), each, strict=True)) for each in numbers]

@@ -141,7 +141,8 @@ def _names(source: str) -> set[str]:
     """
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
-    except SyntaxError:  # For example, the source of a lambda is only a part of a line.
+    # The source of a lambda, for example, can be only a part of a line, which is not valid Python.
+    except SyntaxError:
         return set()
     attributes = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
     variables = {node.id for node in nodes if isinstance(node, ast.Name)}

@@ -182,7 +182,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
     """Send new requests and repeat them; return the id and the receipt of a charged request."""
     cents = context.random.integer(100, 900)
     first = context.random.word(12)
-    second = first.upper()  # Ids are equal only if all letters are equal.
+    second = first.upper()  # Upper-case and lower-case letters are different in an id.
     receipt = charge(request_id=first, cents=cents).receipt
     _purse_has(
         context,
@@ -249,7 +249,7 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
 def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
     """Send a request twice at the same time, and let the purse fail once.
 
-    A receipt is allowed only for a charge.
+    A till that returns a receipt must have charged the request exactly once.
 
     If both requests share one call of take(), both clients get an error.
     """

@@ -191,7 +191,7 @@ def _refused(context: CheckContext, name: str, till: FaultyServer) -> None:
 
 
 def _in_a_random_order(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
-    """Mix refusals with failures, so that a client that only counts its calls fails."""
+    """Mix refusals and failures in a random order, so that a client with a fixed list of results fails."""
     refusals, failures = (context.random.integer(1, 2) for _ in range(2))
     for refuses in context.random.shuffled([True] * refusals + [False] * failures):
         if refuses:

@@ -59,7 +59,7 @@ ERRORS = [
 
 
 class Adder:
-    """Returns the sum of two numbers, or does `act` instead."""
+    """Returns the sum of two numbers; if `act` is not None, the server executes `act` instead."""
 
     def __init__(self) -> None:
         self.act: Act | None = None
@@ -102,9 +102,10 @@ def a_call_with_a_limit(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
-    """Mix the cases with the same limit.
+    """Mix responses, refusals and missing responses in a random order.
 
-    So a function that depends on the limit, or that counts its calls, fails.
+    The limit is always the same. Therefore, a function fails if it has a fixed list of results, or if it
+    chooses the result by the limit.
     """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses

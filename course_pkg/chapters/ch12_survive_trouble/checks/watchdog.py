@@ -289,9 +289,9 @@ def _stops(context: CheckContext, watched: CheckedMaster) -> None:
 
 
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
-    """Return the mistake of a watchdog that registers the service within LATE s after stop() has returned.
+    """Call stop() during a poll; return "quiet" if the watchdog registers nothing in the next LATE s.
 
-    Return "" for a watchdog without this mistake.
+    Otherwise, return what went wrong.
     """
     watched.hold()
     if not watched.inside.wait(SOON):

@@ -240,7 +240,7 @@ def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
 def _refusing(
     context: CheckContext, name: str, times: int, volume: float
 ) -> tuple[ScriptedServer, list[float]]:
-    """Serve, but refuse the first `times` calls; return the server and the times of its calls (s)."""
+    """Start a server that refuses the first calls; return the server and the times of all calls (s)."""
     calls: list[float] = []
 
     def act(_: object) -> Refuse | dict[str, float]:

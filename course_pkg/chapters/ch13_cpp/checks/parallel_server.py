@@ -141,8 +141,8 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
 def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str) -> None:
     """Assert that six simultaneous calls get six numbers; repeat the calls until all six overlap.
 
-    If a call waits for a thread, its think() begins only when another call has ended. In this case, the
-    response is late by the duration of think().
+    If a call waits for a thread, the think() of this call begins only when another call has ended. In this
+    case, the response is late by the duration of think().
     """
     numbers_to_come = itertools.count(2)
     took: list[float] = []

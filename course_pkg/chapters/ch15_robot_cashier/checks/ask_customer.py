@@ -182,7 +182,7 @@ class Run:
 class _Detector:
     """A detector that finds a customer only if `patience` is equal to `wait`.
 
-    It refuses the `patience` REFUSED.
+    It refuses a call if `patience` is REFUSED.
     """
 
     def __init__(self, wait: float) -> None:

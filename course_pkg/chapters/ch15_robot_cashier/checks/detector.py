@@ -229,7 +229,7 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     },
 )
 def the_silent_camera(context: CheckContext) -> None:
-    """Call before the first message, shortly and long after the last message, and while messages arrive."""
+    """Call before the first message, 0.4 s and 1.2 s after a message, and when messages come again."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)

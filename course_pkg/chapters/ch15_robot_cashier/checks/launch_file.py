@@ -171,7 +171,7 @@ def _lists(context: CheckContext, printed: str, given: str, wanted: Sequence[str
 
 
 def _passes_the_argument(context: CheckContext, printed: str, wait: float, given: list[str]) -> None:
-    """Assert that the private parameter of the cashier has the value `wait`."""
+    """Assert that the private parameter of the cashier has the value of the argument `wait`."""
     found = OF_CASHIER.search(printed)
     every = re.findall(r"^(\S*wait): *(.+)$", printed, re.MULTILINE)
     context.require(

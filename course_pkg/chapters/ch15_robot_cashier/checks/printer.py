@@ -14,8 +14,8 @@ JAM = "paper jam: two lines at once"
 class Printer:
     """Serves print_line; while the error message `fault` is not empty, it refuses each line.
 
-    `lines` contains the printed lines. While the event `held` is not set, the printing of each line waits,
-    but at most 10 s.
+    `lines` contains the printed lines. The printing of a line waits until the event `held` is set; the
+    maximum waiting time is 10 s.
     """
 
     def __init__(self) -> None:

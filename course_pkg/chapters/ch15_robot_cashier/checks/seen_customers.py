@@ -45,7 +45,7 @@ class SeenCustomers:
         time.sleep(0.05)
 
     def show_later(self, after: float, customer: bool) -> None:
-        """Publish `customer` from `after` s on."""
+        """After `after` s, begin to publish `customer`."""
         timer = threading.Timer(after, self.show, [customer])
         timer.daemon = True
         timer.start()

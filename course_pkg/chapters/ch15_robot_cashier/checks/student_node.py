@@ -139,10 +139,10 @@ def complete(
 
 
 def still(started: float, least: float) -> float:
-    """Return the time until which a check waits for missing names, if the first name exists now.
+    """Call this when a node has its first name; return the time until which its other names must exist.
 
-    The check waits `least` s, or longer on a busy machine. `started` and the result are in s of
-    time.monotonic().
+    The result is at least `least` s from now, and later on a busy machine. `started` and the result are in s
+    of time.monotonic().
     """
     now = time.monotonic()
     return now + max(least, 3 * (now - started))

@@ -227,7 +227,7 @@ class Detector:
         self._lock = threading.Lock()
 
     def answer(self, request: AwaitCustomerRequest) -> Act:
-        """Return the response to this call, or the failure."""
+        """Record the call, and return the response or the failure."""
         with self._lock:
             step = STEPS[min(len(self.calls), len(STEPS) - 1)]
             now = time.monotonic()
@@ -244,7 +244,7 @@ class Till:
         self._detector = detector
 
     def answer(self, _: TriggerRequest) -> Act:
-        """Return the response to this call, or the failure."""
+        """Record the call, and return the response or the failure."""
         self.resets.append(len(self._detector.calls))
         second = len(self.resets) == 2
         return Refuse("no till today") if second else {"success": True, "message": "paid 5 cents"}

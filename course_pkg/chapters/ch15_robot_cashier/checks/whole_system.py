@@ -100,7 +100,7 @@ AFTERWARDS = (
     start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
 )
 def the_whole_system(context: CheckContext) -> None:
-    """Act as two customers, with faults of the printer and of the camera; then kill all nodes."""
+    """Use the system like two customers, cause faults of printer and camera, and kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
     command = f"python3 -c '{READER}' {FILE} hardware:=false"
     programs = package.start(command, worded="roslaunch")

@@ -1,7 +1,7 @@
 """The node `customer_detector`: waits for a customer at the counter, and returns whether there is one.
 
 The node subscribes to `customer_seen` (std_msgs/Bool), and serves `detect_customer`
-(course_pkg/AwaitCustomer). A call waits for a customer, for at most the time in the request.
+(course_pkg/AwaitCustomer). A call waits for a customer; the request contains the maximum waiting time.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The node `till`: adds the prices of a customer's items.
 
 The node has three services: `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
-(course_pkg/TillTotal) returns the sum, and `till/reset` (std_srvs/Trigger) removes all items. A price counts
-only after `print_line` (course_pkg/PrintLine) has printed it.
+(course_pkg/TillTotal) returns the sum, and `till/reset` (std_srvs/Trigger) removes all items. A price is
+added only after `print_line` (course_pkg/PrintLine) has printed it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class Till:
     """A till; several clients can call it at the same time. The till prints one line at a time."""
 
     def __init__(self) -> None:
-        # A thread holds this lock while a line is printed and its price is counted.
+        # A thread holds this lock while it prints a line and stores the price.
         self._turn = threading.Lock()
         self._cents: dict[str, int] = {}  # The dict contains the price of each item in cents.
 

@@ -21,8 +21,8 @@ from course_pkg.ros.node.action_server import ActionServer
 WAIT = 2.0  # The client waits this many s for an action server.
 LONG = 6.0  # A robot needs this many s for a goal, and the client cancels this goal.
 PROMPT = 4.0  # If the robot needs 0.3 s for a goal, the client may take this many s on a busy machine.
-ENOUGH = 5.0  # The client has this time limit in s with a robot that finishes in time.
-BRIEF = 0.2  # The client has this time limit in s with a robot that ignores the cancellation.
+ENOUGH = 5.0  # If the robot finishes in time, the client has this time limit in s.
+BRIEF = 0.2  # If the robot ignores the cancellation, the client has this time limit in s.
 LATE = 0.6  # A late robot starts this many s after the call.
 SECONDS = 0.8  # The client must cancel the goal after this many s; the time is not a whole number.
 SLACK = 3.0  # On a busy machine, a call may take this many s longer.
@@ -99,10 +99,7 @@ CANCELLED = "Cancel the goal when the time limit is over, and return the number 
     goals=[FETCHED, CANCELLED, "Wait for the action server with the same limit."],
 )
 def bounded_goal(context: CheckContext) -> None:
-    """Serve a fast robot, a slow robot, a late robot, and a robot that ignores cancellations.
-
-    Then call without a robot.
-    """
+    """Run the function without a robot, and with robots that are fast, slow, late, or cannot be cancelled."""
     _in_time(context)
     context.fulfilled(FETCHED)
     _too_late(context)
@@ -249,7 +246,7 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
 
 
 def _goes_on(context: CheckContext) -> None:
-    """Serve a robot that ignores the cancellation; the function must return any value, or raise any error."""
+    """Start a robot that ignores the cancellation; the function must still end, with a value or an error."""
     name = f"/{context.random.word()}"
     robot = Robot(0, LONG, stubborn=True)
     with _serving(name, robot):

@@ -27,8 +27,7 @@ kept = []
 def begin(kind, name):
     kept.append(kind(name))
 """
-# The ranges differ, so no fixed time is right for both goals. The times differ, so no fixed time is right for
-# both goals.
+# The two goals use different ranges of times per thing (s), so a program with a fixed time fails.
 QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
 TIMEOUT = 6.0  # TIMEOUT is the time limit in s for a goal that needs less than 1 s.
 # For this many s, the check repeats a goal that was too slow, because a busy machine may delay messages.
@@ -170,7 +169,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
 
 
 def _pace(at: list[float], alone: float) -> float:
-    """Return the median time between two messages in s, or `alone` if there are too few messages."""
+    """Return the median time between two messages in s, or `alone` for fewer than two messages."""
     gaps = [after - before for before, after in itertools.pairwise(at)]
     return statistics.median(gaps) if gaps else alone
 

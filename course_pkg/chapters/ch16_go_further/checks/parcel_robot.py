@@ -64,7 +64,7 @@ LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows
     goals=[DELIVERED, STOPPED, LIMITED, "Open and close the door."],
 )
 def parcel_robot(context: CheckContext) -> None:
-    """Start robots with and without a capacity; read the battery, move the door, deliver and cancel."""
+    """Start robots with and without a capacity; read the battery, move the door, send and cancel goals."""
     folder = context.folder(files=[FILE])
     with started(context, folder, f"_capacity:={FEW}") as first, started(context, folder) as second:
         battery = context.subscribe(first.name("battery"), "std_msgs/Float32")
@@ -264,7 +264,7 @@ def _cancels(
 
 
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
-    """Assert that the charge did not change because of the impossible goal before the last goal."""
+    """Assert that the impossible goal, which came before the last goal, did not change the charge."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     battery.during(3 * PERIOD)  # A wrong charge may be published only for a short time.
     context.expect(
