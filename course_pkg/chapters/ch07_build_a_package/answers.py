@@ -378,7 +378,7 @@ $ rosservice call getGeometry 1 2 3   # area 2, volume 6
    ```sh
    . devel/setup.bash
    rosrun my_geometry server.py &
-   rosservice call getGeometry "{length: 1.2, width: 5.2, height: 8.9}"
+   rosservice call --wait getGeometry "{length: 1.2, width: 5.2, height: 8.9}"
    ```
 """
 # %% 07.7 wrong: no title | hint: The title is missing. Write

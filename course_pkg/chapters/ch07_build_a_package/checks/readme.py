@@ -15,7 +15,7 @@ BLOCK = re.compile(r"^[ \t]*(?:```|~~~)[^\n`]*\n(.*?)^[ \t]*(?:```|~~~)", re.DOT
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)"
 FIELD = rf"\w+: *{NUMBER}"
 CALL = re.compile(
-    rf"rosservice +call +/?getGeometry +(?:-- +)?"
+    rf"rosservice +call +(?:(?:-v|--verbose|--wait) +)*/?getGeometry +(?:-- +)?"
     rf"(?:{NUMBER} +{NUMBER} +{NUMBER}|['\"]\{{?\s*{FIELD}(?:(?: *, *|\s+){FIELD}){{2}}\s*\}}?['\"])"
 )
 CLIENT = re.compile(rf"rosrun +my_geometry +client\.py(?: +{NUMBER}){{3}}")
