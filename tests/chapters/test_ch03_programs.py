@@ -150,7 +150,7 @@ def test_number_of_waiting_calls_is_limited() -> None:
 def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: NodeProcess) -> None:
     """Calls fail after the camera is killed, and succeed again with a new camera.
 
-    The customers of the new camera have higher numbers than the earlier customers.
+    The numbers of the new camera's customers are higher than all earlier numbers.
     """
     first = let_in(0.0).first
     assert detect(patience=10.0).number == first

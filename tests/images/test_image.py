@@ -1,10 +1,10 @@
 """Tests of the container image.
 
-The test builds the image without an existing base, and runs the quick tests of the suite in a container of
-the image.
+They build the image without an existing base image, and run the quick tests of the suite in a container of
+the new image.
 
 mmdebstrap creates the base, and buildah runs the Dockerfile in a chroot, so the test needs no registry. All
-files are in a temporary folder, which needs 4 GB and is removed at the end; COURSE_IMAGE_FOLDER names its
+files are in a temporary folder, which needs 4 GB and is removed at the end; COURSE_IMAGE_FOLDER selects its
 parent folder.
 """
 

@@ -82,7 +82,7 @@ def test_an_uninstall_waits_for_the_users(prefix: Prefix) -> None:
 def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
     """For an unsuitable prefix, the installer prints one message and changes nothing.
 
-    Unsuitable are a space, another program's folder, and another program's command.
+    A prefix is unsuitable if it contains a space, or if it contains files or a command of another program.
     """
     (tmp_path / "foreign").mkdir()
     (tmp_path / "foreign" / "file").touch()

@@ -69,7 +69,7 @@ async def ask(host: str, path: str, method: str = "GET") -> object:
 
 
 async def options_of_a_page(host: str) -> object:
-    """Open a kernel's websocket, and return the server's socket options."""
+    """Open a kernel's websocket, and return whether TCP_NODELAY is set on the server's kernel websockets."""
     kernel = await ask(host, "/api/kernels", "POST")
     assert isinstance(kernel, dict)
     page = await websocket_connect(f"ws://{host}/api/kernels/{kernel['id']}/channels?token=t&session_id=s")
@@ -125,7 +125,7 @@ def make(kept: CachedCheckpoints, path: str) -> None:
 
 
 def test_two_notebooks_of_one_name_have_separate_checkpoints(kept: CachedCheckpoints, tmp_path: Path) -> None:
-    """A chapter and its solution have separate checkpoint files outside the checkout."""
+    """A chapter's notebook and its solution have separate checkpoint files outside the checkout."""
     before = sorted((tmp_path / "checkout").rglob("*"))
     for chapter in ("notebooks", "solutions"):
         make(kept, f"{chapter}/05_x.ipynb")
