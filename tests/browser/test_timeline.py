@@ -1,4 +1,4 @@
-"""The timeline on a page and in JupyterLab."""
+"""Tests of the timeline on a page and in JupyterLab."""
 
 from __future__ import annotations
 

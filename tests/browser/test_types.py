@@ -1,4 +1,4 @@
-"""The type browser in a real browser."""
+"""Tests of the type browser in a real browser."""
 
 from __future__ import annotations
 

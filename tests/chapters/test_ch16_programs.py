@@ -1,4 +1,4 @@
-"""The programs of chapter 16: the websocket bridge, and the robot that fetches things."""
+"""Tests of the programs of chapter 16: the websocket bridge, and the robot that fetches things."""
 
 from __future__ import annotations
 

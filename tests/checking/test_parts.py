@@ -36,7 +36,7 @@ def test_ids_are_unique_and_belong_to_their_chapter() -> None:
 
 
 def test_every_part_has_points_and_a_goal() -> None:
-    """Each part has points, a goal, its names and a deadline."""
+    """Each part has points, a goal, a deadline, and names that the student's code must define."""
     for part in every_part():
         assert part.points > 0
         assert part.goal.endswith(".")

@@ -95,7 +95,7 @@ def placed() -> Iterator[PlacedObjects]:
 
 @pytest.fixture
 def drawer() -> Drawer:
-    """Return an object that a check places into the kernel."""
+    """Return an object of the check that the kernel can use through a proxy."""
     return Drawer()
 
 
@@ -221,7 +221,7 @@ def test_a_malformed_line_ends_its_connection_only(
 
 
 def test_another_key_is_refused(placed: PlacedObjects) -> None:
-    """Without the key, a program cannot use any object."""
+    """Without the secret key, a program cannot use any object."""
     for key in ("another", "\ud800"):
         with connect(placed, key=key) as sock:
             assert ended(sock)

@@ -1,4 +1,4 @@
-"""Functions that run a class view with a class, and that send the requests of students and teachers."""
+"""Functions that run a class view, and that send the requests of students and teachers."""
 
 from __future__ import annotations
 

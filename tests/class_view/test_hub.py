@@ -1,4 +1,4 @@
-"""The class view as a service of a JupyterHub; the tests imitate the hub's HTTP API."""
+"""Tests of the class view as a service of a JupyterHub; the tests imitate the hub's HTTP API."""
 
 from __future__ import annotations
 

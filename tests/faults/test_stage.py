@@ -34,7 +34,7 @@ def nodes(master: PrivateMaster) -> list[str]:
 
 @pytest.mark.parametrize("name", ["stale", "stopped", "hung_master", "two_providers"])
 def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
-    """After SIGKILL of the kernel, the processes, registrations and folders of its case are removed."""
+    """After SIGKILL of the kernel, the processes, registrations and folders of its open case are removed."""
     (folder,) = kernel.run(CAUSE.format(names=[name]))
     pids = descendants(kernel.pid)
     assert pids
@@ -129,7 +129,7 @@ def test_the_texts_of_each_fault_are_unique() -> None:
 
 
 def test_a_fault_needs_no_rospy_in_the_kernel() -> None:
-    """The package does not import rospy."""
+    """The package course_pkg.faults does not import rospy."""
     code = "import sys, course_pkg.faults as f; f.caused, f.probe, f.names(); print('rospy' in sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True

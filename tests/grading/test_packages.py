@@ -33,7 +33,7 @@ def seven() -> Plan:
 
 @pytest.fixture(scope="module")
 def worker(sandbox: None) -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests."""
+    """Run one sandbox worker, which all tests of this module use."""
     with SandboxWorker() as started:
         yield started
 

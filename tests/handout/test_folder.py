@@ -129,7 +129,7 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
     ],
 )
 def test_which_files_are_copied(name: str, released: bool) -> None:
-    """Only files of the package without answers are copied."""
+    """A file is released only if it belongs to the package and contains no answers."""
     assert is_released(name) is released
 
 

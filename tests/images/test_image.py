@@ -139,7 +139,7 @@ def image() -> Iterator[Image]:
 
 
 def test_jupyterlab_and_ros_are_on_the_path_of_an_ordinary_user(image: Image) -> None:
-    """Binder starts python3, which imports jupyterlab, and then jupyter-lab. No set-up runs."""
+    """Binder starts python3 to import jupyterlab, and then starts jupyter-lab. No set-up runs."""
     seen = image.run(
         "id -un; command -v jupyter-lab; python3 -c 'import jupyterlab'; ./course run rosnode list"
     )

@@ -15,7 +15,7 @@ from tests.installation.installations import asked, make_version
 
 @pytest.fixture
 def places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Places:
-    """Return the folders of an installation with two notebooks, without a folder of the user."""
+    """Return the folders of an installation with two notebooks; the user's folder is missing."""
     notebooks = tmp_path / "version" / "course" / "notebooks"
     notebooks.mkdir(parents=True)
     (tmp_path / "version" / RECORD).write_text("{}")

@@ -261,7 +261,7 @@ def test_a_chapter_has_the_title_and_the_name_of_its_notebook(path: Path) -> Non
 
 
 def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
-    """`course progress` prints the overview, or writes it to the files in the options."""
+    """`course progress` prints the overview; with the options --csv and --html, it writes files."""
     store("passed", "05.1")
     shown = course("progress", "05", COURSE_STATE=str(state))
     assert (shown.returncode, shown.stderr) == (0, "")

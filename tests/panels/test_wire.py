@@ -81,7 +81,7 @@ def header(**fields: str) -> bytes:
 
 
 def body(kind: MessageType, values: dict[str, Plain]) -> bytes:
-    """Return the bytes of a message without the length at the beginning."""
+    """Return the bytes of a message, without the four length bytes at its beginning."""
     buffer = io.BytesIO()
     kind.to_message({**kind.default(), **values}).serialize(buffer)
     return buffer.getvalue()

@@ -75,7 +75,7 @@ def test_late_response_is_right(server: FaultyServer) -> None:
 
 
 def test_frozen_server_accepts_connections_without_a_response(server: FaultyServer) -> None:
-    """A frozen server accepts connections, but sends no response."""
+    """A server with the fault Frozen accepts a connection, but sends no response."""
     server.plan.append(Fault(Frozen()))
     rospy.wait_for_service("/f", timeout=2)
     with pytest.raises(CallTimeout, match="accepts connections, but sends nothing"):

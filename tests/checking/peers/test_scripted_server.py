@@ -28,7 +28,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptio
 
 @pytest.fixture
 def node(master: PrivateMaster) -> Node:
-    """Return the node of the check."""
+    """Return the object that represents the check's own node."""
     return Node("/tester", "http://localhost:1/", MasterClient(master.uri))
 
 

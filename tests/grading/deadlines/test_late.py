@@ -1,4 +1,4 @@
-"""The table of late days, and the deduction of points."""
+"""Tests of the table of late days, and of the deduction of points."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Submission times in files of Moodle, Gradescope and nbgrader."""
+"""Tests of submission times in files of Moodle, Gradescope and nbgrader."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The review page in a browser."""
+"""Tests of the review page in a browser."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noq
 
 
 def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
-    """Return the names of the listening sockets of processes that are visible in the network of this process.
+    """Return the names of the processes' listening sockets that are visible in this process's network.
 
     A name is the address of a TCP or UDP socket, or the path of a Unix socket. The addresses have the format
     of /proc/net.

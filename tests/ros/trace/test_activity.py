@@ -62,7 +62,7 @@ for _ in range(3):
 
 @pytest.fixture
 def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
-    """Run a connected publisher kernel and subscriber kernel."""
+    """Run two kernels: a publisher and a subscriber, which are connected."""
     with Kernel() as speaker, Kernel() as listener:
         speaker.run(SPEAK)
         listener.run(HEAR)

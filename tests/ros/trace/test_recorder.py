@@ -102,7 +102,7 @@ class _Owner:
 
 
 def test_a_hook_fits_only_the_expected_method() -> None:
-    """A hook cannot replace a method with other parameters."""
+    """A hook is refused if the method is missing or has other parameters."""
     assert Hook(_Owner, "method", ("self", "one"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "two"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "one"), lambda method: method, uses=["elsewhere"]).fits()
