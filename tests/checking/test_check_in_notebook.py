@@ -1,4 +1,4 @@
-"""`check()` in a notebook's kernel with different mistakes of students."""
+"""Tests of `check()` in a notebook's kernel with different mistakes of students."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ def _version(prefix: Prefix, name: str) -> Path:
 
 
 def test_an_upgrade_keeps_a_version_that_is_in_use(prefix: Prefix) -> None:
-    """The link leads to the new version.
+    """After an upgrade, the command `course` runs the new version.
 
     The installer removes an old version when no process uses this version.
     """

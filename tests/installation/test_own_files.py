@@ -1,4 +1,4 @@
-"""A user's own folder, with a shared installation."""
+"""Tests of a user's own folder with a shared installation."""
 
 from __future__ import annotations
 

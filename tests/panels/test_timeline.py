@@ -155,7 +155,7 @@ def test_too_many_calls() -> None:
 
 
 def test_nothing_recorded() -> None:
-    """For an empty recording, the panel lists the nodes without events."""
+    """If no event was recorded, the panel only lists the nodes."""
     empty = state(Recording(nodes=("/a",), unrecorded={"/b": "its process is gone"}, length=1.0))
     assert (empty["lanes"], empty["arrows"], empty["idle"]) == ([], [], ["/a"])
     assert empty["unrecorded"] == [["/b", "its process is gone"]]

@@ -1,4 +1,4 @@
-"""A faulty server fails as planned and then works again."""
+"""Tests of faulty servers, which fail as planned and then work again."""
 
 from __future__ import annotations
 

@@ -78,7 +78,7 @@ def test_a_graph_ends_with_its_last_command(graph: Graph, tmp_path: Path) -> Non
 
 
 def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
-    """A later command joins the running graph, and not a newer graph of --new-graph."""
+    """A later command does not join a graph that was started with --new-graph."""
     alone = join_or_start(Which.ALONE, tmp_path)
     later = join_or_start(Which.RUNNING, tmp_path)
     names = [os.fstat(each.files[-1]).st_ino for each in (graph, alone, later)]
