@@ -66,7 +66,7 @@ def test_a_deadline_for_a_chapter() -> None:
 
 
 def test_an_extension_ends_at_the_same_time_of_day() -> None:
-    """An extended deadline stays at 23:59, even if daylight saving time ends between the two dates."""
+    """Even if daylight saving time ends during an extension, the deadline stays at 23:59."""
     extensions = Extensions({"s01": 2.0})
     made = deadlines(["2026-10-24T23:59"], 0.0, zone_of("Europe/Berlin"), extensions)
     assert made.days_late("s01", "05", _at("2026-10-26T22:59Z")) == 0.0
