@@ -1,4 +1,4 @@
-"""Fixtures for tests of several folders."""
+"""Fixtures that tests in several folders use."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def pytest_configure() -> None:
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-# pytest-xdist reads the marks in the same hook, so this function must run first.
+# pytest-xdist uses the same hook to read the groups, so this function must run first.
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put tests into groups. pytest-xdist runs each group on one worker.

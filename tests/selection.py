@@ -2,9 +2,9 @@
 
 The option `--changed` selects tests that a change can affect, and `--slow` selects slow tests.
 
-A test depends on its own folder in tests/, and on the packages of course_pkg that its package may import. The
-import-linter contract in pyproject.toml lists these packages. A test of a chapter depends on the chapter's
-folder and on the chapters that the chapter imports.
+A test in tests/NAME depends on this folder, on the package course_pkg/NAME, and on all packages that
+course_pkg/NAME may import. The import-linter contract in pyproject.toml lists these packages. A test of a
+chapter depends on the chapter's folder and on the chapters that the chapter imports.
 
 A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group if the group
 has passed and its files have not changed since then.
@@ -34,7 +34,7 @@ else:
 
 ROOT = Path(__file__).parents[1]
 ALWAYS = ("pyproject.toml", "CMakeLists.txt", "package.xml", "course_pkg/setup/locks/test.txt")
-# The pattern finds the chapter in a test's id: "[05.1 right: …]", "[05_write_a_server]"
+# The pattern finds the chapter in the id of a test, such as "[05.1 right: …]" or "[05_write_a_server]".
 CHAPTER = re.compile(r"\[(\d\d)[._]")
 
 
@@ -100,9 +100,9 @@ class SelectionPlugin:
         items[:] = [item for item in items if item not in left]
 
     def _is_wanted(self, item: pytest.Item, *, slow: bool) -> bool:
-        """Return whether a test belongs to a usual run.
+        """Return whether the usual test run includes a test.
 
-        If `slow` is true, return whether the test belongs to a slow run.
+        If `slow` is true, return whether the run of slow tests includes the test.
         """
         if item.get_closest_marker("when_changed"):
             return slow or self._selection.has_changed(item)
@@ -122,7 +122,7 @@ class SelectionPlugin:
             self._selection.store()
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
-        """Print a command that repeats each failed test."""
+        """For each failed test, print the command that runs this test again."""
         failed = [*terminalreporter.getreports("failed"), *terminalreporter.getreports("error")]
         names = dict.fromkeys(report.nodeid.split("@")[0] for report in failed)
         if names:
@@ -159,7 +159,7 @@ def digest_of(group: str) -> str:
 def _packages_below(folder: str) -> list[str]:
     """Return the packages on which a folder of tests depends.
 
-    The result contains the package with the folder's name and all packages that it may import.
+    The result contains the packages in the import layer of the package `folder`, and in all lower layers.
 
     If no package has the name of the folder, return all packages.
     """
@@ -172,7 +172,7 @@ def _packages_below(folder: str) -> list[str]:
 
 
 def chapter_paths(chapter: str) -> Iterator[str]:
-    """Yield the folders and notebooks on which the tests of a chapter depend; "" means all chapters."""
+    """Yield the paths on which the tests of a chapter depend; for "", yield the paths of all chapters."""
     for number in [chapter] if chapter else chapters():
         yield from (str(folder.relative_to(ROOT)) for folder in folders_for(number))
     for pattern in (f"solutions/{chapter}*", f"notebooks/{chapter}*"):

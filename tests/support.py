@@ -26,7 +26,7 @@ def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval:
 
 @contextmanager
 def stopped(pid: int) -> Iterator[None]:
-    """Stop a process with SIGSTOP during the `with` block."""
+    """Suspend a process with SIGSTOP during the `with` block."""
     os.kill(pid, signal.SIGSTOP)
     try:
         eventually(lambda: all(state in "Tt" for state in _thread_states(pid)))

@@ -1,4 +1,4 @@
-"""Panels on a saved page without a kernel."""
+"""Tests of panels on a saved page without a kernel."""
 
 from __future__ import annotations
 

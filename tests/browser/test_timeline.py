@@ -1,4 +1,4 @@
-"""The timeline on a page and in JupyterLab."""
+"""Tests of the timeline on a page and in JupyterLab."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ COLOURS = """(canvas, [x, y]) => {
     return new Set(Array.from({length: 81}, (_, each) => data.slice(4 * each, 4 * each + 3).join())).size
 }"""
 LENGTH = 1.0  # s
-# The drawing shows this fraction of the recording's duration before the recording, and the same fraction
-# after it.
+# The drawing starts before the recording and ends after it: this fraction of the recording's duration is
+# added at each end.
 EDGE = 0.02
 
 
@@ -54,7 +54,7 @@ def recording(*more: Event, open_end: bool = False) -> Recording:
 
 
 def show(page: Page, folder: Path, given: Recording, theme: str = "light") -> Locator:
-    """Open a saved page with the timeline of a recording, and wait until the drawing has its size."""
+    """Open a saved page with the timeline of a recording, and wait until the drawing has a width."""
     page.goto(save(Timeline(given), folder / "page.html", theme))
     timeline = panel(page, "Timeline")
     if drawing(timeline).count():
@@ -68,14 +68,14 @@ def drawing(timeline: Locator) -> Locator:
 
 
 def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
-    """Return the position in the drawing of a time in s and a node's first row."""
+    """Return the position of an event in the drawing: `time` is in s, and `lane` is the node's index."""
     box = drawing(timeline).bounding_box()
     assert box is not None
     return box["width"] * (time / LENGTH + EDGE) / (1 + 2 * EDGE), 4 + 22 + 10 + lane * (22 + 23 + 12)
 
 
 def click(page: Page, timeline: Locator, time: float, lane: int) -> None:
-    """Click at the position of a time in s in the row of a node."""
+    """Click in the row of the node with the index `lane`, at `time` in s."""
     x, y = spot(timeline, time, lane)
     drawing(timeline).click(position={"x": x, "y": y})
 

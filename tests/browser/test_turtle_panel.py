@@ -1,4 +1,4 @@
-"""The turtle panel in a real JupyterLab, and as a recording on a saved page."""
+"""Tests of the turtle panel in a real JupyterLab, and as a recording on a saved page."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ threading.Timer(1, later).start()
 
 
 def seek(turtles: Locator, part: float) -> None:
-    """Move the slider to the fraction `part` of the recording."""
+    """Move the recording's slider; `part` is the position from 0 (start) to 1 (end)."""
     turtles.get_by_label("Moment of the recording").evaluate(
         "(handle, part) => { handle.value = handle.max * part; handle.dispatchEvent(new Event('input')) }",
         part,

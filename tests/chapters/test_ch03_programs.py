@@ -1,4 +1,4 @@
-"""The programs of chapter 03: the camera, the detector of customers, and the cashier."""
+"""Tests of the programs of chapter 03: the camera, the detector of customers, and the cashier."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ SERVES = {"shop_camera": "/let_in", "detector": "/detect_customer", "cashier": "
 
 
 def run(name: str, *arguments: str) -> NodeProcess:
-    """Start a program of the shop, and return it when its service is available."""
+    """Start a program of the shop, wait until its service is available, and return the process."""
     process = NodeProcess(["rosrun", "course_pkg", name, *arguments])
     process.wait_for_service(SERVES[name])
     return process
@@ -150,7 +150,7 @@ def test_number_of_waiting_calls_is_limited() -> None:
 def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: NodeProcess) -> None:
     """Calls fail after the camera is killed, and succeed again with a new camera.
 
-    The customers of the new camera have higher numbers than the earlier customers.
+    The numbers of the new camera's customers are higher than all earlier numbers.
     """
     first = let_in(0.0).first
     assert detect(patience=10.0).number == first
@@ -191,7 +191,7 @@ def test_detector_refuses_without_a_camera() -> None:
 )
 @pytest.mark.usefixtures("camera")
 def test_impossible_customers_are_refused(after: list[float], stay: float, words: str) -> None:
-    """If the student changes a wrong customer, the error message contains the name of the wrong field."""
+    """If a field of the request is invalid, the error message contains the name of the field."""
     with pytest.raises(rospy.ServiceException, match=words):
         let_in(*after, stay=stay)
     assert len(let_in(5.0, 1.0).comes) == 2

@@ -37,7 +37,10 @@ class Replying:
 
 
 def imported(**reply: float | int | str | None) -> CheckContext:
-    """Return the context of a check whose import command returned `reply`."""
+    """Check that a script can be imported; return the check's context.
+
+    A fake returns `reply` as the result of the import.
+    """
     context = CheckContext("07.4", cast("Channel", None), cast("Node", None), 1)
     folder = cast("Folder", Replying(dict(reply)))
     can_be_imported(context, BuiltPackage(folder, Package("my_geometry", {})), SCRIPT)

@@ -1,4 +1,4 @@
-"""The programs of chapter 08."""
+"""Tests of the programs of chapter 08."""
 
 from __future__ import annotations
 

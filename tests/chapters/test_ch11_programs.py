@@ -1,4 +1,4 @@
-"""The programs of chapter 11: the session server, its client, and the TCP echo."""
+"""Tests of the programs of chapter 11: the session server, its client, and the TCP echo."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def test_client_with_a_rate_repeats_its_amount() -> None:
 
 
 def test_arguments_are_read() -> None:
-    """The function returns the session and the numbers, or None for invalid arguments."""
+    """read_arguments() returns the session and the numbers, or None for invalid arguments."""
     assert read_arguments(["alice", "5", "-3"]) == ("alice", [5, -3])
     for words in ([], ["alice"], ["", "5"], ["alice", "five"], ["alice", str(2**31)]):
         assert read_arguments(words) is None

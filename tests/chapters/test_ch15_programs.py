@@ -28,7 +28,7 @@ LAUNCH = ("course_pkg", "robot_cashier.launch")
 
 
 def run(name: str, service: str) -> NodeProcess:
-    """Start a program, and return it when `service` is available."""
+    """Start a program, wait until `service` is available, and return the process."""
     process = NodeProcess(["rosrun", "course_pkg", name])
     process.wait_for_service(service)
     return process

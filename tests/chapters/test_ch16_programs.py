@@ -1,4 +1,4 @@
-"""The programs of chapter 16: the websocket bridge, and the robot that fetches things."""
+"""Tests of the programs of chapter 16: the websocket bridge, and the robot that fetches things."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SIDES = {"length": 1.5, "width": 2.0, "height": 3.0}
 
 @pytest.fixture
 def geometry() -> Iterator[NodeProcess]:
-    """Run the server of chapter 05."""
+    """Run the course's geometry server."""
     with NodeProcess(["rosrun", "course_pkg", "server"]) as process:
         process.wait_for_service("/getGeometry")
         yield process

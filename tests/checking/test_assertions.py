@@ -20,7 +20,7 @@ from course_pkg.ros.protocol.json_channel import Json
     ],
 )
 def test_same(expected: Json, seen: Json, near: float) -> None:
-    """Numbers with equal values are equal, even inside lists and dicts."""
+    """Numbers are compared by value, within a tolerance, even inside lists and dicts."""
     assert same(expected, seen, near)
 
 

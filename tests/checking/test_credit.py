@@ -43,7 +43,10 @@ def test_the_goals_of_each_part_have_its_points() -> None:
 
 
 def test_a_mark_counts_after_a_failure_and_a_separate_goal_does_not() -> None:
-    """A separate goal counts only after a call of mark() or at the end of the check."""
+    """If a check stops early, only the marked goals without a failed assertion count.
+
+    If a check runs completely, separately examined goals count too.
+    """
     results = Results()
     results.marked.add("first")
     results.goal_ended("separate", fulfilled=True)

@@ -17,8 +17,8 @@ from course_pkg.waiting import MOST
 from tests.selection import chapter_paths
 
 COMPILED = ("13.", "14.")  # In these chapters, a compiler runs before the check.
-# Both deadlines are in s. A check that compiles six programs needs 25 s of CPU time. A check needs more time
-# during grading, because two submissions run on each core.
+# These are the maximum deadlines in s, without and with a compiler. A check that compiles six programs needs
+# 25 s of CPU time. A check needs more time during grading, because two submissions run on each core.
 USUAL, BUILT = 60, 180
 
 
@@ -36,7 +36,7 @@ def test_ids_are_unique_and_belong_to_their_chapter() -> None:
 
 
 def test_every_part_has_points_and_a_goal() -> None:
-    """Each part has points, a goal, its names and a deadline."""
+    """Each part has points, a goal, a deadline, and names that the student's code must define."""
     for part in every_part():
         assert part.points > 0
         assert part.goal.endswith(".")
@@ -61,7 +61,7 @@ def test_no_part_of_a_chapter_in_several_modules_is_forgotten() -> None:
 
 
 def test_a_chapter_depends_on_those_that_it_imports_from() -> None:
-    """Chapter 14 depends on chapter 09, and, because chapter 09 imports chapter 07, also on chapter 07."""
+    """Chapter 14 imports chapter 09, and chapter 09 imports chapter 07, so chapter 14 depends on both."""
     needed = {number: [folder.name[2:4] for folder in folders_for(number)] for number in numbers()}
     assert needed["14"] == ["07", "09", "14"]
     assert needed["15"] == ["07", "15"]
@@ -96,5 +96,5 @@ def test_tests_of_a_chapter_depend_on_what_it_imports() -> None:
 
 
 def test_check_client_waits_longer_than_every_deadline() -> None:
-    """The kernel waits for the check longer than the check's deadline."""
+    """The kernel waits longer for the result than the longest deadline of a check."""
     assert max(part.deadline for part in every_part()) * MOST < TIMEOUT

@@ -1,4 +1,4 @@
-"""In the kernel, a proxy passes calls to an object of the check runner."""
+"""Tests of proxies: the kernel calls the methods of an object in the check runner."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Drawer:
 
     @remote
     def add(self, count: int, *, twice: bool = False) -> int:
-        """Add `count`, or twice this number."""
+        """Add `count` to `things`; with `twice`, add it two times."""
         self.threads.add(threading.get_ident())
         self.things += count * (1 + twice)
         return self.things
@@ -88,14 +88,14 @@ class Drawer:
 
 @pytest.fixture
 def placed() -> Iterator[PlacedObjects]:
-    """Return the object that executes the calls of the proxies."""
+    """Run the server that receives the proxies' calls."""
     with PlacedObjects() as placed:
         yield placed
 
 
 @pytest.fixture
 def drawer() -> Drawer:
-    """Return an object that a check places into the kernel."""
+    """Return an object of the check that the kernel can use through a proxy."""
     return Drawer()
 
 
@@ -106,7 +106,7 @@ def proxy(placed: PlacedObjects, item: object) -> Value:
 
 
 def connect(placed: PlacedObjects, *, key: str = "") -> socket.socket:
-    """Return a socket that has sent the key."""
+    """Connect to the server of the proxies, and send the secret key."""
     where = placed.place(Drawer())
     sock = socket.create_connection(("127.0.0.1", int(str(where["port"]))), timeout=SOON)
     sock.sendall(json.dumps({"key": key or where["key"]}).encode() + b"\n")
@@ -122,7 +122,7 @@ def ended(sock: socket.socket) -> bool:
 
 
 def test_methods_and_attributes_are_those_of_the_real_object(placed: PlacedObjects, drawer: Drawer) -> None:
-    """A proxy passes calls, reads and writes to the real object."""
+    """Through a proxy, the kernel can call methods and can read and write attributes of the real object."""
     other = proxy(placed, drawer)
     assert other.add(2) == 2
     assert other.add(count=1, twice=True) == 4
@@ -160,7 +160,7 @@ def test_a_changed_class_changes_nothing_in_the_real_object(placed: PlacedObject
 
 
 def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: Drawer) -> None:
-    """A built-in error has the same class in the kernel.
+    """If the method raises a built-in error, the kernel gets an error of the same class.
 
     Any other error gets a new class with the same name.
     """
@@ -183,7 +183,7 @@ def test_an_object_that_is_returned_is_a_proxy(placed: PlacedObjects, drawer: Dr
 
 
 def test_each_thread_has_its_own_thread_in_the_check_runner(placed: PlacedObjects, drawer: Drawer) -> None:
-    """Each thread of the kernel has its own thread in the check runner."""
+    """Calls from different threads of the kernel run in different threads of the check runner."""
     other = proxy(placed, drawer)
     with ThreadPoolExecutor(3) as pool:
         assert sorted(pool.map(lambda _: other.meet(), range(3))) == [0, 1, 2]
@@ -221,7 +221,7 @@ def test_a_malformed_line_ends_its_connection_only(
 
 
 def test_another_key_is_refused(placed: PlacedObjects) -> None:
-    """Without the key, a program cannot use any object."""
+    """Without the secret key, a program cannot use any object."""
     for key in ("another", "\ud800"):
         with connect(placed, key=key) as sock:
             assert ended(sock)

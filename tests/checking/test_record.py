@@ -1,4 +1,4 @@
-"""The student's record of results."""
+"""Tests of the student's record of results."""
 
 from __future__ import annotations
 

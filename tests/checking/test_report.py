@@ -58,7 +58,7 @@ def test_a_failure_starts_with_what_is_right_and_then_names_one_thing_to_fix() -
 
 
 def test_a_failure_at_once_has_one_thing_to_fix_first() -> None:
-    """If the first assertion fails, the report lists no assertions that hold."""
+    """If the first assertion fails, the report has no section "Right so far"."""
     report = Report("05.1", Verdict.FAILED, "Answer.", 0, 2, FAILED.assertions[1:])
     assert str(report).splitlines()[1:3] == ["  Fix this first:", "  ✗ <b>area</b>"]
     assert "Right so far" not in report.html()

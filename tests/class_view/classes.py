@@ -1,4 +1,4 @@
-"""Functions that run a class view with a class, and that send the requests of students and teachers."""
+"""Functions that run a class view, and that send the requests of students and teachers."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def enter(url: str, token: str = TEACHER) -> str:
 
 
 def changes(url: str, cookie: str, epoch: str = "", since: int = -1) -> dict[str, object]:
-    """Return the changes since the state `since`, as the page receives them."""
+    """Return the changes after the version `since`, as the page receives them."""
     status, text, _ = ask(f"{url}/changes?epoch={epoch}&since={since}", Cookie=cookie)
     assert status == 200, text
     found = json.loads(text)

@@ -1,4 +1,4 @@
-"""The class view as a service of a JupyterHub; the tests imitate the hub's HTTP API."""
+"""Tests of the class view as a service of a JupyterHub; the tests imitate the hub's HTTP API."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class User(RequestHandler):
     """The request handler that returns the owner of a token."""
 
     def get(self) -> None:
-        """Send the owner of the token."""
+        """Respond with the token's owner, or with status 403 for an unknown token."""
         user = USERS.get(self.request.headers.get("Authorization", "").removeprefix("token "))
         self.set_status(200 if user else 403)
         self.finish(json.dumps(user or {"status": 403}))
@@ -37,7 +37,7 @@ class Token(RequestHandler):
     """The request handler that exchanges an OAuth code for a token."""
 
     def post(self) -> None:
-        """Send a token; the code in the request is the name of the token's user."""
+        """Respond with a token; in these tests, the OAuth code is also the token."""
         right = self.get_argument("client_secret") == "service"
         self.set_status(200 if right else 400)
         self.finish(json.dumps({"access_token": self.get_argument("code")}))

@@ -1,4 +1,4 @@
-"""The page in a browser: it updates by itself, hides names, and is accessible."""
+"""Tests of the page in a browser: it updates by itself, hides names, and is accessible."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def opened(
 
 
 def fill(url: str, folder: Path) -> None:
-    """Send the results of a class at work in chapter 05."""
+    """Send the results of a class that works on chapter 05."""
     began = time.time() - 3000
     for number, token in enumerate(tokens_in(folder).values()):
         for place, part in enumerate(PARTS[: number % 5]):

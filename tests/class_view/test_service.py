@@ -67,7 +67,7 @@ def test_foreign_requests_are_refused(tmp_path: Path) -> None:
     [(b"{", 400), ([], 400), ({"results": []}, 400), ({"results": [{}] * 101}, 400), (b"[" * 100_000, 400)],
 )
 def test_bad_requests_are_refused(tmp_path: Path, body: object, status: int) -> None:
-    """A request without a list of results gets status 400, and a too large request gets status 413."""
+    """A request without a list of results gets status 400; a request that is too large gets status 413."""
     with serving(tmp_path) as url:
         own = {"Authorization": f"token {tokens_in(tmp_path)['s01']}"}
         assert ask(f"{url}/results", body, **own)[0] == status
@@ -75,7 +75,10 @@ def test_bad_requests_are_refused(tmp_path: Path, body: object, status: int) -> 
 
 
 def test_what_is_not_a_result_is_left_out(tmp_path: Path) -> None:
-    """The service stores the valid results of a request, and the sender may delete the invalid item."""
+    """The service stores only the valid results of a request.
+
+    Its response lists all ids, so that the sender can delete the invalid results too.
+    """
     wrong = [
         *({"id": "a"}, result("b", check="../x"), result("c", verdict="best"), result("d", time="now")),
         *(result("e", time=float("inf")), result("f" * 65)),
@@ -122,7 +125,7 @@ def _result(student: str, name: str, verdict: str = "not yet", when: float = 1.0
 
 
 def test_old_results_are_deleted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The service deletes all results of a student some days after the student's last result."""
+    """If a student has sent no result for some days, the service deletes all results of this student."""
     storage = Storage(tmp_path)
     storage.add([_result("old", "1"), _result("new", "1")])
     now = time.time()

@@ -1,6 +1,7 @@
 """The table of common mistakes with ROS 1 services.
 
-Each row names the faults of BreakIt or the builds that show the mistake.
+For each mistake, a row contains the names of the BreakIt faults or of the wrong builds that demonstrate the
+mistake.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from dataclasses import dataclass
 class Shows:
     """The symptom of a fault.
 
-    `said` is a text in the client's output, and `server` is a text in the server's output. If `hangs` is
-    true, the client waits forever. `cause` is a text in the course's explanation; "" means that there is no
+    `said` must occur in the client's output, and `server` in the server's output. If `hangs` is true, the
+    client waits forever. `cause` must occur in the explanation from `explain`; "" means that there is no
     explanation.
     """
 
@@ -28,8 +29,8 @@ class Shows:
 class Builds:
     """A mistake that makes a build fail.
 
-    `slip` is the name of the mistake in the tables of test_mistakes.py. `said` is a text in the build's
-    output, and `cause` is a text in the explanation.
+    `slip` is the name of the wrong build in test_mistakes.py. `said` must occur in the build's output, and
+    `cause` in the explanation.
     """
 
     slip: str
@@ -39,7 +40,7 @@ class Builds:
 
 @dataclass(frozen=True)
 class Row:
-    """A row of the table: the section, the mistake, and the faults and builds that show the mistake."""
+    """A row of the table: the section, the mistake, and its demonstrations (faults or builds)."""
 
     section: str
     slip: str
@@ -457,5 +458,5 @@ NODES_AND_MASTERS = (
 )
 
 ROWS = (*BUILDING, *SERVING, *CALLING, *NODES_AND_MASTERS)
-# Each section of the table has this number of rows.
+# The expected number of rows in each section.
 COUNTS = {"Building": 10, "Serving": 13, "Calling": 15, "Nodes and masters": 14}

@@ -1,4 +1,4 @@
-"""The test makes each mistake in the table, and `explain` explains the symptom."""
+"""Tests that cause each mistake in the table, and that check the explanation of its symptom."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_the_table_names_exactly_the_faults_of_the_course() -> None:
 
 
 def test_each_fault_prints_something_or_hangs() -> None:
-    """For each fault, the table names an output or says that the client hangs."""
+    """For each fault, the table contains an expected output, or says that the client waits forever."""
     assert all(each.said or each.server or each.hangs for each in SHOWN)
 
 
@@ -86,7 +86,7 @@ LINES = {
 
 
 def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
-    """Make the mistake, and return the output of the command."""
+    """Run a command that contains the mistake, and return its output."""
     if built.slip in LINES:
         line, sourced = LINES[built.slip]
         return shell(workspace, line, sourced=sourced)

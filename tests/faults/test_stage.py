@@ -1,4 +1,4 @@
-"""A stage causes a fault, and undoes the fault later."""
+"""Tests of the class Stage, which causes a fault on the graph and removes the fault later."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def nodes(master: PrivateMaster) -> list[str]:
 
 @pytest.mark.parametrize("name", ["stale", "stopped", "hung_master", "two_providers"])
 def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
-    """After SIGKILL of the kernel, the processes, registrations and folders of its case are removed."""
+    """After SIGKILL of the kernel, the processes, registrations and folders of its open case are removed."""
     (folder,) = kernel.run(CAUSE.format(names=[name]))
     pids = descendants(kernel.pid)
     assert pids
@@ -53,7 +53,7 @@ def test_a_kernel_that_ends_undoes_its_case(master: PrivateMaster, kernel: Kerne
 
 
 def test_a_case_that_cannot_be_set_up_is_undone(master: PrivateMaster) -> None:
-    """If the server of a case does not start, `cause` raises NodeFailed, and no node remains."""
+    """If the server of a fault does not start, cause() raises NodeFailed, and no node remains."""
 
     def play(stage: Stage) -> None:
         stage.serve("raise SystemExit(3)")
@@ -81,7 +81,7 @@ def test_a_second_undo_changes_nothing(master: PrivateMaster) -> None:
 
 
 def test_a_fault_can_be_repaired_by_hand(master: PrivateMaster) -> None:
-    """After SIGCONT, a stopped server responds to the tool "Call again"."""
+    """A server that was suspended with SIGSTOP responds again after SIGCONT."""
     assert master.uri
     with caused("stopped") as stage:
         assert stage.keeper is not None
@@ -129,7 +129,7 @@ def test_the_texts_of_each_fault_are_unique() -> None:
 
 
 def test_a_fault_needs_no_rospy_in_the_kernel() -> None:
-    """The package does not import rospy."""
+    """The package course_pkg.faults does not import rospy."""
     code = "import sys, course_pkg.faults as f; f.caused, f.probe, f.names(); print('rospy' in sys.modules)"
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, timeout=30, check=True

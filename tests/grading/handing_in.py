@@ -29,7 +29,7 @@ def raw(notebook: Notebook) -> bytes:
 
 
 def folder(root: Path, files: Mapping[str, bytes]) -> Path:
-    """Write `files` below `root`."""
+    """Write `files`, which maps paths to contents, into the folder `root`."""
     for path, content in files.items():
         target = root / path
         target.parent.mkdir(parents=True, exist_ok=True)

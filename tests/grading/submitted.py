@@ -23,9 +23,9 @@ geometry_service = rospy.Service("/getGeometry", geometry, handle_geometry)
 def hand_in(
     folder: Path, student: str, chapter: str = "05", answers: Mapping[str, str] | None = None
 ) -> Path:
-    """Write a student's copy of a chapter's solution.
+    """Write a student's notebook that contains the solution of a chapter.
 
-    `answers` contains the changed answers by part; "" makes a blank cell.
+    `answers` maps parts to different answers; for "", the exercise is blank.
     """
     notebook = reference(chapter)
     for cell in code_cells(notebook):

@@ -1,4 +1,4 @@
-"""Tests that clean texts from submissions."""
+"""Tests of functions that remove harmful characters from texts in submissions."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def test_length_is_bounded(given: str) -> None:
 
 
 def test_cut_text_has_a_mark() -> None:
-    """If a text was cut, the text ends with a special character."""
+    """If a text was cut, it ends with "… (cut)"."""
     assert clean.text("x" * 5000).endswith("… (cut)")
 
 
@@ -54,7 +54,7 @@ def test_a_line_is_one_line() -> None:
     "start", ["=", "+", "-", "@", "\t=", "\r=", "\n=", " =", "\x00=", "\u200b=", "\uff1d"]
 )
 def test_no_cell_is_a_formula(start: str) -> None:
-    """A spreadsheet shows a text that begins like a formula as text."""
+    """A text that begins like a formula gets a leading quote, so a spreadsheet does not evaluate the text."""
     assert clean.cell(start + "HYPERLINK(1)").startswith("'")
 
 
@@ -64,7 +64,7 @@ def test_markup_is_text() -> None:
 
 
 def test_data_of_any_shape_is_cleaned() -> None:
-    """Strings and keys in lists and dicts are cleaned, and long lists are cut."""
+    """The strings and keys of nested lists and dicts are cleaned, and long lists are cut."""
     given = {"a\x1b[1m": ["\x00x", 1.5, None, True, {"k": "\ud800"}], "n": list(range(5000))}
     cleaned = clean.record(given)
     assert cleaned["a"] == ["x", 1.5, None, True, {"k": "\ufffd"}]
@@ -116,9 +116,9 @@ def test_changed_names_stay_different() -> None:
 
 
 def test_a_student_keeps_the_name() -> None:
-    """A student's name is stored in a normalised form of Unicode.
+    """Different Unicode forms of one name become the same name.
 
-    Two different names are different after cleaning.
+    Two different names stay different after cleaning.
     """
     assert clean.identity("Größe_12") == clean.identity("Gro\u0308ße_12") == "Größe_12"
     assert clean.identity("a\x00") != clean.identity("a")

@@ -1,4 +1,4 @@
-"""Whole runs of `course grade`."""
+"""Tests of whole runs of `course grade`."""
 
 from __future__ import annotations
 

@@ -45,12 +45,12 @@ BREAKERS = {
         "import os, xmlrpc.client\nhandle_geometry = 1\n"
         'xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).shutdown("/x", "")'
     ),
-}  # The keys describe the behaviour of the student's process.
+}  # Each key describes what the student's program does or sends.
 
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests."""
+    """Run one sandbox worker, which all tests of this module use."""
     with SandboxWorker() as started:
         yield started
 
@@ -97,7 +97,7 @@ def test_each_part_has_its_own_points(worker: SandboxWorker, tmp_path: Path) -> 
 
 
 def test_a_worker_that_fails_costs_no_points(worker: SandboxWorker, tmp_path: Path) -> None:
-    """If the worker fails, the part is reported as not examined, and the grade is not stored."""
+    """If the worker fails, the report says that the part was not examined, and the grade is not stored."""
 
     def run(job: PartJob) -> PartResult:
         if job.check == "05.2":

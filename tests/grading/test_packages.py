@@ -33,13 +33,13 @@ def seven() -> Plan:
 
 @pytest.fixture(scope="module")
 def worker(sandbox: None) -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests."""
+    """Run one sandbox worker, which all tests of this module use."""
     with SandboxWorker() as started:
         yield started
 
 
 class Jobs:
-    """A replacement for a sandbox worker that stores the jobs and returns a pass for each job."""
+    """A replacement for a sandbox worker: it stores each job, and returns a pass for the job."""
 
     def __init__(self) -> None:
         self.given: dict[str, PartJob] = {}
@@ -111,7 +111,7 @@ def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
-    """If a file of the package or its permission changes, the key of the grade changes."""
+    """If a file of the package is removed or loses a permission, the key of the grade changes."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     keys = set()
     for change in (lambda: None, lambda: (package / SERVER).chmod(0o644), (package / "README.md").unlink):
@@ -153,7 +153,7 @@ def test_a_wrong_server_in_a_package_loses_points(tmp_path: Path, seven: Plan, w
 
 
 def test_a_script_that_is_not_executable(tmp_path: Path, seven: Plan, worker: SandboxWorker) -> None:
-    """A script without the executable permission loses the points of its part."""
+    """If a script is not executable, its part fails."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     (package / SERVER).chmod(0o644)
     [report] = graded(tmp_path, only_part(seven, "07.4"), worker).reports

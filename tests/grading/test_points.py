@@ -107,7 +107,7 @@ def test_a_wrong_file_is_explained(tmp_path: Path, text: str, message: str) -> N
 
 
 def test_the_written_file_changes_nothing(tmp_path: Path) -> None:
-    """`course points` writes the author's points of all parts, and overwrites no file."""
+    """`course points` writes the default points of all parts, and does not overwrite an existing file."""
     path = tmp_path / "points.json"
     write_points(path)
     assert read_points(path) == read_points(None)

@@ -74,8 +74,8 @@ def _files(out: Path) -> Iterator[Path]:
 def _two() -> list[Grade]:
     """Return the grades of two students.
 
-    The first student submits late and earns all points. The second student has parts with all verdicts, one
-    part for each verdict.
+    The first student submits late and earns all points. The second student's parts have all possible
+    verdicts.
     """
     verdicts = (Verdict.PASSED, Verdict.FAILED, Verdict.NOT_ATTEMPTED, Verdict.UNDECIDED, Verdict.PASSED)
     mixed = tuple(report(f"05.{number}", verdict) for number, verdict in enumerate(verdicts, 1))

@@ -1,7 +1,7 @@
 """Tests of all steps from a platform's submissions to the file that the platform imports.
 
-Sources: Moodle's importgradeslib.php and locallib.php, Canvas's gradebook_importer.rb, and Gradescope's
-autograder format.
+Sources: Moodle's importgradeslib.php and locallib.php, Canvas's gradebook_importer.rb, and the
+specification of Gradescope's autograder.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def _named(path: Path) -> list[dict[str, str]]:
 def _moodle_imports(
     content: bytes, grade: str, identifier: str, feedback: str, separator: str
 ) -> dict[str, tuple[float | None, str]]:
-    """Return the grade and the feedback that Moodle would import, by participant number."""
+    """Return what Moodle would import: for each participant number, the grade and the feedback."""
     text = content.decode().removeprefix("\ufeff")
     head, *rows = csv.reader(io.StringIO(text, newline=""), delimiter=separator)
     imported = {}
@@ -204,7 +204,7 @@ def test_anonymous_submissions_of_an_instructor_who_sees_names(tmp_path: Path, n
 
 
 def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> None:
-    """If a participant number belongs to another name, the student gets no grade."""
+    """If a submission has one student's participant number and another name, no grade is written."""
     source = folder(tmp_path / "in", {f"Jo New_101_assignsubmission_file_/{NAMES['05']}": notebook})
     out = tmp_path / "out"
     _, found = _graded(source, read_lists(None, _write(tmp_path / "sheet.csv", ENGLISH)), out)
@@ -215,9 +215,9 @@ def test_a_worksheet_of_another_assignment(tmp_path: Path, notebook: bytes) -> N
 
 
 def _canvas_imports(rows: list[list[str]], users: Mapping[str, tuple[str, str, str]]) -> dict[str, list[str]]:
-    """Return the imported cells by Canvas user id.
+    """Return a dict: for each Canvas user id, the cells that Canvas would import.
 
-    `users` maps the Canvas user id to (SIS user id, login, name).
+    `users` maps each Canvas user id to the tuple (SIS user id, login, name).
     """
     head, possible, *students = rows
     assert "Student" in head[0]

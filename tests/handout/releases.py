@@ -20,7 +20,7 @@ def make_release(out: Path, path: str = "", chapters: tuple[str, ...] = ()) -> P
 
 
 def files_of(folder: Path) -> dict[str, bytes]:
-    """Return the files of an edition by path, without git's files."""
+    """Return a dict: for each path in the edition, the content of the file; git's own files are left out."""
     found = (path for path in folder.rglob("*") if path.is_file())
     names = {str(path.relative_to(folder)): path for path in found}
     return {name: path.read_bytes() for name, path in names.items() if not name.startswith(".git/")}

@@ -27,7 +27,7 @@ from tests.setup.test_course import course
 
 ROOT = os.geteuid() == 0
 NOTEBOOK = "05_write_a_server.ipynb"
-TIME = 1_700_000_000  # This time is in s since 1970.
+TIME = 1_700_000_000  # seconds since 1970
 FIRST_UID = 54_321  # No user of this machine has this id.
 WANTED = Wanted(["05", "06", "07"])
 
@@ -113,7 +113,7 @@ def test_work_is_where_the_grader_looks(
 
 
 def test_the_command_line(homes: Path, tmp_path: Path) -> None:
-    """The command does the same as the function, and prints one error message."""
+    """The command collects the files, and prints one error message for a wrong folder."""
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     words = ["collect", "ros-course", str(tmp_path / "out"), "--chapters", "5", "--homes"]
     done = course(*words, str(homes))
@@ -150,7 +150,7 @@ def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> 
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
-    # Some file systems allow this hard link.
+    # A student can create such a link to another student's file on some file systems.
     os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)
     [home] = [each for each in homes_in(homes) if each.student == "ben"]
     files, problems = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
@@ -162,7 +162,7 @@ def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> 
 
 
 def home_of(homes: Path, student: str) -> Home:
-    """Return a home folder that this process reads with its own permissions."""
+    """Return the object for a home folder that belongs to the user of this process."""
     return Home(student, homes / student, os.getuid(), os.getgid())
 
 

@@ -129,7 +129,7 @@ def test_a_zip_that_no_release_made_is_refused(tmp_path: Path) -> None:
     ],
 )
 def test_which_files_are_copied(name: str, released: bool) -> None:
-    """Only files of the package without answers are copied."""
+    """A file is released only if it belongs to the package and contains no answers."""
     assert is_released(name) is released
 
 
@@ -176,7 +176,7 @@ def test_the_link_for_nbgitpuller() -> None:
     ("hub", "repository"), [("hub.example.edu", REPOSITORY), (HUB, "git@git.example.edu:a/b")]
 )
 def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository: str) -> None:
-    """The error message contains the option and the required beginning of an address."""
+    """The error message contains the option, and says that the address must begin with https://."""
     with pytest.raises(HandoutError, match=r"--(hub|repository) .* begins with https://"):
         pull_link(hub, repository, "main", "x.ipynb")
 
@@ -184,7 +184,7 @@ def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository:
 def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
     """The record in the folder lists the released chapters.
 
-    Without a record and without solutions, an error message says what the user needs.
+    If a folder has neither this record nor solutions, the error message says that the solutions are needed.
     """
     assert released_chapters(tmp_path) is None
     with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get this folder"):

@@ -59,7 +59,7 @@ def answers(edition: Path) -> dict[str, list[str]]:
 
 
 def test_no_file_contains_the_answer_to_an_exercise(edition: Path) -> None:
-    """No released file contains the lines of a solution, except lines that a goal contains."""
+    """No released file contains a solution, except in lines that a goal of an exercise shows."""
     wanted = {part: lines for part, lines in answers(edition).items() if lines}
     assert len(wanted) > 95
     found = {}
@@ -95,7 +95,7 @@ def test_the_notebooks_are_those_that_students_get(edition: Path) -> None:
 
 
 def zipped(edition: Path) -> dict[str, zipfile.ZipInfo]:
-    """Return the files in the edition's zip by path."""
+    """Return a dict: for each path in the edition's zip, the information about the file."""
     with zipfile.ZipFile(f"{edition}.zip") as archive:
         return {info.filename.removeprefix(f"{edition.name}/"): info for info in archive.infolist()}
 

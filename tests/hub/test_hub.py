@@ -1,4 +1,4 @@
-"""`course hub` starts a hub; a student logs in once and works; after the hub's end, no process remains."""
+"""Tests of `course hub`: it starts a hub, a student logs in and works, and no process remains at the end."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def test_a_server_starts_where_namespaces_are_forbidden(address: str, folder: Pa
 
 
 def test_a_full_disk_is_named_on_the_students_page(address: str, folder: Path) -> None:
-    """This student's server does not start, and the page shows the reason."""
+    """The server of a student without disk space does not start, and the page shows the reason."""
     with Student(address, "full", folder / "hub.pem") as student:
         assert student.log_in(passwords(folder)["full"])
         page = student.refused_server()
@@ -77,9 +77,9 @@ def test_a_full_disk_is_named_on_the_students_page(address: str, folder: Path) -
 
 
 def test_a_missing_home_is_reported_for_this_student_only() -> None:
-    """On Debian, the account `nobody` has no home folder.
+    """The test uses an account without a home folder, such as `nobody` on Debian.
 
-    The account that runs this test has a home folder.
+    The account that runs this test has a home folder and gets no message.
     """
     missing = next(each for each in pwd.getpwall() if not os.path.exists(each.pw_dir))
     own = pwd.getpwuid(os.getuid()).pw_name
@@ -88,7 +88,7 @@ def test_a_missing_home_is_reported_for_this_student_only() -> None:
 
 
 def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:
-    """An upgrade deletes the old version, so the hub's folder is next to the folders of the versions."""
+    """The hub's folder is outside the version folders, because an upgrade deletes the old version."""
     version = tmp_path / "versions" / "1"
     version.mkdir(parents=True)
     (version / RECORD).touch()

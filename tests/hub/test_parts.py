@@ -50,14 +50,17 @@ def test_an_account_of_the_system_is_refused() -> None:
 
 
 def test_a_missing_or_foreign_home_is_a_problem(tmp_path: Path) -> None:
-    """The reason contains the path of the folder."""
+    """The returned problem contains the reason why the home folder cannot be used."""
     assert "does not exist" in accounts.home_problem(tmp_path / "none", os.getuid())
     assert "another user" in accounts.home_problem(tmp_path, os.getuid() + 1)
     assert accounts.home_problem(tmp_path, os.getuid()) == ""
 
 
 def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
-    """The files have the names and units of cgroup v2 (Documentation/admin-guide/cgroup-v2.rst)."""
+    """The limits are written to the files of cgroup v2.
+
+    The names and units are from Documentation/admin-guide/cgroup-v2.rst of Linux.
+    """
     (tmp_path / "cgroup.controllers").write_text("cpuset cpu io memory pids")
     hub = limits.group_of_hub(tmp_path)
     assert hub
@@ -105,7 +108,10 @@ def test_the_proxy_is_pinned() -> None:
 
 
 def test_the_files_for_containers_can_be_read() -> None:
-    """Both files contain a memory limit and start JupyterLab; the test does not run them."""
+    """The files for Kubernetes and Docker contain a memory limit and start JupyterLab.
+
+    The test does not start a container.
+    """
     deploy = Path(__file__).parents[2] / "deploy"
     values = yaml.safe_load((deploy / "kubernetes" / "values.yaml").read_text())
     assert values["singleuser"]["memory"]["limit"] == "1G"

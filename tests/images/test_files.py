@@ -49,19 +49,19 @@ def test_the_devcontainer_uses_this_image() -> None:
 
 
 def test_the_image_runs_as_an_ordinary_user() -> None:
-    """The last USER line names the user of Binder's arguments, and a command follows this line."""
+    """The last USER line contains Binder's variable NB_UID, and the last line is a CMD."""
     text = DOCKERFILE.read_text()
     assert re.findall(r"^USER (\S+)$", text, re.MULTILINE)[-1] == "${NB_UID}"
     assert text.rstrip().splitlines()[-1].startswith("CMD ")
 
 
 def test_no_file_names_a_registry_or_contains_a_secret() -> None:
-    """The files work with any registry, and contain no secret that prevents their publication."""
+    """The files contain no registry address and no secret, so they can be published."""
     for path in (DOCKERFILE, DEVCONTAINER, ROOT / ".dockerignore"):
         assert not HOST.findall(path.read_text())
         assert not SECRET.findall(path.read_text())
 
 
 def test_the_former_files_of_binder_are_gone() -> None:
-    """repo2docker prefers the Dockerfile, so it would not read these files."""
+    """The files postBuild and start do not exist, because repo2docker uses only the Dockerfile."""
     assert not [name for name in ("postBuild", "start") if (ROOT / name).exists()]

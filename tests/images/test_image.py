@@ -1,10 +1,10 @@
 """Tests of the container image.
 
-The test builds the image without an existing base, and runs the quick tests of the suite in a container of
-the image.
+They build the image without an existing base image, and run the quick tests of the suite in a container of
+the new image.
 
 mmdebstrap creates the base, and buildah runs the Dockerfile in a chroot, so the test needs no registry. All
-files are in a temporary folder, which needs 4 GB and is removed at the end; COURSE_IMAGE_FOLDER names its
+files are in a temporary folder, which needs 4 GB and is removed at the end; COURSE_IMAGE_FOLDER selects its
 parent folder.
 """
 
@@ -139,7 +139,7 @@ def image() -> Iterator[Image]:
 
 
 def test_jupyterlab_and_ros_are_on_the_path_of_an_ordinary_user(image: Image) -> None:
-    """Binder starts python3, which imports jupyterlab, and then jupyter-lab. No set-up runs."""
+    """Binder starts python3 to import jupyterlab, and then starts jupyter-lab. No set-up runs."""
     seen = image.run(
         "id -un; command -v jupyter-lab; python3 -c 'import jupyterlab'; ./course run rosnode list"
     )

@@ -35,7 +35,7 @@ def make_version(prefix: Path) -> Path:
 
 
 def asked(version: Path, program: str, **variables: str) -> str:
-    """Run `program` with the interpreter and the package of `version`, and return the output."""
+    """Run `program` with this environment's interpreter and the package in `version`; return the output."""
     command = [Places.of().python, "-c", program]
     environment = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "PYTHONPATH": str(version / "course")}
     done = subprocess.run(

@@ -40,7 +40,7 @@ def _version(prefix: Prefix, name: str) -> Path:
 
 
 def test_an_upgrade_keeps_a_version_that_is_in_use(prefix: Prefix) -> None:
-    """The link leads to the new version.
+    """After an upgrade, the command `course` runs the new version.
 
     The installer removes an old version when no process uses this version.
     """
@@ -82,7 +82,7 @@ def test_an_uninstall_waits_for_the_users(prefix: Prefix) -> None:
 def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
     """For an unsuitable prefix, the installer prints one message and changes nothing.
 
-    Unsuitable are a space, another program's folder, and another program's command.
+    A prefix is unsuitable if it contains a space, or if it contains files or a command of another program.
     """
     (tmp_path / "foreign").mkdir()
     (tmp_path / "foreign" / "file").touch()

@@ -27,7 +27,7 @@ def user_environment() -> dict[str, str]:
 def running(*arguments: str, before: Sequence[str] = (), **variables: str) -> Iterator[subprocess.Popen[str]]:
     """Run `course lab` or `course run` during the `with` block.
 
-    `before` contains the first words of the command line.
+    `before` is a command prefix.
     """
     with subprocess.Popen(
         [*before, ROOT / "course", *arguments],
@@ -65,7 +65,7 @@ def address_of(process: subprocess.Popen[str]) -> str:
 
 
 def below(process: subprocess.Popen[str]) -> list[int]:
-    """Return the child processes of `process` at all levels."""
+    """Return all descendants of `process`."""
     return descendants(process.pid)
 
 
@@ -94,13 +94,13 @@ def having(pattern: bytes, pids: list[int]) -> list[int]:
 
 
 def network_of(pid: int) -> list[str]:
-    """Return the start of a command that runs in the network of a process."""
+    """Return a command prefix that runs a command in the network of a process."""
     other = [kind for kind in ("user", "net") if os.readlink(f"/proc/{pid}/ns/{kind}") != own_namespace(kind)]
     return ["nsenter", "-t", str(pid), *(f"--{kind}" for kind in other), "--preserve-credentials", "--"]
 
 
 def own_namespace(kind: str) -> str:
-    """Return the name of this process's namespace of a kind, such as net."""
+    """Return the identifier of this process's namespace; `kind` is the type, such as net."""
     return os.readlink(f"/proc/self/ns/{kind}")
 
 

@@ -12,10 +12,10 @@ from jupyter_server.services.kernels.websocket import KernelWebsocketHandler
 
 
 class SocketsHandler(JupyterHandler):  # type: ignore[misc]
-    """Returns the socket options of the server."""
+    """Responds with the state of TCP_NODELAY on each kernel websocket."""
 
     def get(self) -> None:
-        """Respond with a JSON list that contains a Boolean for each open kernel websocket."""
+        """Respond with a JSON list: for each open kernel websocket, whether TCP_NODELAY is set."""
         handlers = [
             it
             for it in gc.get_objects()

@@ -1,4 +1,4 @@
-"""`jupyter lab`, started by hand in the course's environment, has the settings, ROS and a master."""
+"""Tests of `jupyter lab` in the course's environment: it has a master and the settings of `course lab`."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ async def ask(host: str, path: str, method: str = "GET") -> object:
 
 
 async def options_of_a_page(host: str) -> object:
-    """Open a kernel's websocket, and return the server's socket options."""
+    """Open a kernel's websocket, and return whether TCP_NODELAY is set on the server's kernel websockets."""
     kernel = await ask(host, "/api/kernels", "POST")
     assert isinstance(kernel, dict)
     page = await websocket_connect(f"ws://{host}/api/kernels/{kernel['id']}/channels?token=t&session_id=s")
@@ -81,13 +81,13 @@ async def options_of_a_page(host: str) -> object:
 
 @pytest.mark.parametrize("ours", [False, True])
 def test_only_the_extension_sets_the_socket_option(ours: bool, tmp_path: Path) -> None:
-    """Only with the extension does a kernel's websocket have TCP_NODELAY."""
+    """A kernel's websocket has TCP_NODELAY only if the extension is enabled."""
     with server(tmp_path, ours=ours) as host:
         assert completed(asyncio.wait_for(options_of_a_page(host), 60)) == [ours]
 
 
 def test_a_server_without_the_setting_does_not_change() -> None:
-    """For a server without the setting, the extension only logs a warning."""
+    """If the server's settings do not have the expected entry, the extension only logs a warning."""
     log = Log()
     extension._send_at_once(SimpleNamespace(log=log, web_app=SimpleNamespace(settings={})))
     assert len(log.warnings) == 1
@@ -125,7 +125,7 @@ def make(kept: CachedCheckpoints, path: str) -> None:
 
 
 def test_two_notebooks_of_one_name_have_separate_checkpoints(kept: CachedCheckpoints, tmp_path: Path) -> None:
-    """A chapter and its solution have separate checkpoint files outside the checkout."""
+    """A chapter's notebook and its solution have separate checkpoint files outside the checkout."""
     before = sorted((tmp_path / "checkout").rglob("*"))
     for chapter in ("notebooks", "solutions"):
         make(kept, f"{chapter}/05_x.ipynb")

@@ -1,4 +1,4 @@
-"""A user's own folder, with a shared installation."""
+"""Tests of a user's own folder with a shared installation."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tests.installation.installations import asked, make_version
 
 @pytest.fixture
 def places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Places:
-    """Return the folders of an installation with two notebooks; the user's own folder does not exist yet."""
+    """Return the folders of an installation with two notebooks; the user's folder is missing."""
     notebooks = tmp_path / "version" / "course" / "notebooks"
     notebooks.mkdir(parents=True)
     (tmp_path / "version" / RECORD).write_text("{}")
@@ -28,7 +28,10 @@ def places(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Places:
 def test_an_upgrade_adds_notebooks_and_never_overwrites_the_users_work(
     places: Places, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """New and unchanged notebooks get the new version. A message lists each changed notebook once."""
+    """An upgrade adds new notebooks, and replaces notebooks that the user has not changed.
+
+    For a changed notebook, it prints one message and keeps the user's version.
+    """
     make_own_files(places)
     (places.own / "notebooks" / "05.ipynb").write_text("my work")
     for name in ("05", "06", "07"):

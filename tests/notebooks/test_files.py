@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.mark.parametrize("path", sorted((ROOT / "solutions").glob("*.ipynb")), ids=lambda path: path.stem)
 def test_no_file_has_the_name_of_one_of_the_course(path: Path) -> None:
-    """A notebook does not write a file with the same name as a file of the course.
+    """A notebook writes no file with the name of a node, a launch file or a service type of the course.
 
     Files below src/ are exceptions, because they belong to a student's package.
     """

@@ -55,7 +55,7 @@ def test_chapter_ends_with_a_summary_and_a_link(cells: list[Cell]) -> None:
 
 
 def test_links_lead_somewhere(cells: list[Cell]) -> None:
-    """A link to another chapter contains the name of an existing file."""
+    """Each link to another chapter leads to an existing notebook."""
     targets = re.findall(r"\]\((\w+\.ipynb)\)", prose(cells))
     assert [target for target in targets if not (ROOT / "solutions" / target).exists()] == []
 

@@ -24,7 +24,7 @@ LIMIT = 1_000_000  # GitHub does not show a notebook that has more bytes than th
 
 
 def outputs(path: Path) -> Iterator[tuple[str, Output]]:
-    """Yield each stored output that has a plain text, together with the plain text."""
+    """Yield each stored output that has the MIME type text/plain, together with its plain text."""
     for cell in code_cells(read(path)):
         for output in cell["outputs"]:
             if "text/plain" in output.get("data", {}):

@@ -61,7 +61,7 @@ def test_at_the_beginning_the_first_chapter_is_next() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_fulfilled_goals_are_counted() -> None:
-    """A part that has not passed gets the points of its last check."""
+    """If a part has not passed, the overview shows the points of its last check."""
     StudentRecord().store("05.3", {"check": "05.3", "verdict": "not yet", "points": 1.5})
     shown = progress("05")
     assert str(shown).startswith("Chapter 05, Write a server: 0 of 5 parts passed, 1.5 of 11 points")
@@ -225,7 +225,7 @@ def test_a_notebook_gets_text_and_html_with_links_to_the_chapters() -> None:
 
 @pytest.mark.usefixtures("state")
 def test_the_table_of_predictions_shows_the_progress_in_its_chapter() -> None:
-    """The panel shows the progress, but its plain text is the same for every student."""
+    """The panel shows the progress in the chapter, but its plain text is the same for every student."""
     before = repr(predictions("05"))
     store("passed", "05.1")
     store("not yet", "05.2")
@@ -261,7 +261,7 @@ def test_a_chapter_has_the_title_and_the_name_of_its_notebook(path: Path) -> Non
 
 
 def test_the_command_prints_and_exports(state: Path, tmp_path: Path) -> None:
-    """`course progress` prints the overview, or writes it to the files in the options."""
+    """`course progress` prints the overview; with the options --csv and --html, it writes files."""
     store("passed", "05.1")
     shown = course("progress", "05", COURSE_STATE=str(state))
     assert (shown.returncode, shown.stderr) == (0, "")

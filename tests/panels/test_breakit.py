@@ -27,14 +27,14 @@ from tests.support import eventually
 
 @dataclass
 class Paper:
-    """A fake stage that causes no fault, and records its calls."""
+    """Replaces the functions that create stages and run tools; it causes no fault, and records all calls."""
 
     done: list[str] = field(default_factory=list)
     fails: bool = False
     holds: threading.Event | None = None
 
     def stage(self, fault: Fault) -> Sheet:
-        """Return the fake scene of a fault."""
+        """Return a fake Stage object for the fault."""
         return Sheet(self, fault.name)
 
     def use(self, sheet: Sheet, tool: str) -> Seen:
@@ -47,7 +47,7 @@ class Paper:
 
 @dataclass
 class Sheet:
-    """A fake scene that records the calls of cause() and undo()."""
+    """A fake Stage object, which records the calls of cause() and undo()."""
 
     paper: Paper
     name: str
@@ -65,7 +65,7 @@ class Sheet:
 
 
 class Lab:
-    """A model of the panel with its latest state."""
+    """A panel's model with fake stages, and the latest state that the model has sent."""
 
     def __init__(self, path: Path, *chosen: str) -> None:
         self.paper = Paper()
@@ -94,7 +94,7 @@ class Lab:
 
 @pytest.fixture
 def lab(tmp_path: Path) -> Iterator[Lab]:
-    """Return a model with all cases on a fake stage."""
+    """Return a model with all cases, which causes no real faults."""
     lab = Lab(tmp_path)
     yield lab
     lab.model.close()
@@ -143,7 +143,7 @@ def test_a_case_shows_its_symptom_and_nothing_else(lab: Lab) -> None:
 
 
 def test_tools_are_used_one_at_a_time_and_few_are_kept(lab: Lab) -> None:
-    """While a tool runs, a click has no effect. The page shows only the latest eight outputs."""
+    """While a tool runs, a click has no effect. The page shows only the latest eight outputs of tools."""
     lab.begin("stale")
     lab.paper.holds = threading.Event()
     lab.model.use("services")
@@ -233,7 +233,7 @@ def test_undo_waits_for_the_running_tool(lab: Lab) -> None:
 
 
 def test_play_prepares_a_case_for_a_page_without_a_kernel(lab: Lab) -> None:
-    """The recorded state contains the symptom and the outputs, but not the answer."""
+    """play() records the symptom of a case and the outputs of the tools, but no answer."""
     lab.model.play("stale", ["services", "ping"])
     assert lab.paper.done == ["cause stale", "again stale", "services stale", "ping stale", "undo stale"]
     assert [each["tool"] for each in lab.case["looks"]] == ["again", "services", "ping"]

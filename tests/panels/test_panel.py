@@ -67,7 +67,7 @@ def test_an_error_of_a_panel_itself_is_explained_if_it_is_known(nowhere: None) -
 
 
 def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaster) -> None:
-    """The wire view shows a failed call and explains the error."""
+    """A wire view of a failed call shows the error message and an explanation."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_MASTER_URI", master.uri)
         with caused("returns_none"):
@@ -79,7 +79,7 @@ def test_the_error_of_a_call_that_was_captured_is_explained(master: PrivateMaste
 
 @pytest.mark.parametrize("entry", ENTRIES, ids=lambda path: path.stem)
 def test_each_panel_is_framed(entry: Path) -> None:
-    """The script of each panel calls the common function for frames, and declares no name twice."""
+    """The script of each panel exports framed(render), and declares no name twice."""
     joined = module(entry, PANELS / "explained.js")
     assert joined.count("export default { render: framed(render) };") == 1
     assert joined.count("export ") == 1
@@ -88,7 +88,7 @@ def test_each_panel_is_framed(entry: Path) -> None:
 
 
 class Polled:
-    """A value that a poller reads, and the poller's reports."""
+    """A value, the poller that reads this value, and everything that the poller reports."""
 
     def __init__(self) -> None:
         self.now: object = 1
@@ -107,7 +107,7 @@ class Polled:
         return self.now
 
     def read_again(self) -> bool:
-        """Return whether the value is read again in time."""
+        """Wait until the poller has read the value three more times; return True."""
         before = self.reads
         return eventually(lambda: self.reads > before + 2)
 
@@ -137,7 +137,7 @@ def test_a_value_is_reported_once(polled: Polled) -> None:
 
 
 def test_an_error_is_reported_once_and_recovery_is_reported(polled: Polled) -> None:
-    """A repeated error is reported once, and the next value is reported."""
+    """A repeated error is reported once, and the first value after the error is reported."""
     polled.now = OSError("gone")
     polled.poller.start()
     eventually(lambda: polled.failed)
@@ -202,7 +202,7 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
 
 
 def test_there_are_panels_to_join() -> None:
-    """The list of panel scripts contains all panels."""
+    """The build finds the script of each of these panels."""
     panels = {"choices", "graph", "prediction", "service", "timeline", "topic", "turtles"}
     assert panels <= {entry.stem for entry in ENTRIES}
 

@@ -73,7 +73,7 @@ def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
 def test_numbers_and_texts_are_compared_by_value(
     model: PredictionModel, predicted: str, actual: object, stretch: str
 ) -> None:
-    """2.50 counts as equal to 2.5, and upper case counts as equal to lower case."""
+    """The comparison ignores differences between 2.50 and 2.5, and between upper and lower case."""
     model.answer(predicted)
     assert stretch in model.compare(actual).verdict
 
@@ -125,7 +125,7 @@ def test_predictions_are_in_the_state_folder(monkeypatch: pytest.MonkeyPatch, tm
 def test_answers_of_the_first_edition_belong_to_other_questions(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """Files of the first edition are neither read nor changed."""
+    """Predictions and choices from the first edition are neither used nor changed."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path))
     prediction = {"key": "08.once", "question": "Where is the turtle?", "answer": "one metre"}
     choice = {"key": "08.cases", "question": "Which fits?", "cases": 1, "chosen": {CASES[0][0]: "a service"}}
@@ -172,12 +172,12 @@ def choice_store(tmp_path: Path) -> ChoiceStore:
 
 @pytest.fixture
 def choices_model(choice_store: ChoiceStore) -> ChoicesModel:
-    """Return the model of three cases of chapter 03."""
+    """Return a model of three cases in chapter 03."""
     return ChoicesModel("03.cases", "Which fits?", OPTIONS, CASES, choice_store)
 
 
 def decide(choices_model: ChoicesModel, *options: str) -> None:
-    """Choose an option for each case in order."""
+    """Choose the first option for the first case, the second option for the second case, and so on."""
     for number, option in enumerate(options):
         choices_model.choose(number, option)
 

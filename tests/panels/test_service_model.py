@@ -64,7 +64,7 @@ def find_type(name: str) -> ServiceType:
 
 
 class Harness:
-    """A model and the messages that the model sent."""
+    """Stores the messages of a model that uses a fake proxy."""
 
     def __init__(self) -> None:
         self.caller = Caller()
@@ -266,7 +266,7 @@ def test_picking_another_service_ends_the_call_and_its_answer_is_dropped(harness
 
 
 def test_recording_keeps_request_and_outcome(harness: Harness) -> None:
-    """A recording calls the service with each input, and stores the outcomes."""
+    """record() calls the service with each request, and stores the requests and the outcomes."""
     kept = harness.model.record([{"length": 1.2, "width": 5.2, "height": 8.9}, {}], "5")
     assert [each["draft"]["length"] for each in kept] == ["1.2", "0.0"]
     assert [each["outcome"]["rows"][0]["text"] for each in kept] == ["6.24", "0.0"]

@@ -33,7 +33,7 @@ def ended(panel: ServicePanel) -> dict[str, Plain]:
 
 
 def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
-    """A click calls the real server, and the traits contain the response."""
+    """A click calls the real server, and the panel's state contains the response."""
     panel.received("call", {"draft": {"length": "1.2", "width": "5.2", "height": "8.9"}, "deadline": "5"})
     outcome = ended(panel)
     assert outcome["phase"] == "done"
@@ -43,7 +43,7 @@ def test_a_click_calls_the_real_server(panel: ServicePanel) -> None:
     ]
     assert (
         panel.check["shell"] == "rosservice call /getGeometry 0.0 0.0 0.0"
-    )  # The page first sends the texts of the form.
+    )  # The page sends the texts of the form in another message, which this test omits.
 
 
 def test_a_cell_calls_with_the_same_form(panel: ServicePanel) -> None:

@@ -175,7 +175,7 @@ def _own_records(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_each_kind_of_panel_has_a_picture() -> None:
-    """The list of pictures in this file contains every kind of panel."""
+    """STILLS and STATES contain every kind of panel."""
     folders = {path.parent.name for path in PANELS.glob("*/view.py")}
     assert set(STILLS) == folders == {panel for panel, _ in STATES.values()}
 
@@ -203,7 +203,7 @@ def test_a_picture_is_complete(name: str) -> None:
 
 
 def test_values_that_differ_in_each_run_are_left_out() -> None:
-    """A picture without the mark "measured" contains no port, time of day or process id."""
+    """A kind of picture without the attribute `measured` contains no port, time of day or process id."""
     graph = STILLS["graph"].draw(graph_state())
     assert "1700000000000" not in graph
     assert "1 topic" in graph

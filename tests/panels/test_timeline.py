@@ -49,7 +49,7 @@ def recording(*events: Event, length: float = 10.0, **more: tuple[str, ...] | di
 
 
 def drawn(found: Recording) -> list[tuple[str, str]]:
-    """For each arrow, return the kinds of its first and its last event."""
+    """For each arrow, return the kinds of the events at its start and at its end."""
     return [(found.events[tail].kind, found.events[head].kind) for tail, head in arrows(found.events)]
 
 
@@ -77,7 +77,7 @@ def test_a_call_that_timed_out_has_no_response() -> None:
 
 
 def test_a_call_that_never_ended() -> None:
-    """A call that has not ended has one arrow, from the wait to the handler."""
+    """A call that has not ended has one arrow, from the caller's wait to the handler."""
     wait = Event("wait", "/customer", "/x", -3.0, None, "/cashier", "call 1", "MainThread")
     handler = Event("handler", "/cashier", "/x", -2.9, None, "/customer", "call 1", "Thread-1")
     found = recording(wait, handler)
@@ -155,7 +155,7 @@ def test_too_many_calls() -> None:
 
 
 def test_nothing_recorded() -> None:
-    """For an empty recording, the panel lists the nodes without events."""
+    """If no event was recorded, the panel only lists the nodes."""
     empty = state(Recording(nodes=("/a",), unrecorded={"/b": "its process is gone"}, length=1.0))
     assert (empty["lanes"], empty["arrows"], empty["idle"]) == ([], [], ["/a"])
     assert empty["unrecorded"] == [["/b", "its process is gone"]]

@@ -19,7 +19,7 @@ EMPTY: Connections = {"type": "", "publishers": [], "subscribers": [], "sources"
 
 
 class FakeProcess:
-    """A model, the state for the page, and the commands to the topic process."""
+    """Replaces the topic process: it stores the model's state for the page and the model's commands."""
 
     def __init__(self, kind: MessageType | None = FLOAT, topic: str = "/speed") -> None:
         self.state: dict[str, Plain] = {}
@@ -47,7 +47,7 @@ def test_a_form_and_its_commands_are_there_at_once() -> None:
 
 
 def test_a_measurement_is_drawn_first() -> None:
-    """By default, the panel plots a measured value instead of `header.seq`."""
+    """By default, the panel plots the first measured value, and not header.seq."""
     process = FakeProcess(message_type("sensor_msgs/JointState"), "/joint_states")
     assert process.state["about"]["numbers"][0] == "header.seq"
     assert process.state["settings"]["path"] == "position[0]"
@@ -179,7 +179,7 @@ def test_a_message_without_fields_is_a_message() -> None:
 
 
 def test_reports_come_in_parts() -> None:
-    """If a report does not contain a value, the panel does not change this value."""
+    """A report may contain only some of the values; the panel keeps all other values."""
     process = FakeProcess()
     process.model.report({"count": 3, "trouble": "No master."})
     process.model.report({"statistics": {"rate": 10.0}})
@@ -237,12 +237,15 @@ PUBLISHER: PublisherReport = {
     ],
 )
 def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> None:
-    """The sentence describes the facts of the report."""
+    """The sentence says what happened to the published message."""
     assert published({**PUBLISHER, **change}, "/panel") == words
 
 
 def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connections:
-    """Return at most two nodes on the topic. If `md5` is not empty, the publisher is connected."""
+    """Return the connections of a topic with at most one publisher and one subscriber.
+
+    If `md5` is not empty, the panel is connected to the publisher, which has this MD5 sum.
+    """
     sources = [{"node": "/talker", "type": publisher, "md5": md5}] if md5 else []
     publishers = [{"node": "/talker", "type": publisher}] if publisher else []
     subscribers = [{"node": "/listener", "type": subscriber}] if subscriber else []

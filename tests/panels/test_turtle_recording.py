@@ -10,16 +10,16 @@ from course_pkg.panels.turtles.pen import HOME, USUAL, Colour, Observation
 from course_pkg.panels.turtles.recording import BACKGROUND, MOST, UP, TurtleRecording
 
 RED: Colour = (255, 0, 0)
-LOOK = 50  # Two consecutive poses are this many ms apart.
+LOOK = 50  # the time between two consecutive observations in ms
 
 
 def at(x: float, colour: Colour | None = BACKGROUND, speed: float = 1.0, y: float = 2.0) -> Observation:
-    """Return a pose of a turtle that moves to the right."""
+    """Return the observation of a turtle that faces right."""
     return Observation(x, y, 0.0, speed, colour)
 
 
 def filmed(*snapshots: Observation) -> TurtleRecording:
-    """Return the recording of a turtle that has a pose every 50 ms."""
+    """Return the recording of a turtle; consecutive observations are LOOK ms apart."""
     recording = TurtleRecording()
     for number, seen in enumerate(snapshots):
         recording.see(number * LOOK, "turtle1", seen)
@@ -34,7 +34,7 @@ def test_a_turtle_that_rests_makes_one_row() -> None:
 
 
 def test_a_turtle_stands_still_in_the_replay_until_it_starts() -> None:
-    """The last pose before a movement has a separate row.
+    """The recording has a separate row for the last pose before a movement.
 
     Without this row, the turtle in the replay would move too early.
     """
@@ -78,7 +78,7 @@ def test_a_fast_turtle_on_plain_paper_may_still_draw() -> None:
 
 
 def test_clear_is_seen_by_a_turtle_on_its_line() -> None:
-    """If the colour under a resting turtle becomes the background colour, the lines are erased."""
+    """If the colour under a resting turtle changes to the background colour, the replay erases all lines."""
     resting = [at(3.1, USUAL, speed=0.0)] * 3
     recording = filmed(at(3.0, speed=0.0), at(3.1, USUAL), *resting, at(3.1, speed=0.0))
     assert recording.rows[-1][1:] == (UP, "cleared")

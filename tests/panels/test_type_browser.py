@@ -25,20 +25,20 @@ from tests.types.conftest import build, package
 
 
 class Wall:
-    """A model, and the keyword arguments of its messages."""
+    """Stores the messages of a model; each message consists of keyword arguments."""
 
     def __init__(self) -> None:
         self.said: list[dict[str, Plain]] = []
         self.model = TypeModel(lambda **parts: self.said.append(parts))
 
     def last(self, name: str) -> Plain:
-        """Return the latest message with this keyword."""
+        """Return the latest value that the model has sent with the keyword `name`."""
         return next(each[name] for each in reversed(self.said) if name in each)
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a folder for packages that is on ROS_PACKAGE_PATH and on sys.path."""
+    """Return a temporary folder that is on ROS_PACKAGE_PATH; its subfolder python is on sys.path."""
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path), prepend=":")
     monkeypatch.syspath_prepend(str(tmp_path / "python"))
     return tmp_path

@@ -81,7 +81,7 @@ def header(**fields: str) -> bytes:
 
 
 def body(kind: MessageType, values: dict[str, Plain]) -> bytes:
-    """Return the bytes of a message without the length at the beginning."""
+    """Return the bytes of a message, without the four length bytes at its beginning."""
     buffer = io.BytesIO()
     kind.to_message({**kind.default(), **values}).serialize(buffer)
     return buffer.getvalue()
@@ -93,7 +93,7 @@ def values(pieces: list[PieceState]) -> dict[str, str]:
 
 
 def covered(pieces: list[PieceState]) -> list[tuple[int, int]]:
-    """Return the byte offsets of all fields, without headings."""
+    """Return the offset and the size of each field, without headings."""
     return [(piece["at"], piece["size"]) for piece in pieces if piece["role"] != "group"]
 
 
@@ -108,7 +108,10 @@ def gapless(pieces: list[PieceState], size: int) -> bool:
 
 
 def connection(*said: tuple[bool, bytes], closed_by: str = "client") -> RelayedConnection:
-    """Return a connection with these blocks of bytes. `True` means that the client sent the block."""
+    """Return a connection with these blocks of bytes.
+
+    The Boolean of each block says whether the client sent the block.
+    """
     chunks = [Chunk(10 + number / 1000, *each) for number, each in enumerate(said)]
     return RelayedConnection(10.0, chunks, closed_by)
 
@@ -171,7 +174,7 @@ def test_any_bytes_are_shown(seed: int) -> None:
 
 
 def test_a_wrong_count_is_read_in_no_time() -> None:
-    """If a message contains a wrong element count, the view is still fast."""
+    """A wrong element count in a message does not make the view slow."""
     kind = compile_message("x/Empties", "std_msgs/Empty[] nothing\nuint8 last")
     pieces = request_pieces(sized(b"\xff\xff\xff\xff\x05"), kind)
     assert values(pieces)["last"] == "5"
@@ -195,7 +198,7 @@ def test_long_values_are_shortened() -> None:
 
 
 def test_too_many_pieces_are_folded() -> None:
-    """If a message has hundreds of fields, only the first fields are shown separately."""
+    """If a message has hundreds of fields, the last fields are shown as one item."""
     kind = compile_message("x/Wide", "\n".join(f"int32 f{number}" for number in range(400)))
     data = sized(body(kind, {}))
     pieces = request_pieces(data, kind)
@@ -213,7 +216,7 @@ def test_a_header_is_fields_with_their_lengths() -> None:
 
 
 def test_the_steps_of_a_call() -> None:
-    """A call has these steps: the connection, two headers, the request, the response and the end.
+    """A call has these steps: connection, two headers, request, response, and end of the connection.
 
     The times are in ms since the first step.
     """

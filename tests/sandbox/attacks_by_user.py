@@ -1,4 +1,4 @@
-"""Runs attacks in the sandbox of other users, and prints the results as a JSON object.
+"""Runs attacks in the sandbox that runs submissions as other users; prints the results as JSON.
 
 The arguments are a folder that no student may read, and files that no student may change.
 """

@@ -1,7 +1,7 @@
 """Runs a command in a copy of the course, as on an autograder without namespaces.
 
-Only this command sees the copy at the checkout's path. For the command, bubblewrap does not work, and all
-users can read the course's environment.
+At the path of the checkout, the command sees this copy, but other processes see the checkout. In the command,
+bubblewrap fails, and all users can read the course's environment.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ exec "$@"
 
 
 def unpacked_autograder(folder: Path, **options: Path | float | tuple[str, ...] | None) -> Path:
-    """Create an autograder, unpack it as Gradescope does, and return the folder `source`."""
+    """Create an autograder, unpack it as Gradescope does, and return the folder of the unpacked files."""
     write_autograder(Options(folder / "autograder.zip", **options))  # type: ignore[arg-type]
     source = folder / "autograder" / "source"
     with zipfile.ZipFile(folder / "autograder.zip") as archive:

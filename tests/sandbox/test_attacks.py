@@ -39,7 +39,7 @@ each_attack = pytest.mark.parametrize(("batch", "attack"), KINDS, indirect=["bat
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests."""
+    """Run one sandbox worker, which all tests of this module use."""
     with SandboxWorker() as started:
         yield started
 
@@ -57,7 +57,7 @@ def job(source: str, *, setup_timeout: float = 25.0, answer_timeout: float = 20.
 
 
 def points(result: PartResult) -> int:
-    """Return the points in the check runner's record, or 0 without a record."""
+    """Return the points in the result's record, or 0 if the result has no record."""
     return int((result.record or {}).get("points", 0))
 
 

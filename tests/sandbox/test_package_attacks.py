@@ -35,24 +35,24 @@ add_custom_target(my_geometry_programs ALL
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests."""
+    """Run one sandbox worker, which all tests of this module use."""
     with SandboxWorker() as started:
         yield started
 
 
 def examined(worker: SandboxWorker, changes: dict[str, str], check: str = CHECK) -> PartResult:
-    """Run the check of the solution's package with `changes`, and return the result."""
+    """Apply `changes` to the solution's package, run a check of the package, and return the result."""
     files = work_files(my_geometry(changes))
     return worker.run(PartJob(check, BEFORE, (), AFTER, 1, find(check).deadline, files=files))
 
 
 def points(result: PartResult) -> int:
-    """Return the points in the check runner's record, or 0 without a record."""
+    """Return the points in the result's record, or 0 if the result has no record."""
     return int((result.record or {}).get("points", 0))
 
 
 def attacked(attack: str) -> str:
-    """Return the solution's CMakeLists.txt with the lines of an attack."""
+    """Insert an attack into the solution's CMakeLists.txt, and return the changed text."""
     text = my_geometry()[LISTS].decode()
     end = text.index("\n", text.index("catkin_package(")) + 1
     return text[:end] + textwrap.dedent(attack) + text[end:]

@@ -60,7 +60,8 @@ CALLS = {  # A refused call returns -1, and any other call returns 0 or a positi
     "reboot": "libc.reboot(0x89ABCDEF)",
     "the clock": "libc.settimeofday(b'\\0' * 16, None)",
 }
-# Ten child processes run until stdin is closed; `before` runs before the fork, and `after` in each child.
+# Ten child processes run until stdin is closed. `before` is code that runs before the fork, and `after` is
+# code that runs in each child process.
 FORKED = """
 import os, sys
 {before}
@@ -76,7 +77,7 @@ os.read(0, 1)
 
 @pytest.fixture(scope="module")
 def worker() -> Iterator[SandboxWorker]:
-    """Return one sandbox worker for all tests of this module."""
+    """Run one sandbox worker, which all tests of this module use."""
     with SandboxWorker() as started:
         yield started
 
@@ -198,9 +199,9 @@ def one_call(context: CheckContext) -> None:
 
 
 def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path: Path) -> None:
-    """If an answer is stopped during its check, the result contains the reason.
+    """If an answer uses too much memory during its check, the result contains this reason.
 
-    It does not contain an error about a lost master.
+    The result does not contain an error about a lost master.
     """
     source = """
         import os, time
@@ -331,7 +332,7 @@ def test_nothing_of_the_previous_part_remains(worker: SandboxWorker) -> None:
 
 
 def test_a_kernel_cannot_report_a_false_build(worker: SandboxWorker) -> None:
-    """A patched kernel cannot report a successful build, because another process runs the commands."""
+    """An answer cannot forge a successful build in the kernel, because another process runs the build."""
     wrong = next(answer for answer in every_answer() if answer.check == "04.3" and not answer.right)
     forged = """
 from course_pkg.checking.commands.workbench import CommandFolders

@@ -34,7 +34,7 @@ SUBCOMMANDS = (
 
 
 def course(*words: str, cwd: Path = ROOT, **variables: str) -> subprocess.CompletedProcess[str]:
-    """Run `course` with the additional environment `variables`."""
+    """Run `course` with the arguments `words`; `variables` are additional environment variables."""
     env = {**os.environ, "ROS_MASTER_URI": "http://localhost:9", **variables}
     return subprocess.run([ROOT / "course", *words], cwd=cwd, env=env, capture_output=True, text=True)
 

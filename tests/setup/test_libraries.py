@@ -1,4 +1,4 @@
-"""Tests of using pip's settings for uv."""
+"""Tests that the set-up passes pip's settings to uv."""
 
 from __future__ import annotations
 

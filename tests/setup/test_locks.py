@@ -24,7 +24,7 @@ def pinned(extra: str) -> set[tuple[str, str]]:
 
 
 def declared(heading: str) -> list[tuple[str, str, str]]:
-    """Return the name, version and marker of each library after `heading` in pyproject.toml.
+    """Return the name, version and marker of each library in the list `heading` of pyproject.toml.
 
     The function reads the file as text, because Python 3.10 has no TOML module.
     """

@@ -39,12 +39,12 @@ def test_a_setting_that_forbids_namespaces_is_named(
 
 
 def test_other_reasons_are_quoted(kernel: Path) -> None:
-    """If no kernel setting forbids namespaces, the message contains the error message of the program."""
+    """If no kernel setting forbids namespaces, the message contains the error message of `unshare`."""
     assert network.network_problem()[0] == "unshare failed: Operation not permitted"
 
 
 def test_what_outgoing_connections_need(kernel: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The messages name a missing program, a missing device, and an unreachable name server."""
+    """Each message contains a reason: a missing program, a missing device, or an unreachable name server."""
     assert "slirp4netns is not installed" in network.outgoing_problem()[0]
     fake(kernel, "slirp4netns", "exit 0")
     monkeypatch.setattr(network, "DEVICE", str(kernel / "none"))

@@ -19,13 +19,13 @@ from course_pkg.setup.steps import steps_of
 
 @pytest.fixture
 def journal(tmp_path: Path) -> Iterator[Journal]:
-    """Return a journal in a temporary folder."""
+    """Return a journal (a log of the set-up) in a temporary folder."""
     with locked(tmp_path / "lock", lambda: None) as lock:
         yield Journal(tmp_path, lock)
 
 
 def test_an_empty_cache_needs_libraries_and_workspace(tmp_path: Path) -> None:
-    """With an empty cache, the steps for libraries and workspace are not done."""
+    """If the cache is empty, is_done() returns False for the libraries and for the catkin workspace."""
     places = Places(Places.of().checkout, tmp_path / "cache")
     *_, [libraries], [catkin] = [[step for step in stage if step.makes] for stage in steps_of(places)]
     assert not libraries.is_done()
@@ -47,7 +47,7 @@ def test_a_full_disk_is_reported(journal: Journal) -> None:
 def test_a_full_disk_is_reported_without_a_message_from_the_tool(
     journal: Journal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If a tool fails on a full disk without a message, the error message says that the disk is full."""
+    """If a tool fails without a message and the disk is full, the error message says that it is full."""
     monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
     with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete other files, and start again."):
         journal.run(["false"])
@@ -74,7 +74,7 @@ def test_the_set_up_waits_for_another_package_manager(
 
 
 def test_waiting_for_a_lock_has_a_timeout(journal: Journal, monkeypatch: pytest.MonkeyPatch) -> None:
-    """After the timeout, or after any other failure, the tool's error message is shown."""
+    """After the timeout, or after an error that is not about a lock, the tool's error message is shown."""
     monkeypatch.setattr(packages, "LOCK_TIMEOUT", 0.0)
     monkeypatch.setattr(packages, "RETRY_INTERVAL", 0.0)
     for words in ("Could not get lock /x", "Unable to locate package y"):

@@ -23,7 +23,7 @@ def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
 
 
 def test_a_digest_depends_on_the_borders_of_its_parts() -> None:
-    """The digest changes if a character moves from one input to the next."""
+    """The digests of ["ab", "c"] and ["a", "bc"] are different."""
     assert digest(["ab", "c"]) != digest(["a", "bc"])
     assert digest(["a", b"b"]) == digest([b"a", "b"])
 

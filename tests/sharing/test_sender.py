@@ -1,6 +1,6 @@
 """Tests of sharing.
 
-They test what a check writes into the outbox, how the sender sends it, and what the notebook prints about it.
+They test the results in the outbox, the requests of the sender, and the notice in the notebook.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ REPORT = {
 
 @pytest.fixture
 def outbox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Outbox:
-    """Return the outbox of a student."""
+    """Return an empty outbox, which stores results until they are sent."""
     monkeypatch.setenv("COURSE_STATE", str(tmp_path / "state"))
     return Outbox()
 
@@ -35,7 +35,7 @@ def outbox(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Outbox:
 def test_results_arrive_and_leave_the_outbox(
     outbox: Outbox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The sender sends the hint, but not the student's values; the notebook names the teacher only once."""
+    """The sender sends the hint, but not the student's values; the notebook shows the notice only once."""
     assert outbox.put(REPORT) == ""
     (stored,) = outbox.folder.glob("*.json")
     assert "my secret" not in stored.read_text()

@@ -65,7 +65,7 @@ def test_the_customers_in_a_frame_are_seen(customers: int) -> None:
 
 @pytest.mark.parametrize(("dark", "seen"), [(9, False), (10, True), (11, True)])
 def test_a_tenth_of_dark_points_is_enough(dark: int, seen: bool) -> None:
-    """A picture shows a customer if at least a tenth of its pixels are darker than 96."""
+    """A picture shows a customer if at least a tenth of its pixels have a brightness below 96."""
     assert sees_customer(frame(bytes([95] * dark + [96] * (100 - dark)), 10, 10)) is seen
 
 

@@ -14,7 +14,7 @@ from course_pkg.shop import Customer, Eye, Watch, await_customer
 from course_pkg.shop import watch as module
 from tests.support import eventually
 
-FOR_EVER = 60.0  # This time in s is longer than any test.
+FOR_EVER = 60.0  # s; longer than any test
 
 
 def test_a_new_customer_is_returned_once() -> None:
@@ -56,7 +56,7 @@ def test_a_wait_ends_at_once_if_a_customer_is_there() -> None:
 
 
 def test_all_waiting_threads_are_notified() -> None:
-    """Each waiting thread returns when its customer comes."""
+    """Each thread waits for a customer with a number above `after`."""
     watch = Watch()
     watch.see([1])
     with ThreadPoolExecutor(4) as pool:

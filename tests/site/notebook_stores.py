@@ -17,9 +17,9 @@ FIRST = "# Try a panel\n\nA lead.\n\n**You will** see one.\n\n**You need** nothi
 
 
 def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
-    """Write solutions and equal notebooks, and return their store.
+    """Write each chapter as a solution and as a notebook with the same cells; return their store.
 
-    `_00_name=[…]` contains the cells of the chapter 00_name.
+    The argument `_00_name` contains the cells of the chapter 00_name.
     """
     for folder in ("solutions", "notebooks"):
         (root / folder).mkdir(parents=True, exist_ok=True)
@@ -30,7 +30,7 @@ def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
 
 
 def runs(cache: Path) -> Runs:
-    """Return the stored runs of chapters in the folder `cache`."""
+    """Return the object that stores the chapters' runs in the folder `cache`."""
     return Runs(Places(Places.of().checkout, cache))
 
 

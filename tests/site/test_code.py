@@ -1,4 +1,4 @@
-"""Tests of code as HTML with colours."""
+"""Tests of the conversion of code to HTML with syntax colours."""
 
 from __future__ import annotations
 

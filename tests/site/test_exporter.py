@@ -1,4 +1,4 @@
-"""Tests of notebook cells as HTML."""
+"""Tests of the conversion of notebook cells to HTML."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests of the glossary and of the search texts."""
+"""Tests of the glossary and of the texts that the search uses."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ OPTIONS = {"rules": RULES, "preload": False}
 CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
-# Every test run checks the pages with this window width and this theme. A test run checks other widths and
+# Every test run checks the pages with this window width and theme. A test run checks the other widths and
 # themes only if the pages have changed.
 ALWAYS = (1200, "light")
 SWEEPS = [
@@ -31,7 +31,8 @@ SWEEPS = [
     for colours in COLOURS
 ]
 PAGE = "00_panels.html"
-ENOUGH = ("index.html", "glossary.html", PAGE)  # The test checks these pages in narrow dark windows.
+# In the narrow window with the dark theme, the test checks only these pages.
+ENOUGH = ("index.html", "glossary.html", PAGE)
 
 
 @contextmanager
@@ -58,12 +59,12 @@ def reader(
 
 
 def pages(site: Path) -> list[str]:
-    """Return the names of a site's pages without the book."""
+    """Return the file names of a site's pages, except the book."""
     return sorted(path.name for path in site.glob("*.html") if path.name != "book.html")
 
 
 def open_page(page: Page, site: Path, name: str) -> None:
-    """Open a page from its folder, and wait until its panels are drawn."""
+    """Open a page from the local folder, and wait until its panels are drawn."""
     page.goto((site / name).as_uri())
     expect(page.locator("[data-panel]:empty")).to_have_count(0)
 
@@ -88,7 +89,7 @@ def test_axe_finds_no_problem(
 ) -> None:
     """axe-core finds no problem on any page, with and without the search dialog.
 
-    `tests.bench.site axe` checks every rule in every width and colour.
+    `tests.bench.site axe` checks every rule with every width and theme.
     """
     found, options = {}, options_for(width, colours)
     with reader(browser, width, colours) as page:
@@ -107,7 +108,7 @@ def test_axe_finds_no_problem(
 
 
 def options_for(width: int, colours: str) -> dict[str, Any]:
-    """Return the rules whose results can depend on this width and these colours."""
+    """Return options for axe-core that select the rules for this width and this theme."""
     if colours == "dark":
         return {**OPTIONS, "runOnly": [CONTRAST]}
     return OPTIONS if width == WIDTHS[0] else {**OPTIONS, "rules": {**RULES, CONTRAST: {"enabled": False}}}
@@ -268,7 +269,7 @@ def test_a_page_can_be_read_without_scripts(browser: Browser, panels: Path) -> N
 
 
 def test_a_page_opens_no_connection(browser: Browser, course: Path, served: dict[Path, str]) -> None:
-    """The page's policy forbids connections, and forbids scripts without the nonce."""
+    """The content security policy forbids connections, and forbids scripts without the nonce."""
     context = browser.new_context()
     page = context.new_page()
     page.goto(served[course])

@@ -67,14 +67,14 @@ def test_a_service_is_picked_before_it_is_recorded(trouble: CourseError | None) 
 
 
 def test_a_panel_is_shown_for_a_while() -> None:
-    """The panel is shown and then hidden."""
+    """With `watch`, the panel is shown for some time and then hidden."""
     panel = Noted()
     record_panel(panel, {"watch": 0, "calls": [["/switch/report", "std_srvs/Trigger", {}]]})
     assert panel.done == ["shown", "hidden"]
 
 
 def test_the_panel_is_found_even_if_a_notebook_uses_the_name_underscore() -> None:
-    """The added cell finds the panel in `_oh`, because a notebook may assign to the variable `_`."""
+    """The recording cell finds the panel in `_oh`, because a notebook may assign to the variable `_`."""
     notebook = book(code("for _ in range(2): pass"), code("GraphPanel()", id="graphpanel"))
     added = with_recordings("00_start_the_graph", notebook)["cells"][-1]
     panel, results = Noted(), {1: "earlier"}
@@ -89,7 +89,7 @@ SYSTEMS = json.loads((HERE / "systems.json").read_text("utf-8"))
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_each_plan_belongs_to_a_cell_with_a_panel(path: Path) -> None:
-    """Each plan belongs to a cell with a panel of the right kind."""
+    """Each recording plan belongs to a cell whose last line creates a panel of the right kind."""
     for folder in ("solutions", "notebooks"):
         cells = {cell["id"]: cell["source"] for cell in code_cells(read(ROOT / folder / path.name))}
         for cell, plan in plans(path.stem).items():
@@ -119,7 +119,7 @@ GRAPH = "course_pkg.panels.graph.view.GraphPanel"
 
 
 def saved(kind: str, **state: Plain) -> Notebook:
-    """Return a notebook with a view of a widget of the class `kind`."""
+    """Return a notebook whose only output is a widget of the class `kind` with this state."""
     view = result(text_plain="GraphPanel()")
     view["data"][VIEW] = {"model_id": "m"}
     notebook = book(code("GraphPanel()", outputs=[view]))
@@ -129,7 +129,7 @@ def saved(kind: str, **state: Plain) -> Notebook:
 
 
 def data(notebook: Notebook) -> dict[str, Plain]:
-    """Return the data of the notebook's first output by MIME type."""
+    """Return the data of the notebook's first output; the keys are the MIME types."""
     held: dict[str, Plain] = notebook["cells"][0]["outputs"][0]["data"]
     return held
 

@@ -17,7 +17,7 @@ COUNT = "from pathlib import Path\nruns = Path({!r})\nruns.write_text(runs.read_
 
 @pytest.fixture
 def counter(tmp_path: Path) -> Path:
-    """Return a file to which every run of a chapter adds a letter."""
+    """Return an empty file; each run of a chapter adds a letter to this file."""
     path = tmp_path / "runs.txt"
     path.write_text("")
     return path
@@ -59,7 +59,7 @@ def test_a_chapter_runs_again_only_for_new_code(tmp_path: Path, counter: Path) -
 
 
 def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, counter: Path) -> None:
-    """After a change of the package, the next update runs the chapter again."""
+    """If the package has changed, latest() returns the old run until the chapter runs again."""
     kept, path = runs(tmp_path / "cache"), chapter(tmp_path, counter)
     executed(kept, path)
     other = runs(tmp_path / "cache")
@@ -73,7 +73,7 @@ def test_a_chapter_runs_again_after_a_change_of_the_package(tmp_path: Path, coun
 def test_a_chapter_runs_again_after_a_change_of_a_chapter_that_it_imports(
     tmp_path: Path, counter: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A new file in a folder that the chapter depends on starts a new run."""
+    """If a file is added to a folder on which the chapter depends, the chapter runs again."""
     imported = tmp_path / "imported"
     imported.mkdir()
     monkeypatch.setattr("course_pkg.site.runs.folders_for", lambda number: [imported][: number == "00"])

@@ -38,7 +38,8 @@ def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> No
 def test_pages_are_small(course: Path, panels: Path) -> None:
     """The shared files of all pages have at most 170 kB (compressed).
 
-    A page with all panels, and the median page without pictures, have at most 60 kB (compressed).
+    A page with all panels has at most 60 kB. Without pictures, the median size of the chapters' pages is at
+    most 60 kB.
     """
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]
     shared = sum(len(compress(path.read_bytes())) for path in loaded if path.name != "texts.js")

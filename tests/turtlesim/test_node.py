@@ -222,7 +222,7 @@ def test_a_request_may_have_a_field_called_name(client: Kernel) -> None:
 
 
 def test_calls_of_the_simulator_are_recorded(client: Kernel) -> None:
-    """A recording contains the handler in the simulator and the client's wait."""
+    """A recording contains the handler of the simulator and the waiting time of the client."""
     kinds = client.run(
         "with node.record() as recording:\n"
         "    node.call('/turtle1/teleport_absolute', TeleportAbsolute, 4, 4, 0)\n"

@@ -18,7 +18,7 @@ from course_pkg.turtlesim.turtle_interface import publish_without_waiting
 
 
 def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.socket, dict[str, str]]:
-    """Connect to the service `at`, and send a header with `fields`.
+    """Connect to the service with the name `at`, and send a header with `fields`.
 
     Return the socket and the server's header.
     """
@@ -31,7 +31,7 @@ def connected(master: PrivateMaster, at: str, **fields: str) -> tuple[socket.soc
 
 
 def framed(sock: socket.socket) -> bytes:
-    """Read a length and then a block of this length; return the bytes of both."""
+    """Read four length bytes and then a block of this length; return all these bytes."""
     size = exactly(sock, 4)
     return size + exactly(sock, struct.unpack("<I", size)[0])
 
@@ -69,7 +69,7 @@ def test_the_header_names_the_types_of_request_and_response(
 
 
 def test_a_failed_call_sends_an_empty_error_message(master: PrivateMaster, simulator: NodeProcess) -> None:
-    """For a failed call, the server sends the ok byte 0 and an empty error message."""
+    """For a failed call, the server sends the byte 0 (no success) and an empty error message."""
     sock, _ = connected(master, "/kill", service="/kill", md5sum=Kill._md5sum)
     with sock:
         sock.sendall(request(Kill._request_class("nobody")))

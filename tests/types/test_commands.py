@@ -160,7 +160,7 @@ def test_lines_call_a_running_service(server: Kernel) -> None:
 
 
 def test_a_compiled_type_serves_a_built_one(server: Kernel) -> None:
-    """In a call, rospy accepts a class that was made from text instead of the built class."""
+    """A client with the built class can call a service whose class was made from text."""
     told = server.run("""
 text = service_type("odd_pkg/Scalars").text
 compiled = compile_service("odd_pkg/Scalars", text).cls
@@ -198,7 +198,7 @@ def test_the_publishing_line_is_the_one_to_type(
 
 
 def test_a_publisher_is_written_as_a_person_would() -> None:
-    """The Python code contains the imports and the publisher, and publishes one message or repeats it."""
+    """The Python code contains the imports and the publisher, and publishes once or at the given rate."""
     kind = message_type("std_msgs/Float64")
     once = publisher_lines("/x", kind, {"data": -1.0}, queue_size=1, latch=True)
     assert once == (

@@ -19,7 +19,7 @@ from tests.types.conftest import EVERYTHING, PART, package
 
 
 def test_class_has_the_attributes_that_rospy_needs() -> None:
-    """A service class has its type, its MD5 sum, and the classes of request and response."""
+    """A service class has attributes for its type, MD5 sum, request class and response class."""
     cls = compile_service("course_pkg/Demo", "int8 x\n---\nint8 y\n").cls
     assert cls._type == "course_pkg/Demo"
     assert cls._request_class._type == "course_pkg/DemoRequest"
@@ -125,7 +125,7 @@ def test_compilation_leaves_no_files(tmp_path: Path, monkeypatch: pytest.MonkeyP
 def test_threads_may_compile_at_once() -> None:
     """Eight threads compile at the same time, and each thread gets the right fields.
 
-    genpy itself is not thread-safe.
+    A lock is necessary, because genpy itself is not thread-safe.
     """
     found: dict[int, list[str]] = {}
 
@@ -145,7 +145,7 @@ def test_threads_may_compile_at_once() -> None:
 
 @pytest.mark.parametrize("given", [3, None, object(), std_srvs.srv.SetBoolRequest])
 def test_value_that_is_not_a_type_is_refused(given: object) -> None:
-    """A number, or a request or response class, is refused as a service type."""
+    """The functions refuse a value that is not a type of the right kind, such as a number."""
     with pytest.raises(UnknownType):
         service_type(given)
     with pytest.raises(UnknownType):

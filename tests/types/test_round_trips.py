@@ -53,7 +53,7 @@ def test_text_and_wire_give_every_value_back(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The shell command makes the same request when rosservice reads it."""
+    """The program rosservice reads the original request from the shell command."""
     for kind, chance in drawn(seed):
         for _ in range(2):
             plain = kind.request.check(values(chance, kind.request))
@@ -80,7 +80,7 @@ def read_by_rosservice(line: str, kind: ServiceType, monkeypatch: pytest.MonkeyP
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_python_lines_make_the_same_request(seed: int) -> None:
-    """The Python code makes the same request as the original values."""
+    """The request that the Python code creates has the same bytes as the original request."""
     for kind, chance in drawn(seed):
         plain = kind.request.check(values(chance, kind.request))
         lines = rospy_line("/x", kind, plain)

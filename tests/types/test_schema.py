@@ -17,7 +17,7 @@ uint8 SLOW=1
 
 
 def described() -> tuple[MessageSchema, dict[str, FieldSchema]]:
-    """Return the request and its fields by name after JSON encoding and decoding."""
+    """Convert a description to JSON and back; return its request, and a dict of the request's fields."""
     request = json.loads(json.dumps(schema(compile_service("course_pkg/Move", TEXT))))["request"]
     return request, {field["name"]: field for field in request["fields"]}
 

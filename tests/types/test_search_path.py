@@ -80,7 +80,7 @@ def built_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_the_file_counts_and_not_the_built_type(built_package: Path) -> None:
-    """If a file was changed, its definition differs from the imported class until the next build."""
+    """After a change of a file, type_in_file() returns the new type, which is not built yet."""
     assert type_in_file("filed_pkg/Ask", "srv").md5 == service_type("filed_pkg/Ask").md5
     (built_package / "srv" / "Ask.srv").write_text("int16 x\n---\n")
     now = type_in_file("filed_pkg/Ask", "srv")

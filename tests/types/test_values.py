@@ -40,7 +40,7 @@ def mixed() -> MessageType:
 
 @pytest.fixture
 def refusal(mixed: MessageType) -> Callable[..., FieldError]:
-    """Return a function that returns the error for one invalid value."""
+    """Return a function that checks one invalid value and returns the error."""
 
     def ask(**values: object) -> FieldError:
         with pytest.raises(FieldError) as caught:
@@ -83,7 +83,7 @@ def test_fields_have_type_kind_and_parts(mixed: MessageType) -> None:
 def test_integers_have_the_range_of_their_type(
     mixed: MessageType, refusal: Callable[..., FieldError], name: str, low: int, high: int
 ) -> None:
-    """The limits of an integer type are valid, and the next values are not valid."""
+    """The limits of an integer type are valid; a number outside these limits is not valid."""
     for edge in (low, high):
         assert mixed.check({**mixed.default(), name: edge})[name] == edge
     for beyond in (low - 1, high + 1):
@@ -128,7 +128,7 @@ def test_times_are_unsigned_and_durations_signed(
 
 
 def test_messages_and_times_may_be_given_as_such(mixed: MessageType) -> None:
-    """A genpy message or time inside a value is converted."""
+    """A genpy message or a genpy time in a field is converted to plain values."""
     given = {"t": genpy.Time(1, 2), "points": [Point(1, 2, 3)], "data": b"\x01\x02"}
     checked = mixed.check({**mixed.default(), **given})
     assert checked["t"] == {"secs": 1, "nsecs": 2}

@@ -19,8 +19,8 @@ from tornado.web import Application
 def served(application: Callable[[int], AbstractContextManager[Application]]) -> Iterator[str]:
     """Serve an application during the `with` block; yield its address without a slash at its end.
 
-    The thread calls `application` with the port, in the thread's event loop, and closes the context manager
-    at the end.
+    While the thread's event loop runs, the thread calls `application` with the port. At the end of the block,
+    the thread leaves the context manager that `application` has returned.
     """
     (listening,) = bind_sockets(0, "127.0.0.1")
     port = listening.getsockname()[1]
@@ -51,7 +51,7 @@ class Kept(urllib.request.HTTPRedirectHandler):
     """Follows no redirect."""
 
     def redirect_request(self, *_: object) -> None:
-        """Do not follow a redirection."""
+        """Return None, so that the redirect is not followed."""
 
 
 def ask(url: str, data: object = None, **headers: str) -> tuple[int, str, dict[str, str]]:

@@ -37,7 +37,7 @@ GOOD = {"package.xml": MANIFEST, "CMakeLists.txt": LISTS, "srv/Box.srv": BOX}
 
 
 def spoilt(file: str, *changes: tuple[str, str]) -> dict[str, str]:
-    """Return the files of the package after text replacements in `file`."""
+    """Return the files of the package; `changes` are text replacements in `file`."""
     text = GOOD[file]
     for old, new in changes:
         assert old in text

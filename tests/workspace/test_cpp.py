@@ -84,7 +84,7 @@ MISTAKES = {
 @needs_compiler
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_recognised(mistake: str, tmp_path: Path) -> None:
-    """The fault contains the path of the student's file, the line number, and advice."""
+    """The explanation of a compiler error contains the student's file, the line number, and advice."""
     text, line, words = MISTAKES[mistake]
     source = tmp_path / FILE
     source.parent.mkdir(parents=True)

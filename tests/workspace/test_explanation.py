@@ -351,7 +351,7 @@ CONDITION = MANIFEST.replace("<exec_depend", '<exec_depend condition="$A == b"')
     ],
 )
 def test_what_a_package_needs(text: str, build: set[str], run: set[str]) -> None:
-    """The tag `depend` means both build and run."""
+    """The tag `depend` declares both a build dependency and a runtime dependency."""
     assert (dependencies(text, "build"), dependencies(text, "run")) == (build, run)
 
 
@@ -370,6 +370,6 @@ def test_a_fault_is_located(problem: str, text: str, line: int) -> None:
 
 
 def test_a_fault_of_another_file_stays_where_it_is() -> None:
-    """If a fault is not in a package.xml, locate() does not change its position."""
+    """If a fault is not in a package.xml, locate() returns the fault unchanged."""
     fault = Fault("The version is old.", "", "my_services/CMakeLists.txt", 9)
     assert locate(fault, MANIFEST) == fault

@@ -49,7 +49,7 @@ def test_unsuitable_folder_is_refused(
 
 
 def test_the_workspace_overlays_the_course(root: Path) -> None:
-    """After `source devel/setup.bash`, the packages of both workspaces are found."""
+    """After `source devel/setup.bash`, rossrv finds the student's types and the course's types."""
     write(root, GOOD)
     build(root)
     found = shell(root, "rossrv md5 my_services/Box && rossrv md5 course_pkg/geometry").split()

@@ -20,7 +20,10 @@ SENTENCE = re.compile(r"[^\n]* [^\n]*\S[.?]( [^\n]*)?")
 
 @dataclass(frozen=True)
 class Hint:
-    """A hint of a check. An f-string is stored as a list of its fixed texts."""
+    """A hint of a check.
+
+    For an f-string, `pieces` contains the constant strings between the replacement fields.
+    """
 
     place: str  # The file and the line of the hint, for error messages.
     pieces: tuple[str, ...]
@@ -47,22 +50,22 @@ def hints_of(chapter: str) -> list[Hint]:
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
-    """Return the hints that no header in `answers` quotes."""
+    """Return the hints that no example answer in `answers` quotes."""
     shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
     return [hint for hint in hints if hint.pieces not in shown]
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the fixed texts of the hint that contains `text`.
+    """Return the pieces of the hint that contains `text`.
 
-    If several hints contain `text`, the result is empty, except if `text` is a whole hint.
+    If several hints contain `text`, return only the hint that is equal to `text`, or nothing.
     """
     found = {hint.pieces for hint in hints if hint.contains(text)}
     return found & {(text,)} or (found if len(found) == 1 else set())
 
 
 def _strings(node: ast.AST) -> Iterator[tuple[int, tuple[str, ...]]]:
-    """Yield the line and the fixed texts of each possible hint below `node`."""
+    """For each possible hint in the syntax tree of `node`, yield its line number and its constant strings."""
     match node:
         case ast.Expr(ast.Constant()) | ast.Raise() | ast.keyword("goal"):
             return

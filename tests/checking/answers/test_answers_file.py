@@ -156,7 +156,7 @@ def test_a_change_that_does_not_fit_is_refused(tmp_path: Path, change: str, line
 
 
 def test_a_change_needs_a_right_answer(tmp_path: Path) -> None:
-    """A change without `based_on` needs a right answer of the same part."""
+    """A change without `based_on` is only valid after a right answer to the same part."""
     with pytest.raises(ValueError, match="line 1: no earlier answer"):
         _read(tmp_path, '# %% 05.1 wrong: x | hint: y\nreplace("2", "3")\n')
 

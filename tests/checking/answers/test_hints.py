@@ -1,4 +1,4 @@
-"""Tests that each hint of a check is the hint of an example answer."""
+"""Tests that an example answer quotes each hint."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def area(context):
 
 @pytest.mark.parametrize("chapter", chapters())
 def test_every_hint_has_an_example_answer(chapter: str) -> None:
-    """For each hint of the chapter, an example answer quotes a text from the hint."""
+    """For each hint of the chapter, an example answer quotes a part of the hint."""
     hints = hints_of(chapter)
     assert hints
     assert not _lines(not_shown(hints, read_answers(folder_of(chapter) / "answers.py")))
 
 
 def test_every_common_hint_has_an_example_answer() -> None:
-    """For each hint that several chapters use, an example answer quotes a text from the hint."""
+    """For each hint that several chapters use, an example answer quotes a part of the hint."""
     hints = hints_in(Path(course_pkg.checking.common_hints.__file__))
     assert hints
     assert not _lines(not_shown(hints, every_answer()))
@@ -49,7 +49,7 @@ def test_hints_are_the_sentences_of_a_check(tmp_path: Path) -> None:
 
 
 def test_a_part_of_several_hints_shows_none_of_them() -> None:
-    """A text from a header counts only if it occurs in one hint. A whole hint always counts."""
+    """A quotation counts only if exactly one hint contains it, or if it is a whole hint."""
     one, two = Hint("", ("Return it.",)), Hint("", ("Return it. It was ", " before."))
     assert shown_by("before", [one, two]) == {two.pieces}
     assert not shown_by("Return", [one, two])

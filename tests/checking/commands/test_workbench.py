@@ -59,7 +59,7 @@ def test_copies_keep_permissions(bench: CommandFolders, tmp_path: Path) -> None:
 
 
 def test_files_of_the_check_replace_copies(bench: CommandFolders, tmp_path: Path) -> None:
-    """A file of the check replaces the student's file with the same path."""
+    """If the check and the student have a file with the same path, the command uses the check's file."""
     (tmp_path / "package.xml").write_text("the student's")
     folder = bench.folder(["package.xml"], {"package.xml": "the check's", "srv/A.srv": "---"})["folder"]
     assert out(bench, "cat", "package.xml", "srv/A.srv", folder=folder) == "the check's---"

@@ -20,7 +20,7 @@ LOCK = threading.Lock()
 
 
 def busy() -> None:
-    """Calculate in an endless loop."""
+    """Run an endless calculation."""
     while True:
         try:
             while True:
@@ -30,7 +30,7 @@ def busy() -> None:
 
 
 def prints() -> None:
-    """Print in the `except` block."""
+    """Catch all exceptions in an endless loop, and print a text after each exception."""
     while True:
         try:
             time.sleep(0.01)
@@ -39,7 +39,7 @@ def prints() -> None:
 
 
 def waits() -> None:
-    """Wait in a library function with clean-up code."""
+    """Wait in a library function that runs its own clean-up code."""
     while True:
         try:
             threading.Event().wait()
@@ -92,7 +92,7 @@ STUBBORN = pytest.mark.parametrize(
 
 @STUBBORN
 def test_limit_ends_it(function: Callable[[], None]) -> None:
-    """The function ends at its time limit and releases its lock."""
+    """The function ends at its time limit, and the lock is released."""
     started = time.monotonic()
     with pytest.raises(TimesUp):
         TimeLimit(LIMIT).call(function)

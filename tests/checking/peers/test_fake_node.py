@@ -1,4 +1,4 @@
-"""A fake node is registered like a running or a killed node."""
+"""Tests of a fake node, which is registered at the master like a real node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A faulty server fails as planned and then works again."""
+"""Tests of faulty servers, which fail as planned and then work again."""
 
 from __future__ import annotations
 
@@ -25,20 +25,20 @@ AWAY = 0.2  # A crashed server is started again after this many seconds.
 
 @pytest.fixture
 def node(master: PrivateMaster) -> Node:
-    """Return the node of the check."""
+    """Return the object that represents the check's own node."""
     return Node("/tester", "http://localhost:1/", MasterClient(master.uri))
 
 
 @pytest.fixture
 def server(node: Node) -> Iterator[FaultyServer]:
-    """Return a server that doubles a length."""
+    """Run a server that multiplies the requested length by 2."""
     with FaultyServer(node, "/f", geometry, lambda request: {"area": 2 * request.length}) as serving:
         yield serving
     assert node.master.lookup_service("/f") is None
 
 
 def ask(length: float, timeout: float = 5.0) -> float:
-    """Call the server with a time limit, and return the area."""
+    """Call the server with a time limit, and return the field `area` of the response."""
     return float(BoundedProxy("/f", geometry, timeout=timeout).call(length, 0, 0).area)
 
 
@@ -75,7 +75,7 @@ def test_late_response_is_right(server: FaultyServer) -> None:
 
 
 def test_frozen_server_accepts_connections_without_a_response(server: FaultyServer) -> None:
-    """A frozen server accepts connections, but sends no response."""
+    """A server with the fault Frozen accepts a connection, but sends no response."""
     server.plan.append(Fault(Frozen()))
     rospy.wait_for_service("/f", timeout=2)
     with pytest.raises(CallTimeout, match="accepts connections, but sends nothing"):
@@ -101,7 +101,7 @@ def test_registration_after_a_crash(server: FaultyServer, unregisters: bool, tex
 
 @pytest.mark.parametrize("worked", [True, False])
 def test_plan_decides_whether_the_work_is_done(node: Node, worked: bool) -> None:
-    """The plan decides whether the server does the work of a call that fails."""
+    """The plan decides whether the handler runs when a call fails."""
     done: list[float] = []
 
     def work(request: Message) -> dict[str, Json]:

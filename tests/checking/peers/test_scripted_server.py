@@ -28,7 +28,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptio
 
 @pytest.fixture
 def node(master: PrivateMaster) -> Node:
-    """Return the node of the check."""
+    """Return the object that represents the check's own node."""
     return Node("/tester", "http://localhost:1/", MasterClient(master.uri))
 
 
@@ -76,7 +76,7 @@ def test_idle_connections_are_closed(node: Node) -> None:
     ],
 )
 def test_error_messages_are_those_of_rospy(node: Node, act: Act, text: str) -> None:
-    """If a call is refused or interrupted, the client gets the same error message as from rospy."""
+    """If a call is refused or interrupted, the client's error message is the same as with a rospy server."""
     with ScriptedServer(node, "/m", geometry, lambda _: act), pytest.raises(rospy.ServiceException) as error:
         ask("/m", 1, 2, 3)
     assert text in str(error.value)
@@ -119,7 +119,7 @@ def test_the_former_server_serves_again(node: Node, take: Callable[[Node], Scrip
 
 
 def test_stale_registration_has_a_closed_port(node: Node) -> None:
-    """The master returns the address of a server whose port is closed."""
+    """A stale registration contains a closed port, and is removed at the end of the block."""
     with Absent(node, "/x", stale=True), pytest.raises(rospy.ServiceException, match="Connection refused"):
         ask("/x", 1, 2, 3)
     assert node.master.lookup_service("/x") is None

@@ -61,7 +61,7 @@ def student(master: PrivateMaster) -> Iterator[Kernel]:
 
 @pytest.fixture
 def check(master: PrivateMaster) -> Iterator[Kernel]:
-    """Return a process with the functions `subscribe`, `publish` and `broken`."""
+    """Return a process that defines the functions `subscribe`, `publish` and `broken`."""
     with Kernel() as kernel:
         kernel.run(CHECK_RUNNER)
         yield kernel
@@ -132,7 +132,7 @@ def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
 
 
 def test_published_waits_for_the_connection(check: Kernel, student: Kernel) -> None:
-    """`published` waits until the publisher is connected."""
+    """The method published() waits until the publisher is connected."""
     student.run("p = rospy.Publisher('/late', UInt32, queue_size=10)")
     check.run("subscription = subscribe('/late'); subscription.published()")
     student.run("connected(p); p.publish(7)")
@@ -166,7 +166,7 @@ def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) ->
 
 
 def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """A late subscriber receives every message, and `sent` contains the times of publishing."""
+    """A late subscriber receives every message, and p.sent contains one time for each message."""
     check.run("p = publish('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
     assert check.run("result = [p.has_subscriber(0.1), p.finish(0.1), p.sent]") == [False, False, []]
     student.run("subscription = node.subscribe('/few', UInt32)")
@@ -175,7 +175,7 @@ def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: K
 
 
 def test_topic_without_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """If the only subscriber has another type, the hint contains the right type."""
+    """If the only subscriber has a wrong message type, the hint contains the expected type."""
     student.run("subscription = node.subscribe('/few', Float64)")
     assert check.run("p = publish('/few', UInt32, [{'data': 1}]); result = broken(p, within=0.5)") == [
         "somebody listens to /few",

@@ -47,7 +47,7 @@ def _deadlines(*given: str, grace: float = 0.0, extensions: Extensions | None = 
     ],
 )
 def test_days_late(submitted: str, grace: float, days: float) -> None:
-    """The days late are counted from the end of the grace period, even with different time zones."""
+    """The number of late days is counted from the end of the grace period, even with different time zones."""
     assert _deadlines(grace=grace).days_late("s01", "05", _at(submitted)) == pytest.approx(days)
 
 
@@ -66,7 +66,7 @@ def test_a_deadline_for_a_chapter() -> None:
 
 
 def test_an_extension_ends_at_the_same_time_of_day() -> None:
-    """When the clocks are put back in October, the deadline stays at 23:59."""
+    """Even if daylight saving time ends during an extension, the deadline stays at 23:59."""
     extensions = Extensions({"s01": 2.0})
     made = deadlines(["2026-10-24T23:59"], 0.0, zone_of("Europe/Berlin"), extensions)
     assert made.days_late("s01", "05", _at("2026-10-26T22:59Z")) == 0.0
@@ -86,7 +86,7 @@ def test_an_extension_ends_at_the_same_time_of_day() -> None:
     ],
 )
 def test_a_deadline_that_makes_no_sense(given: list[str], grace: float, said: str) -> None:
-    """The error message contains a correct example."""
+    """For an invalid deadline, the error message contains a correct example."""
     with pytest.raises(GradingError, match=said):
         deadlines(given, grace, None, Extensions())
 

@@ -1,4 +1,4 @@
-"""The table of late days, and the deduction of points."""
+"""Tests of the table of late days, and of the deduction of points."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_invalid_policy_is_refused(
 
 
 def test_a_table_by_student(tmp_path: Path) -> None:
-    """A student's row applies to all chapters."""
+    """A row without a chapter applies to all chapters of the student."""
     table = late_table(_table(tmp_path, "student,days\ns01,2\ns02,0.5\n\n"))
     assert [table.days(each, "05") for each in ("s01", "s02", "s03")] == [2.0, 0.5, 0.0]
 
@@ -118,7 +118,7 @@ def test_no_table(tmp_path: Path) -> None:
 
 
 def test_lateness_goes_to_the_submissions(tmp_path: Path) -> None:
-    """Each submission gets the number of days by which its student is late."""
+    """Each submission gets its student's number of late days from the table."""
     table = late_table(_table(tmp_path, "student,days\ns01,2\ns99,1\n"))
     given = [Submission(name, "05", b"", "") for name in ("s01", "s02")]
     assert [each.late for each in table.applied(given)] == [2.0, 0.0]

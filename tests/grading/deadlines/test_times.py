@@ -1,4 +1,4 @@
-"""Submission times in files of Moodle, Gradescope and nbgrader."""
+"""Tests of submission times in files of Moodle, Gradescope and nbgrader."""
 
 from __future__ import annotations
 
@@ -101,9 +101,9 @@ def test_nbgrader(tmp_path: Path, outer: str) -> None:
 
 
 def test_a_table_of_the_instructor(tmp_path: Path) -> None:
-    """The program uses the row for the file.
+    """The program uses the row for the submitted file, if there is one.
 
-    Without it the row for the chapter, and then the row for the student.
+    Otherwise, it uses the row for the chapter, or else the row for the student.
     """
     source = folder(tmp_path / "in", {f"{name}/{FILE}": NOTEBOOK for name in ("s01", "s02", "s03", "s04")})
     table = tmp_path / "times.csv"

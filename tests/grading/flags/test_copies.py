@@ -1,4 +1,4 @@
-"""Tests that copies get a flag even if names, comments and the order were changed."""
+"""Tests that copies get a flag even if names, comments and the order of statements were changed."""
 
 from __future__ import annotations
 
@@ -144,7 +144,7 @@ int main(int count, char** words)
 
 
 def _class(**answers: str) -> dict[str, tuple[str, ...]]:
-    """For each student, return the students with similar answers to 05.4."""
+    """Return a dict: for each student with a flag, the students with a similar answer to exercise 05.4."""
     handed_in = [submission(student, {"05.4": source}) for student, source in answers.items()]
     return {student: flags[0].others for student, flags in flags_of(["copies"], *handed_in).items()}
 

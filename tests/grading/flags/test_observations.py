@@ -75,7 +75,7 @@ ORDINARY = [
 
 @pytest.fixture(scope="module")
 def found() -> dict[str, set[str]]:
-    """Return the kinds of flags for each line that the tests use."""
+    """Return a dict: for each tested line, the kinds of flags that the line causes."""
     lines = [*(line for line, _ in LINES), *ORDINARY]
     handed_in = [submission(line, {"05.1": ANSWER.format(line=line)}) for line in lines]
     flags = flags_of(SEARCHED, *handed_in)
@@ -111,7 +111,8 @@ def test_the_solutions_have_no_flags() -> None:
 
 def test_right_example_answers() -> None:
     """Of all right example answers, only the answer with the command `rosservice find` gets a flag."""
-    # A key is a chapter and a number; the value contains a student's answers, by part.
+    # The key is a chapter and the number of an invented student; the value maps parts to this student's
+    # answers.
     students: dict[tuple[str, int], dict[str, str]] = {}
     for answer in every_answer():
         if answer.right:

@@ -33,7 +33,7 @@ def test_an_empty_folder_is_listed(tmp_path: Path) -> None:
 
 
 def test_a_folder_of_a_platform_is_no_student(tmp_path: Path) -> None:
-    """A folder that contains all student folders is not a student folder."""
+    """If one folder contains all student folders, this outer folder is not a student's folder."""
     found = _found(_with_folders(tmp_path, {f"submitted/s01/ps1/{FILE}": NOTEBOOK}, "submitted/s02/ps1"))
     assert list(found) == ["s01", "s02"]
 

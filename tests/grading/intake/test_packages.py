@@ -89,7 +89,7 @@ def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
 
 
 def test_package_that_no_part_needs(tmp_path: Path) -> None:
-    """The error message for a package that no part needs lists the needed packages."""
+    """If no part needs the package, the error message lists the packages that the parts need."""
     write_package(tmp_path, "s01/robot", {"package.xml": b"<package><name>robot</name></package>"})
     found = _only(tmp_path)
     assert (found.chapter, found.packages) == ("", ())

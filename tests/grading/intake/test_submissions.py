@@ -137,7 +137,7 @@ def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> N
 
 
 def test_notebook_without_exercises(tmp_path: Path) -> None:
-    """A notebook without exercises belongs to the chapter with the ids of its other cells."""
+    """For a notebook without exercises, the ids of the other cells identify the chapter."""
     notebook = handed_out("05")
     notebook["cells"] = [cell for cell in notebook["cells"] if "course" not in cell["metadata"]]
     [found] = submissions(folder(tmp_path, {"s01/mine.ipynb": raw(notebook)}))
@@ -180,7 +180,7 @@ def test_a_notebook_of_the_first_edition(tmp_path: Path, chapter: RenumberedChap
 
 
 def test_a_chapter_whose_exercises_were_renumbered(tmp_path: Path) -> None:
-    """In chapter 03, the old title or an exercise 03.5 identifies the first edition."""
+    """In chapter 03, the old title or the old exercise number 03.5 identifies the first edition."""
     notebook = handed_out("03")
     titled = {
         **notebook,
@@ -441,7 +441,7 @@ def test_gradescope_metadata_that_is_broken(tmp_path: Path, five: bytes, content
 
 
 def test_file_name_cannot_name_another_student(tmp_path: Path, five: bytes) -> None:
-    """In a student's folder, no file name can refer to another student."""
+    """A file in a student's folder does not count for another student, whatever its name is."""
     forged = b"submission_12:\n  :submitters:\n  - :sid: '0042'\n"
     files = {
         "submission_metadata.yml": GRADESCOPE,

@@ -1,4 +1,4 @@
-"""The sentences that students get for nbval's messages."""
+"""Tests of finding(), which converts a message of nbval into a sentence for the student."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ def test_a_cell_that_writes_a_file_writes_that_file(source: str, notes: int) -> 
 
 
 def test_invalid_characters_are_removed() -> None:
-    """Null characters and single surrogates are removed, and lines end as on Linux."""
+    """Null characters and unpaired surrogates are removed, and each line ends with LF."""
     made = defuse("x = 1\x00\r\ny = '\ud800'\rz = 2")
     assert made.source == "x = 1\ny = '?'\nz = 2"
     made.source.encode()

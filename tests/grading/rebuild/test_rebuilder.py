@@ -65,7 +65,7 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells `shift` cells below the cell `name`."""
+    """Insert a student's own cells; `shift` is their distance from the cell `name`, counted downwards."""
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
@@ -108,7 +108,10 @@ def test_an_answer_is_placed() -> None:
 
 @pytest.mark.parametrize("path", NotebookStore().solutions(), ids=lambda path: path.stem)
 def test_every_chapter(path: Path) -> None:
-    """In a solution, each exercise has an answer. In the student's notebook, each exercise is blank."""
+    """A solution contains an answer to each exercise.
+
+    In the notebook for students, each exercise is blank.
+    """
     reference = read(path)
     full = rebuild(reference, path.read_bytes())
     blank = rebuild(reference, raw(derived(reference)))
@@ -199,7 +202,7 @@ def test_identical_copy_leads_to_no_note() -> None:
 
 
 def test_a_helper_split_off_belongs_to_the_answer() -> None:
-    """If the answer uses a function from the cell below it, the rebuilt notebook contains this cell."""
+    """If the answer uses a function from a later cell, the rebuilt notebook contains this cell."""
     answer = ANSWER.replace("x + x", "helper(x)")
     helper = "def helper(x):\n    return x + x"
     made = _rebuilt(_student(lambda cells: _own(cells, D, "print('try')", helper, "double(3)"), d=answer))
@@ -321,7 +324,7 @@ def test_checks_and_given_cells_do_not_change() -> None:
     "content", [b"", b"{", b"[]", b"\xff", b'{"cells": 1}', b'{"cells": ' + b"[" * 100_000]
 )
 def test_what_is_no_notebook(content: bytes) -> None:
-    """For a file that is not a notebook, each part gets a reason."""
+    """For a file that is not a notebook, each part has a reason why its answer is missing."""
     made = _rebuilt(content)
     assert made.problem
     assert set(made.missing.values()) == {made.problem}

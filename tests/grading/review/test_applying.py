@@ -71,14 +71,14 @@ def test_a_changed_answer_is_reported() -> None:
 
 
 def test_a_reviewed_part_needs_no_look() -> None:
-    """After a part's review, the part needs no more work, even if the part's check did not finish."""
+    """If an instructor has reviewed a part, the part needs no more work, even if its check did not finish."""
     grade = graded("s01")
     assert needs_look(grade)
     assert not needs_look(reviewed([grade], _overrides(Override("s01", "05.2", 0)))[0])
 
 
 def test_long_code_is_the_same_in_the_record(tmp_path: Path) -> None:
-    """The stored record of a long answer refers to the same answer as before."""
+    """A long answer in the stored record gives the same result of answer_of() as the original answer."""
     grade = replace(graded("s01"), code={"05.1": "line = 1\r\n" * 1500})
     _reports(tmp_path, [grade])
     assert answer_of(read_grades(tmp_path)[0], "05.1") == answer_of(grade, "05.1")

@@ -1,4 +1,4 @@
-"""The review page in a browser."""
+"""Tests of the review page in a browser."""
 
 from __future__ import annotations
 
@@ -132,8 +132,8 @@ def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colou
                     assert page.evaluate("document.documentElement.scrollWidth") <= width
                     picture(page, f"review-{width}-{colours}-{shown}")
                     page.keyboard.press("n")
-                # The page's policy allows only scripts from the page's own origin, so the test uses the
-                # debugger to add axe-core.
+                # The content security policy allows only scripts from the page's own origin, so the test uses
+                # the debugger to add axe-core.
                 page.evaluate(AXE)
                 assert violations(page) == []
                 assert words == []

@@ -36,7 +36,7 @@ def _matched(origins: Origins, roster: tuple[Person, ...] = ROSTER) -> ClassList
     ],
 )
 def test_who_is_found(student: str, origin: str) -> None:
-    """The name of a submission's folder may be any field of the roster, or a platform's name and number."""
+    """A submission's folder name is any field of the roster, or it is a name and a number from a platform."""
     found = _matched({student: [origin]})
     assert found.people[student].line == JANE.line
     assert (found.found, found.strangers, found.unclear) == (1, (), {})
@@ -94,7 +94,7 @@ def test_two_folders_of_one_student() -> None:
 
 
 def test_strangers_and_a_file_of_nobody() -> None:
-    """The program reports a student without a row, and ignores a file without a student."""
+    """The program reports a student who is not on the roster, and ignores a file without a student."""
     found = _matched({"s99": ["s99/05.ipynb"], "": ["05.ipynb"]})
     assert (found.strangers, found.missing) == (("s99",), ROSTER)
 

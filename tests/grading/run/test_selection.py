@@ -105,7 +105,7 @@ def test_the_other_parts_keep_their_results() -> None:
 
 
 def test_parts_of_two_versions_have_no_key() -> None:
-    """If the parts of a grade come from different checks, the grade is not used as a complete grade."""
+    """If different versions of the checks have graded the parts of a grade, the grade has an empty key."""
     base = _grade(Verdict.PASSED, Verdict.FAILED)
     assert merged(base, replace(base, key="other")).key == ""
 
@@ -122,9 +122,9 @@ def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
 
 
 def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
-    """A result that was not selected does not change.
+    """A result outside the selection does not change.
 
-    A selected result without a submission is marked in the reports.
+    A result in the selection is marked in the reports if its submission is missing.
     """
     write_reports([*class_of(3, ("05", "06")), refused("s09", "")], tmp_path)
     earlier = read_earlier(tmp_path)

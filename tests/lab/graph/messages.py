@@ -1,4 +1,4 @@
-"""Sends cells to a kernel of `course lab`, and reads what they print."""
+"""Sends cells to a kernel of `course lab`, and reads the output of the cells."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ class Messages:
     def run(self, code: str, until: str) -> str:
         """Run a cell.
 
-        Return its output up to a message of the type `until`, or the name of the cell's error.
+        Return the output of the cell until the first message of the type `until`. If the cell raises an
+        error, return the error's name.
         """
         [file] = eventually(lambda: list(self._folder.glob("kernel-*.json")))
         client = BlockingKernelClient(connection_file=str(file))

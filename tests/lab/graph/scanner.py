@@ -1,4 +1,4 @@
-"""Scans the network in which this program runs, and prints each connection that reaches the nodes of NAME.
+"""Scans this process's network for the master, node, service and socket of NAME; prints what it finds.
 
 usage: python3 scanner.py NAME [SOCKET …]
 
@@ -67,7 +67,7 @@ def accepts(name: str) -> bool:
 
 
 def asked(name: str, port: int) -> list[str]:
-    """Return what is found at a port for NAME: a master, a node, the service, or several of these."""
+    """Return which of these a port offers for NAME: a master, a node, the service."""
     answers = {
         "master": f"/{name}".encode() in call(port, "getSystemState"),
         "node": f"/{name}".encode() in call(port, "getName"),

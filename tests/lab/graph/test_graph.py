@@ -41,7 +41,7 @@ def nodes(graph: Graph) -> list[str]:
 
 
 def sockets(folder: Path) -> list[str]:
-    """Return the sockets of graphs that can be joined."""
+    """Return the names of the Unix sockets with which a command can join a graph."""
     return [path.name for path in folder.iterdir() if path.is_socket()]
 
 
@@ -78,7 +78,7 @@ def test_a_graph_ends_with_its_last_command(graph: Graph, tmp_path: Path) -> Non
 
 
 def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
-    """A later command joins the running graph, and not a newer graph of --new-graph."""
+    """A later command does not join a graph that was started with --new-graph."""
     alone = join_or_start(Which.ALONE, tmp_path)
     later = join_or_start(Which.RUNNING, tmp_path)
     names = [os.fstat(each.files[-1]).st_ino for each in (graph, alone, later)]
@@ -88,9 +88,9 @@ def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
 
 
 def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
-    """After SIGKILL of the holder, the master ends.
+    """If the process that holds a graph gets SIGKILL, the master ends.
 
-    The next start or the next end of a command removes the graph's socket.
+    The graph's socket file is removed when the next command starts or ends.
     """
     processes = of_graphs(tmp_path)
     os.kill(processes[0], signal.SIGKILL)
@@ -121,7 +121,7 @@ def test_without_namespaces_the_graph_is_in_the_machines_network(tmp_path: Path)
 
 
 def test_a_shared_graph_is_in_the_machines_network() -> None:
-    """With --shared-graph, the command runs in the network of this machine, and the port is free there."""
+    """With --shared-graph, the command runs in this machine's network, and the master uses a free port."""
     uri, network, node = course_run("--shared-graph", "sh", "-c", SHOW).stdout.split()
     assert (network, node) == (own_namespace("net"), "/rosout")
     assert uri != URI
@@ -140,6 +140,6 @@ def test_a_command_in_a_graph_stays_in_it(graph: Graph) -> None:
 
 
 def of_graphs(folder: Path) -> list[int]:
-    """Return the holder of the graph in `folder`, and its descendants."""
+    """Return the process that holds the graph, and the descendants of this process."""
     [holder] = eventually(lambda: having(b"holder.py\0", descendants(os.getpid())))[:1]
     return [holder, *descendants(holder)]

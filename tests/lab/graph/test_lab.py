@@ -37,7 +37,8 @@ def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
     assert having(KERNEL, [int(pid)])  # The server interrupts the kernel itself, not a parent process.
     served.post("/api/terminals")
     [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(served.process)))
-    # The process of nsenter becomes the shell.
+    # nsenter enters the network and then calls exec(), so the shell is in the network only after a short
+    # time.
     assert eventually(lambda: os.readlink(f"/proc/{shell}/ns/net") == network)
     assert course_run("sh", "-c", "readlink /proc/self/ns/net; rosnode list").stdout.split() == [
         network,
@@ -71,7 +72,7 @@ def test_nothing_is_left_after_a_kill_and_the_end(served: Service, victim: bytes
 @pytest.mark.slow
 @pytest.mark.timeout(1800)
 def test_a_hundred_kills_leave_nothing(tmp_path: Path) -> None:
-    """After SIGKILL of `course run`, of its master or of its holder, 100 times, no process remains."""
+    """Kill `course run`, its master or the graph's holder 100 times, and assert that no process remains."""
     victims = [b"", b"rosmaster\0--core", HOLDER]
     left = []
     for number in range(100):

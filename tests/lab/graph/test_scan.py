@@ -16,7 +16,8 @@ from tests.lab.test_jupyterlab import Service
 from tests.support import terminal
 
 SCANNER = Path(__file__).with_name("scanner.py").read_text()
-# This cell starts a node with a service and a panel, and opens an abstract socket; all have the same NAME.
+# This cell starts a node with a service and a panel, and opens an abstract socket. The node, the service and
+# the socket have the same name.
 CELL = """
 import socket
 import rospy
@@ -34,14 +35,17 @@ OTHER_USER = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups", "/u
 
 
 def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noqa: B006 -- nothing changes it
-    """Run the scanner with the prefix `command`, and return its results without repetitions."""
+    """Run the scanner; `command` is a command prefix that ends with a Python interpreter.
+
+    Return the sorted results without duplicates.
+    """
     ended = terminal(*command, "-I", "-c", SCANNER, name, *sockets)
     assert ended.returncode == 0, ended.stderr
     return sorted(set(ended.stdout.split()))
 
 
 def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
-    """Return the names of the listening sockets of processes that are visible in the network of this process.
+    """Return the names of the processes' listening sockets that are visible in this process's network.
 
     A name is the address of a TCP or UDP socket, or the path of a Unix socket. The addresses have the format
     of /proc/net.

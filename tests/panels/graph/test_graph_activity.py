@@ -32,7 +32,7 @@ def graph(*, dead: str = "", topics: tuple[TopicSeen, ...] = TOPICS) -> Snapshot
 
 
 class Wall:
-    """A model of the graph panel and its displayed texts."""
+    """Stores the messages that a graph panel's model sends."""
 
     def __init__(self, snapshot: Snapshot | None = None) -> None:
         self.said: list[dict[str, Plain]] = []
@@ -47,12 +47,12 @@ class Wall:
 
     @property
     def now(self) -> dict[str, Plain]:
-        """Return the displayed activity."""
+        """Return the latest activity (rates and callers) that the model has sent."""
         return next(each for each in reversed(self.said) if "activity" in each)["activity"]
 
 
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
-    """Return several counts of the messages on /chatter."""
+    """For each number in `messages`, return this count of the messages on /chatter."""
     return [
         Activity(turn * every, (Traffic("/chatter", "/talker", "/listener", 7, count),))
         for turn, count in enumerate(messages)
@@ -243,9 +243,9 @@ def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
 
 
 def counted(rate: float, seconds: float, *, late: float = 0.0, seed: int = 1) -> RateMeter:
-    """Return a rate meter that has read the counts of a publisher with a constant rate every 2 s.
+    """Return a rate meter that has read the message count of a steady publisher every 2 s.
 
-    Each count is read up to `late` s after the count was made.
+    Each reading is up to `late` s late.
     """
     meter, chance = RateMeter(), random.Random(seed)  # noqa: S311 - a test's own dice
     for turn in range(int(seconds / 2) + 1):
@@ -306,7 +306,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The panel shows only as many digits as the counts can determine."""
+    """The displayed rate has the fewest digits for which its error is at most `doubt`."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 

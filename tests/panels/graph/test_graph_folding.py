@@ -25,7 +25,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def graph(*topics: tuple[str, str, str], services: dict[str, str] | None = None) -> Snapshot:
-    """Return a snapshot of topics (publisher, topic, subscriber) and services."""
+    """Return a snapshot of these topics (publisher, name, subscriber) and services."""
     offered = services or {}
     names = sorted({name for who, _, whom in topics for name in (who, whom)} | set(offered.values()))
     return Snapshot(
@@ -60,7 +60,7 @@ def names(shown: Picture) -> set[str]:
 
 
 def test_a_namespace_has_two_or_more_shapes() -> None:
-    """A group of elements is a namespace only if it contains at least two elements."""
+    """A common name prefix is a namespace only if at least two nodes, topics or services have it."""
     assert set(namespaces(picture(TURTLE))) == {"/turtle1/"}
     lonely = graph(("/a", "/far/away/one", "/b"), ("/a", "/far/away/two", "/b"), ("/a", "/x/y", "/b"))
     assert set(namespaces(picture(lonely))) == {"/far/away/"}
@@ -124,7 +124,7 @@ def test_a_large_graph_is_folded_unless_the_student_chose() -> None:
 
 
 def test_a_namespace_with_most_shapes_is_not_folded() -> None:
-    """A namespace that contains most of the graph is not folded."""
+    """If a namespace contains most of the graph's nodes and topics, the namespace is not folded."""
     parts = (("/all/sim", f"/all/turtle{n}/{kind}", "/all/watch") for n in range(12) for kind in "abc")
     shown = folded(picture(graph(*parts)), {})
     assert [frame.name for frame in shown.frames] == ["/all/"]
@@ -180,7 +180,7 @@ def test_frame_and_box_are_one_button_in_two_states() -> None:
 
 
 def said() -> tuple[GraphModel, list[dict[str, object]]]:
-    """Return a model and the messages that the model sends."""
+    """Return a model, and the list to which the model adds its messages."""
     heard: list[dict[str, object]] = []
     return GraphModel(lambda **parts: heard.append(parts)), heard
 

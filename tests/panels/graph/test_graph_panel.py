@@ -22,7 +22,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 def snapshot(
     *, topics: tuple[TopicSeen, ...] = (), services: tuple[ServiceSeen, ...] = (), dead: str = ""
 ) -> Snapshot:
-    """Return a snapshot of these topics and services with their nodes."""
+    """Return a snapshot of these topics and services, and of the nodes that use them."""
     names = {name for topic in topics for name in (*topic.publishers, *topic.subscribers)}
     names |= {service.node for service in services}
     nodes = tuple(

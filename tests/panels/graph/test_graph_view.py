@@ -17,11 +17,11 @@ from course_pkg.ros import NodeProcess, NodeSeen, PrivateMaster, Snapshot
 from tests.kernel import Kernel
 from tests.support import eventually, stopped
 
-BEGAN = 1_800_000_000.0  # This time is in s since the epoch.
+BEGAN = 1_800_000_000.0  # s since the epoch
 
 
 def shown(drawing: str = "<svg/>", **notes: str) -> tuple[Scene, ActivityState]:
-    """Return a state of the panel with a drawing and the texts below topic names."""
+    """Return a state of the panel; `notes` are the texts below the topics' names."""
     return {"drawing": drawing, "facts": [], "spaces": [], "trouble": ""}, {"notes": notes}
 
 
@@ -87,7 +87,7 @@ def test_the_recording_is_sent_once_when_no_page_shows_the_panel(panel: GraphPan
 
 
 def test_a_panel_that_is_not_live_records_nothing(pulse: NodeProcess) -> None:
-    """With live=False, the panel sends one picture and no recording."""
+    """With live=False, the panel shows one drawing and records nothing."""
     assert pulse.running
     panel = GraphPanel(live=False)
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -138,7 +138,7 @@ def test_an_unchanged_graph_has_no_recording() -> None:
 
 
 def test_moments_and_their_scenes() -> None:
-    """A drawing that is shown twice is stored once."""
+    """If the same drawing is shown several times, the recording contains it once."""
     kept = filled(shown("a"), shown("a", x="2 Hz"), shown("b"), shown("a"))
     state = kept.state(BEGAN + 8.5)
     assert state["began"] == BEGAN

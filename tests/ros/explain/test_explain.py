@@ -118,7 +118,7 @@ class Unshowable(Exception):
 
 
 def ring() -> Exception:
-    """Return an exception that is in its own chain of causes."""
+    """Return an exception whose chain of causes is an endless loop."""
     one, other = KeyError("one"), KeyError("other")
     one.__cause__, other.__cause__ = other, one
     return one

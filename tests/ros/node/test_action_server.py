@@ -66,7 +66,7 @@ def test_a_failing_function_aborts_only_its_goal(joined: Kernel) -> None:
 
 
 def test_a_kernel_with_an_action_ends_by_itself(master: PrivateMaster) -> None:
-    """A kernel with an action server can exit, and the action's topics are unregistered."""
+    """When a kernel with an action server exits normally, the action's topics are unregistered."""
     with Kernel() as kernel:
         kernel.run(START)
         kernel.run('server = ActionServer("/fetch", FetchAction, until_called_off)')

@@ -218,7 +218,7 @@ def test_moving_to_another_master() -> None:
 
 
 def test_stopped_master(kernel: Kernel, master: PrivateMaster) -> None:
-    """While the master is stopped, requests time out. After SIGCONT, requests work again."""
+    """While the master is suspended with SIGSTOP, requests time out. After SIGCONT, requests work again."""
     kernel.run(JOIN + "; from std_msgs.msg import UInt32")
     with stopped(master.pid):
         for cell in ("join('student')", "node.subscribe('/x', UInt32)"):

@@ -59,7 +59,10 @@ def joined(kernel: Kernel) -> Kernel:
 
 @contextmanager
 def listening(accept: bool = True) -> Iterator[int]:
-    """Return a port that never sends data. Without `accept`, the port accepts no connections."""
+    """Yield the port of a server that never sends data.
+
+    If `accept` is false, the server accepts no connections.
+    """
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         listener.listen(0)
@@ -77,7 +80,7 @@ def listening(accept: bool = True) -> Iterator[int]:
 
 @contextmanager
 def registered(name: str, uri: str) -> Iterator[None]:
-    """Register a service that no node offers."""
+    """Register the address `uri` for a service; no node offers this service."""
     master = MasterClient(os.environ["ROS_MASTER_URI"])
     master.register_service("/pretender", name, uri, "http://localhost:1/")
     yield
@@ -100,14 +103,14 @@ def test_handler_that_never_answers(joined: Kernel, raw: NodeProcess, name: str)
 
 
 def test_stopped_server(joined: Kernel, raw: NodeProcess) -> None:
-    """A call to a stopped server times out. After SIGCONT, calls work again."""
+    """A call to a server that is suspended with SIGSTOP times out. After SIGCONT, calls work again."""
     with stopped(raw.pid):
         assert "but sends nothing" in times_out(joined, "/raw/well")
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
 
 
 def test_idle_connection_blocks_a_plain_server(joined: Kernel, raw: NodeProcess) -> None:
-    """If an idle connection blocks a plain rospy server, the call times out."""
+    """If an idle connection blocks a plain rospy server, a call to this server times out."""
     uri = MasterClient(os.environ["ROS_MASTER_URI"]).lookup_service("/raw/well")
     assert uri is not None
     with socket.create_connection(("localhost", int(uri.rpartition(":")[2]))):
@@ -116,7 +119,7 @@ def test_idle_connection_blocks_a_plain_server(joined: Kernel, raw: NodeProcess)
 
 
 def test_stopped_master(joined: Kernel, raw: NodeProcess, master: PrivateMaster) -> None:
-    """If the master is stopped, the error message contains "master" and not "server"."""
+    """If the master is suspended with SIGSTOP, the error message is about the master."""
     with stopped(master.pid):
         assert "the master" in times_out(joined, "/raw/well")
     assert joined.run("result = node.call('/raw/well', Trigger).message") == "well"
@@ -220,7 +223,7 @@ def watching() -> list[threading.Thread]:
 
 
 def test_an_action_is_repeated_until_it_is_disarmed() -> None:
-    """After its deadline, an action is called repeatedly until disarm()."""
+    """After its deadline, an action runs repeatedly until disarm() is called."""
     guard, done = Watchdog(), list[float]()
     number = guard.arm(time.monotonic(), lambda: done.append(time.monotonic()))
     eventually(lambda: len(done) >= 3)
@@ -232,7 +235,7 @@ def test_an_action_is_repeated_until_it_is_disarmed() -> None:
 
 
 def _round(guard: Watchdog) -> None:
-    """Wait until the watchdog's thread has started its next loop."""
+    """Arm another action, and wait until the watchdog's thread has run it."""
     told = threading.Event()
     number = guard.arm(time.monotonic(), told.set)
     assert told.wait(5)
@@ -240,7 +243,7 @@ def _round(guard: Watchdog) -> None:
 
 
 def test_no_thread_is_left_when_nothing_is_armed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The watchdog's thread ends after the last call, and the next call starts a new thread."""
+    """The watchdog's thread ends if no action is armed, and a new thread starts for the next action."""
     monkeypatch.setattr(watchdog, "LINGER", 0.05)
     before = set(watching())
     guard = Watchdog()

@@ -33,7 +33,7 @@ def joined(kernel: Kernel) -> Kernel:
 
 
 def test_a_message_reaches_a_connected_subscriber(joined: Kernel) -> None:
-    """A message to a connected subscriber is counted as sent, and no message is counted as unheard."""
+    """Both messages reach the connected subscriber, and no message counts as unheard or dropped."""
     assert joined.run("""
         heard = node.subscribe("/numbers", UInt32)
         spoken = Publisher("/numbers", UInt32)
@@ -57,7 +57,7 @@ def test_the_first_message_is_counted_as_unheard(joined: Kernel) -> None:
         heard.wait(1)
         result = [m.data for m in heard.messages], spoken.published, spoken.unheard
     """) == [[2], 2, 1]
-    eventually(lambda: joined.run("result = spoken.sent") == 1)  # rospy already counts the message as sent.
+    eventually(lambda: joined.run("result = spoken.sent") == 1)  # The first message was not sent.
 
 
 def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
@@ -74,7 +74,7 @@ def test_a_latched_message_waits_for_its_subscriber(joined: Kernel) -> None:
 
 
 def test_dropped_messages_are_counted_one_by_one(kernel: Kernel, master: PrivateMaster) -> None:
-    """If the queue is full, each message is counted as sent, waiting or dropped."""
+    """If the queue is full, the sent, waiting and dropped messages add up to all published messages."""
     with Kernel() as other:
         other.run(LISTEN + 'heard = node.subscribe("/long", String)')
         kernel.run(START + 'spoken = Publisher("/long", String, queue_size=2); connected(spoken)')

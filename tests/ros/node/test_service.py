@@ -101,7 +101,7 @@ def test_three_ways_to_give_a_request(joined: Kernel) -> None:
 
 
 def test_types_from_text_and_from_a_name(joined: Kernel) -> None:
-    """call() accepts a class that was made from text, and the name of a type."""
+    """call() accepts a service type that was compiled from text, and the name of a service type."""
     assert joined.run("""
         from course_pkg.types import compile_service
         echo = compile_service("course_pkg/Echo", "string text\\n---\\nstring text\\n")

@@ -191,7 +191,7 @@ def test_persistent_proxy_of_a_replaced_service(notebook: NotebookKernel) -> Non
 
 
 def test_cell_within_a_cell(notebook: NotebookKernel) -> None:
-    """With %%capture, the objects that the inner cell creates belong to the outer cell."""
+    """Objects that the code below %%capture creates belong to the cell."""
     cell = "%%capture\nservice = rospy.Service('/captured', Trigger, lambda r: (True, ''))"
     silent(notebook.run(cell, "captured"))
     silent(notebook.run(cell, "captured"))

@@ -14,7 +14,7 @@ MOST = 12
 
 
 def without_cell_numbers(lines: list[str]) -> list[str]:
-    """Return the lines with In[*] in place of each cell number."""
+    """Replace each cell number by an asterisk, and return the lines."""
     return [
         line.split("In[")[0] + "In[*]" + line.split("]", 1)[1] if "In[" in line else line for line in lines
     ]
@@ -121,7 +121,7 @@ def test_error_in_a_handler(notebook: NotebookKernel) -> None:
 
 
 def test_error_in_a_callback_is_shown_once_below_a_cell(notebook: NotebookKernel) -> None:
-    """If a callback raises the same error repeatedly, each cell shows the error only once."""
+    """If a callback raises the same error several times while a cell runs, the error is shown once."""
     notebook.run(
         """
         called = []

@@ -232,7 +232,7 @@ def test_a_terminal_interrupts_a_foreground_command_once() -> None:
 
 
 def test_stopped_node_is_ended(master: PrivateMaster) -> None:
-    """stop() ends and unregisters a node that SIGSTOP has stopped."""
+    """stop() also ends and unregisters a node that is suspended with SIGSTOP."""
     with NodeProcess.rosrun("course_pkg", "server") as server:
         server.wait_for_service("/getGeometry")
         with stopped(server.pid):

@@ -64,7 +64,10 @@ def test_the_master_of_ros_master_uri_is_used(master: PrivateMaster) -> None:
 
 
 def test_stopped_master_is_silent(master: PrivateMaster) -> None:
-    """A request to a stopped master raises MasterSilent. After SIGCONT, requests work again."""
+    """A request to a master that is suspended with SIGSTOP raises MasterSilent.
+
+    After SIGCONT, requests work again.
+    """
     client = MasterClient(master.uri, timeout=0.3)
     client.pid()
     with stopped(master.pid), pytest.raises(MasterSilent, match=r"within 0.3 s"):

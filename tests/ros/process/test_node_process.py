@@ -82,7 +82,7 @@ def test_waiting_for_output() -> None:
 
 
 def test_waiting_checks_the_process(kernel: Kernel) -> None:
-    """wait_for_service() does not return while another node offers the service."""
+    """wait_for_service() ignores the service of another node, and waits for the new process."""
     kernel.run("""
         import rospy
         from course_pkg.srv import geometry
@@ -96,7 +96,7 @@ def test_waiting_checks_the_process(kernel: Kernel) -> None:
 
 
 def test_stop_unregisters(master: PrivateMaster) -> None:
-    """After stop(), the process has no registrations, even if it was killed."""
+    """After stop(), the process has no registrations, even if stop() had to kill it."""
     deaf = """
 import rospy, signal, threading
 for number in (signal.SIGINT, signal.SIGTERM):
@@ -147,7 +147,7 @@ def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
 
 
 def test_running_again_replaces(kernel: Kernel) -> None:
-    """A second run() of a program ends the first process unless the second run has a different name."""
+    """A second run() with the same node name ends the first process; a run with another name does not."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")
@@ -230,7 +230,10 @@ def test_close_ends_everything_of_a_private_graph() -> None:
 
 
 def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateMaster) -> None:
-    """If the program is unknown or exits, run() raises an error with similar names or with the output."""
+    """If a program is unknown, the error of run() contains similar names.
+
+    If a program exits too early, the error contains its output.
+    """
     started = time.monotonic()
     with PrivateGraph() as graph:
         with pytest.raises(UnknownExecutable, match="Did you mean 'pulse'"):

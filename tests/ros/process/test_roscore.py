@@ -49,7 +49,7 @@ def test_the_graph_is_the_same_as_with_roscore(core: Roscore) -> None:
 
 
 def test_what_a_node_logs_is_in_the_log_of_rosout(core: Roscore, tmp_path: Path) -> None:
-    """/rosout writes the log messages of all nodes to its file."""
+    """/rosout writes the log messages of all nodes to the file rosout.log."""
     with core, Kernel({"ROS_MASTER_URI": core.uri}) as kernel:
         kernel.run(PUBLISH)
         log = tmp_path / "rosout.log"
@@ -57,7 +57,10 @@ def test_what_a_node_logs_is_in_the_log_of_rosout(core: Roscore, tmp_path: Path)
 
 
 def test_it_listens_on_loopback_only(core: Roscore) -> None:
-    """/rosout listens only on 127.0.0.1. LD_PRELOAD loads the library that is built from loopback.c."""
+    """/rosout listens only on 127.0.0.1.
+
+    The reason is the library in LD_PRELOAD, which is built from loopback.c.
+    """
     with core:
         [rosout] = processes(descendants(os.getpid()))
         sockets = [each for each in rosout.net_connections("inet") if each.status == psutil.CONN_LISTEN]

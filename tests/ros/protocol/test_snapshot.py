@@ -51,7 +51,10 @@ def test_equal_snapshots_of_the_same_graph(server: NodeProcess) -> None:
 
 
 def test_stopped_node_is_silent_and_costs_half_a_second(server: NodeProcess) -> None:
-    """A stopped node is listed as silent, and remove_stale() does not remove its registrations."""
+    """A node that is suspended with SIGSTOP is listed as silent.
+
+    remove_stale() does not remove the node's registrations.
+    """
     with stopped(server.pid):
         started = time.monotonic()
         seen = look()

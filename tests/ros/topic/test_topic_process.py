@@ -39,7 +39,7 @@ class Reports:
         self.process = TopicProcess(topic, self._report, self._lose)
 
     def published(self, part: str) -> Plain:
-        """Return a field of the publisher's report."""
+        """Return the value `part` from the latest report about the publisher."""
         return self.parts.get("publisher", {}).get(part)
 
     def _report(self, _process: TopicProcess, report: Report) -> None:
@@ -92,7 +92,7 @@ def test_rate_of_rare_and_of_frequent_messages() -> None:
 
 
 def test_a_curve_keeps_extreme_values() -> None:
-    """Each step of a curve contains its first, smallest, largest and last value.
+    """For each time step, the curve contains the first, smallest, largest and last value.
 
     Values older than 20 s are removed.
     """
@@ -199,7 +199,7 @@ def test_the_numbers_of_a_message_have_paths() -> None:
     ],
 )
 def test_the_first_measurement_of_a_message(name: str, path: str) -> None:
-    """measurement() returns the first number that is neither in a header nor a limit of the sensor."""
+    """measurement() ignores numbers in a header and settings of the sensor, such as range_min."""
     assert measurement(message_type(name)) == path
 
 
@@ -246,7 +246,7 @@ def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
 
 
 def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> None:
-    """A message that is sent before the connection counts as unheard, and the next message is received."""
+    """A message without a connected subscriber counts as unheard, and the next message is received."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1.5")
     eventually(lambda: reports.published("deliveries"))

@@ -62,7 +62,7 @@ for _ in range(3):
 
 @pytest.fixture
 def pair(master: PrivateMaster) -> Iterator[tuple[Kernel, Kernel]]:
-    """Run a connected publisher kernel and subscriber kernel."""
+    """Run two kernels: a publisher and a subscriber, which are connected."""
     with Kernel() as speaker, Kernel() as listener:
         speaker.run(SPEAK)
         listener.run(HEAR)
@@ -106,7 +106,7 @@ def test_a_connection_of_more_than_two_gigabytes(pair: tuple[Kernel, Kernel]) ->
 
 
 def test_a_stopped_node_is_silent(pair: tuple[Kernel, Kernel]) -> None:
-    """A stopped node is listed as silent."""
+    """A node that is suspended with SIGSTOP is listed as silent."""
     speaker, listener = pair
     snapshot = look()
     with stopped(speaker.pid):

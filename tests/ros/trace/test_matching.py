@@ -1,4 +1,4 @@
-"""Tests of matching recorded spans of different nodes to calls and messages."""
+"""Tests of match_events(), which combines the spans of several nodes into calls and messages."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def keys(found: tuple[Event, ...]) -> list[tuple[str, str]]:
 
 
 def call(number: int, start: float, end: float) -> list[SpanData]:
-    """Return the caller's spans of a call."""
+    """Return the spans that the caller records for a call."""
     return [
         span("request", start, start + 0.1, call=number),
         span("wait", start + 0.1, end, call=number),

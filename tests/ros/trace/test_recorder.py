@@ -10,7 +10,7 @@ from course_pkg.ros.trace.recorder import LONGEST, Recorder
 
 
 def test_the_number_of_stored_spans_is_bounded() -> None:
-    """The recorder stores the latest spans and all running spans."""
+    """The recorder stores only the latest finished spans, but every span that still runs."""
     recorder = Recorder(size=3)
     lasting = recorder.begin("handler", "/x", "/caller", [])
     spans = [recorder.begin("publish", f"/{number}", "", []) for number in range(5)]
@@ -23,7 +23,7 @@ def test_the_number_of_stored_spans_is_bounded() -> None:
 
 
 def test_a_memory_that_is_not_full_is_complete() -> None:
-    """While the recorder has free memory, no span is missing."""
+    """If the recorder has deleted no span, its record is complete."""
     recorder = Recorder(size=3)
     recorder.end(recorder.begin("publish", "/x", "", []))
     assert recorder.since(0.0)["complete_from"] == 0.0
@@ -102,7 +102,7 @@ class _Owner:
 
 
 def test_a_hook_fits_only_the_expected_method() -> None:
-    """A hook cannot replace a method with other parameters."""
+    """A hook is refused if the method is missing or has other parameters."""
     assert Hook(_Owner, "method", ("self", "one"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "two"), lambda method: method).fits()
     assert not Hook(_Owner, "method", ("self", "one"), lambda method: method, uses=["elsewhere"]).fits()

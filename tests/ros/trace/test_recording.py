@@ -53,7 +53,7 @@ def recorded(asker: Kernel, cell: str) -> Recording:
 
 
 def kinds(recording: Recording, key: str) -> list[str]:
-    """Return the kinds of the events with this key, sorted by their start."""
+    """Return the kinds of the events with this key, in the order of their start times."""
     return [event.kind for event in recording.parts(key)]
 
 
@@ -105,7 +105,7 @@ def test_both_ends_of_a_call(asker: Kernel, how: str) -> None:
 
 
 def test_a_persistent_connection_is_looked_up_once(asker: Kernel) -> None:
-    """On a persistent connection, only the first call has a look-up."""
+    """On a persistent connection, only the first call looks up the service at the master."""
     recording = recorded(
         asker,
         """
@@ -232,7 +232,7 @@ def test_a_kernel_that_leaves_during_the_recording(asker: Kernel) -> None:
 
 
 def test_a_server_that_died(asker: Kernel) -> None:
-    """A node that crashes is listed as unrecorded, but the caller's events are recorded."""
+    """If a node crashes, the recording lists the node as unrecorded, and contains the caller's events."""
     recording = recorded(
         asker,
         """
@@ -248,7 +248,7 @@ def test_a_server_that_died(asker: Kernel) -> None:
 
 
 def test_a_node_that_is_stopped(asker: Kernel, master: PrivateMaster) -> None:
-    """A stopped node is listed as unrecorded after a short delay."""
+    """A node that is suspended with SIGSTOP is listed as unrecorded, and causes only a short delay."""
     reply = asker.ask("""
         import os, signal
         server = node.run("course_pkg", "pulse")

@@ -29,7 +29,7 @@ def server(master: PrivateMaster) -> Iterator[NodeProcess]:
 
 @pytest.fixture
 def echo() -> Iterator[int]:
-    """Return a port that sends all received bytes back, and then a last message."""
+    """Run a server that returns all received bytes and then sends `bye`; yield its port."""
 
     def serve() -> None:
         while True:
