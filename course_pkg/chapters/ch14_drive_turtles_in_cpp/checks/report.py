@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
 
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_program import TurtleProgram
 from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World
 from course_pkg.chapters.ch14_drive_turtles_in_cpp.checks.cpp_program import cpp
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
-from course_pkg.checking.peers.service_calls import Service
+from course_pkg.checking.peers.service_calls import Reply, Service
+from course_pkg.checking.plain_values import Value
 
 THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
-GROUPS = 30  # The check calls this many times with all clients at the same time.
+GROUPS = 30  # number of groups of simultaneous calls
+FAILED = 2  # A call may fail in this number of groups.
 FEW, MANY = 3, 8  # The numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
@@ -149,15 +152,31 @@ def _reports(context: CheckContext, program: TurtleProgram, clients: int, too_fe
         world.serves(running, *SERVICES)
         _answers(context, world.service("report", "std_srvs/Trigger", _why(HANGS)), level)
         report = world.service("report", "std_srvs/Trigger", _why(too_few))
-        # On a busy machine, the calls of one group may arrive one after another.
-        replies = [reply for _ in range(GROUPS) for reply in report.at_once([{}] * clients)]
-        for reply in replies:
+        for reply in _groups(report, clients):
             context.require(
                 f"{clients} clients at the same time get their responses",
                 holds=reply.response.message == f"battery: {level}",
                 expected=f"battery: {level}",
                 actual=reply.response.message,
             )
+
+
+def _groups(report: Service, clients: int) -> Iterator[Reply]:
+    """Yield the replies to many groups of simultaneous calls.
+
+    On a busy machine, the calls of one group may arrive one after another, so one group is not enough. If
+    threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, a call may fail in
+    FAILED groups; after a deadlock, all later calls fail.
+    """
+    failed = 0
+    for _ in range(GROUPS):
+        calls: list[Mapping[str, Value]] = [{}] * clients
+        replies = report.replies(calls) if failed < FAILED else report.at_once(calls)
+        if any(reply.error for reply in replies):
+            failed += 1
+            report()
+        else:
+            yield from replies
 
 
 def _why(hangs: str) -> list[tuple[re.Pattern[str], str]]:
