@@ -36,12 +36,13 @@ class Still(NamedTuple):
 
     @property
     def code(self) -> str:
-        """The source code of the drawing function's module and of paper.py.
+        """The source code of the panel's modules and of paper.py.
 
         If this source code changes, a picture with measured times is drawn again.
         """
-        files = (sys.modules[self.draw.__module__].__file__, paper.__file__)
-        return "".join(Path(str(file)).read_text("utf-8") for file in files)
+        folder = Path(str(sys.modules[self.draw.__module__].__file__)).parent
+        files = (*sorted(folder.glob("*.py")), Path(paper.__file__))
+        return "".join(file.read_text("utf-8") for file in files)
 
 
 # The keys are the folders of the panels. The saved state of a widget contains the same folder name.

@@ -51,7 +51,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
 
 
 def _figure_at(y: float, coat: Colour) -> tuple[float, Colour]:
-    """Return half the width and the colour of a customer in the row at `y`.
+    """Return the half width, and the colour, of a customer in the row at `y`.
 
     The width is a fraction of the picture's height.
     """

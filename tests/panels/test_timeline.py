@@ -224,7 +224,7 @@ def test_failures_in_plain_sentences(failed: int, words: str) -> None:
 
 
 def test_the_panel() -> None:
-    """The timeline is a widget with a constant plain text."""
+    """The timeline is a widget, and its text/plain output is always the same."""
     panel = Timeline(recording(*call()))
     assert repr(panel) == "Timeline()"
     assert panel.recorded["length"] == 10_000_000

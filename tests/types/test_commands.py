@@ -92,7 +92,7 @@ def test_python_keeps_types_of_one_name_apart() -> None:
 
 
 def test_python_of_unbuilt_parts_runs(packages: Path) -> None:
-    """Python code for types that are not built makes these types from their text."""
+    """For types that are not built, the Python code creates the types from their definitions, and it runs."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     value = {"crate": {"parts": [{"size": 2.0, "label": "nut"}]}}

@@ -622,7 +622,7 @@ replace('        print_line(f"{request.item} {request.cents}")\n', """        tr
         except rospy.ServiceException:
             print_line(f"{request.item} {request.cents}")
 """)
-# %% 15.8 wrong: no line for the old price | hint: A call of till/set did not print exactly one line, because
+# %% 15.8 wrong: no line for the old price | hint: Print exactly one line in each call of till/set
 replace("        print_line(", "        if prices.get(request.item) != request.cents:\n            print_line(")
 # %% 15.8 wrong: prints what it refuses | hint: The till printed a line for a refused item
 replace('    if not request.item:', '    print_line(f"{request.item} {request.cents}")\n    if not request.item:')

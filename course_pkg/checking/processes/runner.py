@@ -57,7 +57,7 @@ def run_check(channel: Channel, store: Store | None = None, only: str = "") -> R
 
 
 def record(report: Report, seed: int) -> dict[str, Json]:
-    """Return the data for grading, and for a repetition of the check with COURSE_SEED."""
+    """Return the data that grading needs, and the data to repeat the check with COURSE_SEED."""
     return {**report.as_dict(), "seed": seed, "time": time.time(), "course": _course_version()}
 
 

@@ -225,7 +225,7 @@ def _read(entry: Entry, owner: Claim, references: References, blank: Submission)
 def _of_first_edition(found: RenumberedChapter, references: References, blank: Submission) -> Submission:
     """Return a submission with a `problem`.
 
-    The problem says what has changed, and which notebook the student has to submit.
+    The message of the problem says what has changed, and which notebook the student has to submit.
     """
     name = clean.line(blank.origin.rpartition("/")[2], 120)
     problem = (

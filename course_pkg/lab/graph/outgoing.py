@@ -26,7 +26,7 @@ class Outgoing:
 
     @classmethod
     def start(cls, files: Sequence[int]) -> Outgoing | None:
-        """Connect the network of `files` to other computers; return None if slirp4netns is not installed."""
+        """Connect the network namespace in `files` to other computers; return None without slirp4netns."""
         if not shutil.which(FORWARDER):
             return None
         *user, network = (f"/proc/{os.getpid()}/fd/{file}" for file in files)

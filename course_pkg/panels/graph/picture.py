@@ -64,7 +64,7 @@ class Frame:
 
     @property
     def key(self) -> str:
-        """The key of the namespace; it is the same for the frame and for the folded box."""
+        """The key of the namespace. A frame and a folded box of the same namespace have the same key."""
         return f"{Kind.SPACE.value} {self.name}"
 
 

@@ -86,8 +86,8 @@ def files_in(folder: str) -> set[str]:
 def started_with(folder: str) -> list[int]:
     """Return all processes of this computer with TMPDIR=`folder`.
 
-    If none of these processes exists, no private network of the command exists, because a network ends with
-    the last process that uses it or has it open.
+    A network exists only while a process uses it or has it open. Therefore, if none of these processes
+    exists, the command has no private network.
     """
     found = []
     for process in Path("/proc").glob("[0-9]*"):

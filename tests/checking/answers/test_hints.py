@@ -31,7 +31,7 @@ def test_every_hint_has_an_example_answer(chapter: str) -> None:
 
 
 def test_every_common_hint_has_an_example_answer() -> None:
-    """For each hint that several chapters use, an example answer quotes a part of the hint."""
+    """For each hint of several chapters, the header of an example answer contains a part of the hint."""
     hints = hints_in(Path(course_pkg.checking.common_hints.__file__))
     assert hints
     assert not _lines(not_shown(hints, every_answer()))

@@ -51,7 +51,7 @@ def test_a_student_in_any_case(name: str) -> None:
 
 
 def test_a_student_without_the_number_of_the_platform() -> None:
-    """A student's name may be given without the platform's number."""
+    """An instructor can select a student by name, without the number that the platform adds to the name."""
     assert _chosen(selection(["a two"], (), ())) == [("A Two_19", "")]
 
 

@@ -185,7 +185,7 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 def _stances(context: CheckContext, count: int) -> list[Fields]:
     """Return `count` messages.
 
-    The last states have fewer joints, so a mirror must not keep the values of earlier states.
+    The last states have fewer joints, so the student's node must not keep the values of earlier states.
     """
     names = [context.random.word() for _ in range(4)]
     counts = [4 if number < count / 2 else 3 for number in range(count)]

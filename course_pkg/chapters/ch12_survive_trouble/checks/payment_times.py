@@ -8,7 +8,7 @@ from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
 TRY = 0.5  # TRY is the time limit in s for one attempt.
 PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
-# In the fastest payment, the first pause together with a new connection may take at most this many s.
+# In the fastest payment, the sum of the first pause and the time for a new connection is at most this, in s.
 FIRST = 1.8 * PAUSE
 PAYMENTS = 5  # The check makes at most this many payments; the fastest payment counts.
 # The deadline comes after this many s. At the deadline, the client is in its fourth pause, which would end

@@ -252,8 +252,8 @@ def the_printed_till(context: CheckContext) -> None:
             expected="one line for each call, even if the price did not change",
             actual=f"{len(till.printer.lines) - before} lines",
             hints=(
-                "A call of till/set did not print exactly one line, because the item already had "
-                "this price. Print exactly one line for each call of till/set."
+                "The number of printed lines is wrong. Print exactly one line in each call of "
+                "till/set, even if the item already has this price."
             ),
         )
         _prints_no_illegal_item(context, till)

@@ -55,8 +55,8 @@ LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows
     "16.4",
     points=4,
     goal=(
-        "Write a node with the names battery, door, deliver and capacity. For each name, use the "
-        "right kind of interface."
+        "Write a node with four interfaces: battery, door, deliver and capacity. For each interface, use "
+        "the right kind."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
