@@ -49,7 +49,7 @@ def test_comparing_keeps_the_prediction(model: PredictionModel) -> None:
     model.answer("an empty reply")
     record = model.compare("an error")
     assert record.first == "an empty reply"
-    assert "something else" in record.verdict
+    assert "the result is different" in record.verdict
     late = model.answer("an error")
     assert late.changed_after
     assert late.first == "an empty reply"
@@ -68,7 +68,7 @@ def test_comparing_again_changes_nothing(model: PredictionModel) -> None:
 
 @pytest.mark.parametrize(
     ("predicted", "actual", "stretch"),
-    [("2.50", 2.5, "that happened"), ("Two", "two", "that happened"), ("3", 2, "something else happened")],
+    [("2.50", 2.5, "this happened"), ("Two", "two", "that happened"), ("3", 2, "the result is different")],
 )
 def test_numbers_and_texts_are_compared_by_value(
     model: PredictionModel, predicted: str, actual: object, stretch: str

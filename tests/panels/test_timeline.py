@@ -201,7 +201,7 @@ def test_in_plain_sentences() -> None:
         "/customer called /nope, and reached no server.",
         "/customer called /x and waited for /cashier.",
         "/late called /x and waited for /cashier, to the end of the recording.",
-        "/robot published /joints and did not wait; /simulator heard it.",
+        "/robot published /joints and did not wait; /simulator received it.",
     ]
     assert timeline_text(Recording()) == "Nothing was recorded."
 
