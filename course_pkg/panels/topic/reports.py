@@ -94,7 +94,7 @@ def published(report: PublisherReport, own: str) -> str:
     if not count:
         return "Nothing is published yet. The first message creates the publisher."
     if not report["advertised"]:
-        return "The publisher was stopped. The next message creates a new publisher."
+        return "The publisher was unregistered. The next message creates a new publisher."
     if report["rate"]:
         return _rate(report)
     peers = [_peer(each["peer"], own) for each in report["deliveries"]]

@@ -63,7 +63,7 @@ class TopicView {
     this.once = h("button", { type: "submit", class: "ros-main", text: "Publish" });
     this.often = h("button", { type: "button", text: "Publish at a rate", onclick: () => this.#repeat() });
     this.burst = h("button", { type: "button", onclick: () => this.#act("burst") });
-    this.withdraw = h("button", { type: "button", class: "ros-quiet", text: "Stop the publisher", onclick: () => this.#send({ kind: "withdraw" }) });
+    this.withdraw = h("button", { type: "button", class: "ros-quiet", text: "Unregister the publisher", onclick: () => this.#send({ kind: "withdraw" }) });
     this.wrong = h("p", { class: "ros-note ros-wrong" });
     this.words = h("p", { class: "ros-words", role: "status", "aria-live": "polite" });
     this.waiting = h("p", { class: "ros-muted", role: "status" });

@@ -32,7 +32,7 @@ def begin(lab: Locator, name: str) -> None:
     """Open the case with the fault `name`, and wait for its symptom."""
     lab.get_by_role("button", name=f"Case {number(name)},").click()
     expect(lab.get_by_text(f"Case {number(name)}. ")).to_be_visible()
-    expect(lab.get_by_text("The fault is there.")).to_be_visible()
+    expect(lab.get_by_text("The fault is active.")).to_be_visible()
 
 
 def shown(text: str) -> str:
@@ -97,7 +97,7 @@ def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
         shared.keyboard.press("ArrowRight")
     expect(form.get_by_role("button", name=f"Case {number('returns_none')},")).to_be_focused()
     shared.keyboard.press("Enter")
-    expect(form.get_by_text("The fault is there.")).to_be_visible()
+    expect(form.get_by_text("The fault is active.")).to_be_visible()
     form.get_by_label(shown(named("returns_none").diagnosis)).focus()
     shared.keyboard.press("Space")
     form.get_by_label(shown(named("returns_none").remedy)).focus()
@@ -107,7 +107,7 @@ def test_by_keyboard_alone(form: Locator, shared: Page) -> None:
     expect(form.get_by_text("Right.", exact=True)).to_be_visible()
     form.get_by_role("button", name="Undo the fault").focus()
     shared.keyboard.press("Enter")
-    expect(form.get_by_text("The fault is undone.")).to_be_visible()
+    expect(form.get_by_text("The fault is removed.")).to_be_visible()
 
 
 def test_a_hanging_call_is_described(form: Locator) -> None:

@@ -112,7 +112,7 @@ def test_choices_are_made_compared_and_kept(lab: Lab, lab_page: Page) -> None:
         lab_page.keyboard.press("ArrowDown")
         expect(second.get_by_label("a service")).to_be_checked()
         lab_page.keyboard.press("ArrowDown")
-        expect(choices.get_by_text("All decided.")).to_be_visible()
+        expect(choices.get_by_text("Each case has an answer.")).to_be_visible()
         lab_page.keyboard.press("Tab")
         expect(choices.get_by_role("button", name="Show the reasons")).to_be_focused()
         lab_page.keyboard.press("Enter")

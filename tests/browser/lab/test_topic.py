@@ -57,8 +57,8 @@ def test_a_latched_message_arrives(lab: Lab, lab_page: Page) -> None:
         topic.get_by_role("button", name="Publish", exact=True).click()
         expect(topic.get_by_text("Message 1 was stored, and was sent to this panel")).to_be_visible()
         expect(topic.get_by_label("The last messages")).to_contain_text("data 0.0")
-        topic.get_by_role("button", name="Stop the publisher").click()
-        expect(topic.get_by_text("The publisher was stopped.")).to_be_visible()
+        topic.get_by_role("button", name="Unregister the publisher").click()
+        expect(topic.get_by_text("The publisher was unregistered.")).to_be_visible()
 
 
 def test_a_rate_runs_until_it_is_stopped(lab: Lab, lab_page: Page) -> None:
