@@ -215,6 +215,8 @@ def test_nothing_is_wider_than_the_page(form: Locator, width: int) -> None:
     """In a wide and in a narrow window, the panel fits into the window."""
     form.page.set_viewport_size({"width": width, "height": 1000})
     fill(form, length="1.2", width="5.2", height="8.9")
+    # The page has its final layout when the commands contain the typed values.
+    expect(form.get_by_role("region", name="The same call")).to_contain_text("8.9")
     before = form.get_by_role("button", name="Call").bounding_box()
     form.get_by_role("button", name="Call").click()
     expect(answer(form, "area")).to_have_text("6.24")
