@@ -54,8 +54,10 @@ replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * f
 replace("10 * dark >= frame.width * frame.height", "dark > 0")
 # %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, so this frame shows a
 replace(">= frame.width", "> frame.width")
-# %% 15.1 wrong: rounded | hint: The number of dark points is one less than a tenth of all points, so this
+# %% 15.1 wrong: rounded | hint: The number of dark points is less than a tenth of all points, so this
 replace("10 * dark >= frame.width * frame.height", "round(dark / (frame.width * frame.height), 2) >= 0.1")
+# %% 15.1 wrong: a tenth is rounded down | hint: The number of dark points is less than a tenth of all points, so this
+replace("10 * dark >= frame.width * frame.height", "dark >= frame.width * frame.height // 10")
 # %% 15.1 wrong: 96 is dark | hint: Some points have the value 96, but a point is dark only if its
 replace("point < 96", "point <= 96")
 # %% 15.1 wrong: the padding counts | hint: Each row has frame.step bytes, but only the first frame.width bytes are points
@@ -72,8 +74,10 @@ replace("    if len(frame.data) != frame.height * frame.step:\n        return No
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None\n", "")
 # %% 15.1 wrong: too many bytes | hint: This frame has more bytes than height * step, so it is malformed
 replace("len(frame.data) != frame", "len(frame.data) < frame")
-# %% 15.1 wrong: any encoding | hint: This frame has three bytes for each point
+# %% 15.1 wrong: any encoding | hint: The encoding of this frame is not mono8
 replace('frame.encoding != "mono8" or ', "")
+# %% 15.1 wrong: another encoding with one byte for each point | hint: The encoding of this frame is not mono8
+replace('frame.encoding != "mono8"', 'frame.encoding not in ("mono8", "8UC1")')
 # %% 15.1 wrong: any step | hint: In this frame, a row has fewer bytes than points, which is
 replace(" or frame.step < frame.width", "")
 # %% 15.1 wrong: an empty frame | hint: A frame of 0 by 0 points
