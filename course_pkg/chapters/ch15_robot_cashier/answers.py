@@ -486,6 +486,20 @@ replace('"~wait", 2.0', '"~wait", 5.0')
 replace('AwaitCustomer)(patience)', 'AwaitCustomer)(patience)\n        response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)')
 # %% 15.4 wrong: does not call | hint: The program did not call the service
 replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'rospy.ServiceProxy("detect_customer", AwaitCustomer)')
+# %% 15.4 wrong: calls again after a refusal | hint: The service refused the call, and the program called the service again
+replace("\n\ndef main():", """
+
+def ask(patience):
+    detect = rospy.ServiceProxy("detect_customer", AwaitCustomer)
+    try:
+        return detect(patience)
+    except rospy.ServiceException:
+        rospy.sleep(0.5)
+        return detect(patience)
+
+
+def main():""")
+replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', "ask(patience)")
 replace('response.found', 'patience')
 # %% 15.4 wrong: spins | hint: The program called the service, but the program did not end
 replace('else "nobody")', 'else "nobody")\n    rospy.spin()')
