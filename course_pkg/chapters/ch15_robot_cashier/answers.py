@@ -300,6 +300,8 @@ replace("not in (0, count)", "!= count")
 replace("*joints.velocity]", "*joints.velocity, *joints.effort]")
 # %% 15.5 wrong: compares the number of efforts | hint: The node ignored a joint state in which the number of
 replace("len(joints.velocity) not in (0, count)", "len(joints.velocity) not in (0, count) or len(joints.effort) not in (0, count)")
+# %% 15.5 wrong: tests the sum | hint: The node ignored a joint state with two positions of 1e308
+replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "math.isfinite(sum([*joints.position, *joints.velocity]))")
 # %% 15.5 wrong: leaves out a joint state without joints | hint: A joint state with 0 names and 0 positions is valid
 replace("if len(joints.position) != count", "if not count or len(joints.position) != count")
 # %% 15.5 wrong: published twice | hint: Some mirror images arrived more than once
