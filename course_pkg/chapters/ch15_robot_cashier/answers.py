@@ -667,6 +667,8 @@ replace("with turn:\n        prices[request.item] = request.cents\n        retur
     turn.release()
     return total""")
 replace("\n    with turn:\n        return sum(prices.values()), len(prices)", "\n    return sum(prices.values()), len(prices)")
+# %% 15.8 wrong: a persistent connection to the printer | hint: The printer was started again, but the till still refuses
+replace('("print_line", PrintLine)', '("print_line", PrintLine, persistent=True)')
 # %% 15.8 wrong: gives up early | hint: The till refused an item although the printer works
 replace('        print_line(f"{request.item} {request.cents}")\n', '        raise rospy.ServiceException("print_line is unavailable")\n')
 

@@ -197,6 +197,10 @@ NO_PRINTER = (
     "The service print_line does not exist, and the till did not refuse the call within 5 s. Do "
     "not wait for this service without a time limit."
 )
+RESTARTED = (
+    "The printer was started again, but the till still refuses an item. Create the proxy without "
+    "persistent=True, because a closed connection of a persistent proxy is never opened again."
+)
 ILLEGAL = (
     "The till printed a line for a refused item. Check for negative cents and an empty name before you print."
 )
@@ -260,6 +264,7 @@ def the_printed_till(context: CheckContext) -> None:
         context.fulfilled(PRINTED)
         _adds_up_in_order(context, till, {**prices, other: more})
         _refuses_without_printer(context, till, third, rest)
+        _prints_with_a_new_printer(context, till, third, rest)
 
 
 def _refuses_without_print(
@@ -336,6 +341,20 @@ def _refuses_without_printer(context: CheckContext, till: Till, item: str, cents
     till.server.leave()
     refused(
         context, till.set, "without a printer, the till refuses", "", item=item, cents=cents, hints=NO_PRINTER
+    )
+
+
+def _prints_with_a_new_printer(context: CheckContext, till: Till, item: str, cents: int) -> None:
+    """Start the printer again, and assert that the till accepts the item that it has just refused."""
+    context.serve(f"{till.space}/{PRINT}", PRINT_LINE, till.printer.answer)
+    before = len(till.printer.lines)
+    till.service(context, SET, TILL_SET, [(ANYTHING, RESTARTED)])(item=item, cents=cents)
+    context.require(
+        "the till prints a line",
+        holds=len(till.printer.lines) == before + 1,
+        expected="a line on the new printer",
+        actual="none",
+        hints=NOT_PRINTED,
     )
 
 
