@@ -486,8 +486,6 @@ replace('rospy.get_param("~wait", 2.0)', "2.0")
 replace('"~wait", 2.0', '"~wait", 5.0')
 # %% 15.4 wrong: calls twice | hint: The program called the service more than once
 replace('AwaitCustomer)(patience)', 'AwaitCustomer)(patience)\n        response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)')
-# %% 15.4 wrong: does not call | hint: The program did not call the service
-replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'rospy.ServiceProxy("detect_customer", AwaitCustomer)')
 # %% 15.4 wrong: calls again after a refusal | hint: The service refused the call, and the program called the service again
 replace("\n\ndef main():", """
 
@@ -502,6 +500,8 @@ def ask(patience):
 
 def main():""")
 replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', "ask(patience)")
+# %% 15.4 wrong: does not call | hint: The program did not call the service
+replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'rospy.ServiceProxy("detect_customer", AwaitCustomer)')
 replace('response.found', 'patience')
 # %% 15.4 wrong: spins | hint: The program called the service, but the program did not end
 replace('else "nobody")', 'else "nobody")\n    rospy.spin()')
@@ -712,6 +712,10 @@ replace('True, "already empty"', 'False, "already empty"')
 replace("        prices.clear()\n", '        prices.clear()\n        print_line(f"sum {paid}")\n')
 # %% 15.9 wrong: another message | hint: The message is wrong
 replace('f"paid {paid} cents"', 'f"{paid} cents paid"')
+# %% 15.9 wrong: adds up the printed lines | hint: The total contains the old price and the new price of an item
+replace("prices = {}  # cents by item", "prices = {}  # cents by item\nprinted = []")
+replace("        prices[request.item] =", "        printed.append(request.cents)\n        prices[request.item] =")
+replace("paid = sum(prices.values())", "paid = sum(printed)\n        printed.clear()")
 # %% 15.9 wrong: no message for an empty till | hint: The till has no items, so the message has to be "already empty"
 replace('        if not prices:\n            return True, "already empty"\n', "")
 # %% 15.9 wrong: looks at the sum | hint: The till has an item that costs 0 cents, so it is not empty

@@ -403,9 +403,11 @@ def the_reset(context: CheckContext) -> None:
         reset = till.service(context, RESET, TRIGGER, [(ANYTHING, SUCCEEDS)])
         _resets(context, reset, "already empty", EMPTY)
         items = _items(context, 2)
-        for item, cents in items:
+        paid = sum(cents for _, cents in items)
+        old = items[1][1]  # The first item is set with this price first, and later with its own price.
+        for item, cents in ((items[0][0], old), *items):
             till.set(item=item, cents=cents)
-        _resets(context, reset, f"paid {sum(cents for _, cents in items)} cents", PAID)
+        _resets(context, reset, f"paid {paid} cents", [(f"paid {paid + old} cents", TWICE), (ANYTHING, PAID)])
         _totals(context, total, {}, KEPT, KEPT)
         _resets(context, reset, "already empty", EMPTY)
         till.set(item=items[0][0], cents=0)
@@ -417,7 +419,7 @@ def the_reset(context: CheckContext) -> None:
         _resets(context, reset, f"paid {items[0][1]} cents", PAID)
 
 
-def _resets(context: CheckContext, reset: Service, message: str, hint: str) -> None:
+def _resets(context: CheckContext, reset: Service, message: str, hint: Hints) -> None:
     response = reset()
     context.expect("a reset succeeds", expected=True, actual=response.success, hints=SUCCEEDS)
     context.expect("the message of a reset is right", expected=message, actual=response.message, hints=hint)
