@@ -69,6 +69,10 @@ replace("for fetched in range(goal.things)", "for _ in range(goal.things)")
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=self.fetched))")
 replace("            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "            self.fetched += 1\n            self.server.publish_feedback(FetchFeedback(fetched=self.fetched))")
 replace("fetched=goal.things", "fetched=self.fetched")
+# %% 16.1 wrong: a count that only a complete goal sets to 0 | hint: The result also counts the things of the previous goal
+based_on("a count for all goals")
+replace("for _ in range(goal.things)", "while self.fetched < goal.things")
+replace("set_succeeded(FetchResult(fetched=self.fetched))", "set_succeeded(FetchResult(fetched=self.fetched))\n        self.fetched = 0")
 # %% 16.1 wrong: returns the result, as a service does | hint: The function returned, but the goal has no end
 replace("self.server.set_preempted(FetchResult(fetched=fetched))\n                return", "return FetchResult(fetched=fetched)")
 replace("self.server.set_succeeded(FetchResult(fetched=goal.things))", "return FetchResult(fetched=goal.things)")
