@@ -193,6 +193,8 @@ replace(".get_result().fetched", ".get_result()")
 replace("things=things, seconds", "seconds")
 # %% 16.2 wrong: None after the cancellation | hint: The function returned None
 replace("        client.wait_for_result(rospy.Duration(2))\n", "        return None\n")
+# %% 16.2 wrong: None for an aborted goal | hint: The robot aborted the goal, but the function did not return
+replace("    return client.get_result()", "    if client.get_state() == actionlib.GoalStatus.ABORTED:\n        return None\n    return client.get_result()")
 # %% 16.2 wrong: sends the goal without a robot | hint: No server started in time, so wait_for_server returned False
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server(rospy.Duration(2))")
 
