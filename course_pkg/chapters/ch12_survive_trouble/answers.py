@@ -63,6 +63,28 @@ def call_within(seconds, proxy, *values):
     finally:
         pool.shutdown(wait=False)
 
+# %% 12.1 wrong: one queue for all calls | hint: The function returned the late response of an earlier call
+import queue
+
+results = queue.Queue()
+
+
+def call_within(seconds, proxy, *values):
+    def work():
+        try:
+            results.put((proxy(*values), None))
+        except rospy.ServiceException as error:
+            results.put((None, error))
+
+    threading.Thread(target=work, daemon=True).start()
+    try:
+        response, error = results.get(timeout=seconds)
+    except queue.Empty:
+        raise TimeoutError("no response")
+    if error:
+        raise error
+    return response
+
 # %% 12.1 wrong: no limit | hint: The function did not return in time, because it still waits for the thread
 replace("thread.join(seconds)", "thread.join()")
 # %% 12.1 wrong: only calls the proxy | hint: The function did not return in time, because it still waits for the thread
