@@ -369,6 +369,8 @@ replace("(rest := end - time.monotonic()) > 0", "time.monotonic() < end")
 replace("min(0.5, rest)", "0.5")
 # %% 12.3 wrong: adds to the pause | hint: The pauses do not grow fast enough
 replace("pause *= 2", "pause += 0.1")
+# %% 12.3 wrong: less than twice as long | hint: The pauses do not grow fast enough
+replace("pause *= 2", "pause *= 1.9")
 # %% 12.3 wrong: begins with a shorter pause | hint: The pause after the first failed call was missing or too short
 replace("0.1", "0.05")
 # %% 12.3 wrong: five times | hint: The till worked again before the deadline, but pay() had already ended
