@@ -524,6 +524,13 @@ replace(".set()", " = True")
 replace("= name, uri, master, every", "= name, uri, rosgraph.Master(rospy.get_name()), every")
 # %% 12.4 wrong: looks without a pause | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
+# %% 12.4 wrong: doubles the pause while there is no master | hint: The pauses between the polls grew while no master was running
+replace("name, uri, master, every\n", "name, uri, master, every\n        self.pause = every\n")
+replace("self.over.wait(self.every)", "self.over.wait(self.pause)")
+replace("self.look()\n", "self.look()\n                self.pause = self.every\n")
+replace("continue", "self.pause = min(60, 2 * self.pause)")
+# %% 12.4 wrong: disables the registration in place of the thread | hint: The thread continued to poll the master after stop() had returned
+replace("self.over.set()", "self.master.registerService = lambda *values: None")
 # %% 12.4 wrong: no pause after a look that failed | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
 replace("self.look()", "self.look()\n                self.over.wait(self.every)")

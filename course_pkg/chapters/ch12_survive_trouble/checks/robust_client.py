@@ -273,9 +273,9 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
     )
     # The pauses grow slowly, so MOST failing attempts fit before the deadline.
     if pauses[2] < 8 * PAUSE:
+        before = len(till.arrivals)
         till.plan.extend([Fault(HangUp())] * MOST)
         pays_after(context, name, till, books, f"failing {MOST} times", LONG)
-
         pause = till.arrivals[before + MOST] - till.arrivals[before + MOST - 1]
         longest = 2 ** (MOST - 1) * PAUSE
         context.require(
@@ -285,6 +285,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
             actual=f"{pause:.2f} s",
             hints=SLOW_GROWTH,
         )
+
 
 def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
     till.plan.extend([Fault(Silence())] * 100)
