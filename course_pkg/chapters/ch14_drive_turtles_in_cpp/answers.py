@@ -248,6 +248,8 @@ replace('bool moving = true', 'bool moving = false')
 replace('    publisher.publish(message);\n', '    if (state.moving) publisher.publish(message);\n')
 # %% 14.4 wrong: infinity is accepted | hint: The node accepted
 replace('!std::isfinite(request.speed)', 'std::isnan(request.speed)')
+# %% 14.4 wrong: a limit of the speed | hint: The node refused an allowed speed
+replace('!std::isfinite(request.speed)', '!(std::fabs(request.speed) <= 1000)')
 # %% 14.4 wrong: forgets success | hint: The field `success` is False
 replace('  response.success = true;\n', '')
 # %% 14.4 wrong: never already | hint: This call changed nothing
