@@ -63,6 +63,28 @@ def call_within(seconds, proxy, *values):
     finally:
         pool.shutdown(wait=False)
 
+# %% 12.1 wrong: one queue for all calls | hint: The function returned the late response of an earlier call
+import queue
+
+results = queue.Queue()
+
+
+def call_within(seconds, proxy, *values):
+    def work():
+        try:
+            results.put((proxy(*values), None))
+        except rospy.ServiceException as error:
+            results.put((None, error))
+
+    threading.Thread(target=work, daemon=True).start()
+    try:
+        response, error = results.get(timeout=seconds)
+    except queue.Empty:
+        raise TimeoutError("no response")
+    if error:
+        raise error
+    return response
+
 # %% 12.1 wrong: no limit | hint: The function did not return in time, because it still waits for the thread
 replace("thread.join(seconds)", "thread.join()")
 # %% 12.1 wrong: only calls the proxy | hint: The function did not return in time, because it still waits for the thread
@@ -347,6 +369,8 @@ replace("(rest := end - time.monotonic()) > 0", "time.monotonic() < end")
 replace("min(0.5, rest)", "0.5")
 # %% 12.3 wrong: adds to the pause | hint: The pauses do not grow fast enough
 replace("pause *= 2", "pause += 0.1")
+# %% 12.3 wrong: less than twice as long | hint: The pauses do not grow fast enough
+replace("pause *= 2", "pause *= 1.9")
 # %% 12.3 wrong: begins with a shorter pause | hint: The pause after the first failed call was missing or too short
 replace("0.1", "0.05")
 # %% 12.3 wrong: five times | hint: The till worked again before the deadline, but pay() had already ended
@@ -500,6 +524,13 @@ replace(".set()", " = True")
 replace("= name, uri, master, every", "= name, uri, rosgraph.Master(rospy.get_name()), every")
 # %% 12.4 wrong: looks without a pause | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
+# %% 12.4 wrong: doubles the pause while there is no master | hint: The pauses between the polls grew while no master was running
+replace("name, uri, master, every\n", "name, uri, master, every\n        self.pause = every\n")
+replace("self.over.wait(self.every)", "self.over.wait(self.pause)")
+replace("self.look()\n", "self.look()\n                self.pause = self.every\n")
+replace("continue", "self.pause = min(60, 2 * self.pause)")
+# %% 12.4 wrong: disables the registration in place of the thread | hint: The thread continued to poll the master after stop() had returned
+replace("self.over.set()", "self.master.registerService = lambda *values: None")
 # %% 12.4 wrong: no pause after a look that failed | hint: The watchdog polls without a pause
 replace("self.over.wait(self.every)", "self.over.is_set()")
 replace("self.look()", "self.look()\n                self.over.wait(self.every)")

@@ -249,5 +249,7 @@ replace("(0.05).sleep();", "(0.05).sleep();\n  counting.lock();")
 replace("served = seen + 1;", "served = seen + 1;\n  counting.unlock();")
 # %% 13.4 wrong: no spinner | hint: No spinner executes the callbacks
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
+# %% 13.4 wrong: a zero before the number | hint: The message contains more than the number
+replace("std::to_string(count())", "\"0\" + std::to_string(count())")
 # %% 13.4 wrong: text before the number | hint: The message contains more than the number
 replace("std::to_string(count())", "\"number \" + std::to_string(count())")

@@ -248,6 +248,8 @@ replace('bool moving = true', 'bool moving = false')
 replace('    publisher.publish(message);\n', '    if (state.moving) publisher.publish(message);\n')
 # %% 14.4 wrong: infinity is accepted | hint: The node accepted
 replace('!std::isfinite(request.speed)', 'std::isnan(request.speed)')
+# %% 14.4 wrong: a limit of the speed | hint: The node refused an allowed speed
+replace('!std::isfinite(request.speed)', '!(std::fabs(request.speed) <= 1000)')
 # %% 14.4 wrong: forgets success | hint: The field `success` is False
 replace('  response.success = true;\n', '')
 # %% 14.4 wrong: never already | hint: This call changed nothing
@@ -314,6 +316,10 @@ replace("""ros::MultiThreadedSpinner spinner(4);
 replace('  ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();\n', '  ros::spin(); // changed\n')
 # %% 14.7 wrong: one thread | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('spinner(4)', 'spinner(1)')
+# %% 14.7 wrong: a second queue with one thread | hint: The program uses a spinner with only one thread
+replace('report_threads.cpp', 'report_threads.cpp\n#include <ros/callback_queue.h>')
+replace('ros::ServiceServer first = node.', 'ros::CallbackQueue queue;\n  ros::NodeHandle other;\n  other.setCallbackQueue(&queue);\n  ros::ServiceServer first = other.')
+replace('ros::MultiThreadedSpinner spinner(4);\n  spinner.spin();', 'ros::AsyncSpinner spinner(1, &queue);\n  spinner.start();\n  ros::spin();')
 # %% 14.7 wrong: three threads | hint: One call works, but three calls at the same time do not end
 replace('spinner(4)', 'spinner(3)')
 # %% 14.7 wrong: no call | hint: The handlers were changed
@@ -337,6 +343,12 @@ replace("spin();", "spin();\n  worker.join();")
 replace('  ros::CallbackQueue queue;\n  ros::NodeHandle other;\n  other.setCallbackQueue(&queue);\n', '')
 replace('other.advertise', 'node.advertise')
 replace('spinner(1, &queue)', 'spinner(4)')
+# %% 14.8 wrong: a queue that no service uses, and sixteen threads | hint: The program creates a second callback queue, but /battery does not use it
+replace('other.advertise', 'node.advertise')
+replace('  ros::spin();', '  ros::MultiThreadedSpinner many(16);\n  many.spin();')
+# %% 14.8 wrong: the second queue is for /report | hint: The program creates a second callback queue, but /battery does not use it
+replace('other.advertise', 'node.advertise')
+replace('node.advertiseService("report"', 'other.advertiseService("report"')
 # %% 14.8 wrong: no spinner for the queue | hint: The handler of /report waits for /battery, but no free thread can execute the
 replace('  spinner.start();\n', '')
 # %% 14.8 wrong: both in the new queue | hint: The handler of /report waits for /battery, but no free thread can execute the

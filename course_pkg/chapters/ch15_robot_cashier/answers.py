@@ -54,8 +54,10 @@ replace("10 * dark >= frame.width * frame.height", "sum(map(sum, rows)) < 96 * f
 replace("10 * dark >= frame.width * frame.height", "dark > 0")
 # %% 15.1 wrong: more than a tenth | hint: Exactly a tenth of the points is dark, so this frame shows a
 replace(">= frame.width", "> frame.width")
-# %% 15.1 wrong: rounded | hint: The number of dark points is one less than a tenth of all points, so this
+# %% 15.1 wrong: rounded | hint: The number of dark points is less than a tenth of all points, so this
 replace("10 * dark >= frame.width * frame.height", "round(dark / (frame.width * frame.height), 2) >= 0.1")
+# %% 15.1 wrong: a tenth is rounded down | hint: The number of dark points is less than a tenth of all points, so this
+replace("10 * dark >= frame.width * frame.height", "dark >= frame.width * frame.height // 10")
 # %% 15.1 wrong: 96 is dark | hint: Some points have the value 96, but a point is dark only if its
 replace("point < 96", "point <= 96")
 # %% 15.1 wrong: the padding counts | hint: Each row has frame.step bytes, but only the first frame.width bytes are points
@@ -72,8 +74,10 @@ replace("    if len(frame.data) != frame.height * frame.step:\n        return No
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None\n", "")
 # %% 15.1 wrong: too many bytes | hint: This frame has more bytes than height * step, so it is malformed
 replace("len(frame.data) != frame", "len(frame.data) < frame")
-# %% 15.1 wrong: any encoding | hint: This frame has three bytes for each point
+# %% 15.1 wrong: any encoding | hint: The encoding of this frame is not mono8
 replace('frame.encoding != "mono8" or ', "")
+# %% 15.1 wrong: another encoding with one byte for each point | hint: The encoding of this frame is not mono8
+replace('frame.encoding != "mono8"', 'frame.encoding not in ("mono8", "8UC1")')
 # %% 15.1 wrong: any step | hint: In this frame, a row has fewer bytes than points, which is
 replace(" or frame.step < frame.width", "")
 # %% 15.1 wrong: an empty frame | hint: A frame of 0 by 0 points
@@ -296,6 +300,8 @@ replace("not in (0, count)", "!= count")
 replace("*joints.velocity]", "*joints.velocity, *joints.effort]")
 # %% 15.5 wrong: compares the number of efforts | hint: The node ignored a joint state in which the number of
 replace("len(joints.velocity) not in (0, count)", "len(joints.velocity) not in (0, count) or len(joints.effort) not in (0, count)")
+# %% 15.5 wrong: tests the sum | hint: The node ignored a joint state with two positions of 1e308
+replace("all(math.isfinite(value) for value in [*joints.position, *joints.velocity])", "math.isfinite(sum([*joints.position, *joints.velocity]))")
 # %% 15.5 wrong: leaves out a joint state without joints | hint: A joint state with 0 names and 0 positions is valid
 replace("if len(joints.position) != count", "if not count or len(joints.position) != count")
 # %% 15.5 wrong: published twice | hint: Some mirror images arrived more than once
@@ -480,6 +486,20 @@ replace('rospy.get_param("~wait", 2.0)', "2.0")
 replace('"~wait", 2.0', '"~wait", 5.0')
 # %% 15.4 wrong: calls twice | hint: The program called the service more than once
 replace('AwaitCustomer)(patience)', 'AwaitCustomer)(patience)\n        response = rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)')
+# %% 15.4 wrong: calls again after a refusal | hint: The service refused the call, and the program called the service again
+replace("\n\ndef main():", """
+
+def ask(patience):
+    detect = rospy.ServiceProxy("detect_customer", AwaitCustomer)
+    try:
+        return detect(patience)
+    except rospy.ServiceException:
+        rospy.sleep(0.5)
+        return detect(patience)
+
+
+def main():""")
+replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', "ask(patience)")
 # %% 15.4 wrong: does not call | hint: The program did not call the service
 replace('rospy.ServiceProxy("detect_customer", AwaitCustomer)(patience)', 'rospy.ServiceProxy("detect_customer", AwaitCustomer)')
 replace('response.found', 'patience')
@@ -647,6 +667,8 @@ replace("with turn:\n        prices[request.item] = request.cents\n        retur
     turn.release()
     return total""")
 replace("\n    with turn:\n        return sum(prices.values()), len(prices)", "\n    return sum(prices.values()), len(prices)")
+# %% 15.8 wrong: a persistent connection to the printer | hint: The printer was started again, but the till still refuses
+replace('("print_line", PrintLine)', '("print_line", PrintLine, persistent=True)')
 # %% 15.8 wrong: gives up early | hint: The till refused an item although the printer works
 replace('        print_line(f"{request.item} {request.cents}")\n', '        raise rospy.ServiceException("print_line is unavailable")\n')
 
@@ -690,6 +712,10 @@ replace('True, "already empty"', 'False, "already empty"')
 replace("        prices.clear()\n", '        prices.clear()\n        print_line(f"sum {paid}")\n')
 # %% 15.9 wrong: another message | hint: The message is wrong
 replace('f"paid {paid} cents"', 'f"{paid} cents paid"')
+# %% 15.9 wrong: adds up the printed lines | hint: The total contains the old price and the new price of an item
+replace("prices = {}  # cents by item", "prices = {}  # cents by item\nprinted = []")
+replace("        prices[request.item] =", "        printed.append(request.cents)\n        prices[request.item] =")
+replace("paid = sum(prices.values())", "paid = sum(printed)\n        printed.clear()")
 # %% 15.9 wrong: no message for an empty till | hint: The till has no items, so the message has to be "already empty"
 replace('        if not prices:\n            return True, "already empty"\n', "")
 # %% 15.9 wrong: looks at the sum | hint: The till has an item that costs 0 cents, so it is not empty

@@ -69,6 +69,10 @@ replace("for fetched in range(goal.things)", "for _ in range(goal.things)")
 replace("set_preempted(FetchResult(fetched=fetched))", "set_preempted(FetchResult(fetched=self.fetched))")
 replace("            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "            self.fetched += 1\n            self.server.publish_feedback(FetchFeedback(fetched=self.fetched))")
 replace("fetched=goal.things", "fetched=self.fetched")
+# %% 16.1 wrong: a count that only a complete goal sets to 0 | hint: The result also counts the things of the previous goal
+based_on("a count for all goals")
+replace("for _ in range(goal.things)", "while self.fetched < goal.things")
+replace("set_succeeded(FetchResult(fetched=self.fetched))", "set_succeeded(FetchResult(fetched=self.fetched))\n        self.fetched = 0")
 # %% 16.1 wrong: returns the result, as a service does | hint: The function returned, but the goal has no end
 replace("self.server.set_preempted(FetchResult(fetched=fetched))\n                return", "return FetchResult(fetched=fetched)")
 replace("self.server.set_succeeded(FetchResult(fetched=goal.things))", "return FetchResult(fetched=goal.things)")
@@ -189,6 +193,8 @@ replace(".get_result().fetched", ".get_result()")
 replace("things=things, seconds", "seconds")
 # %% 16.2 wrong: None after the cancellation | hint: The function returned None
 replace("        client.wait_for_result(rospy.Duration(2))\n", "        return None\n")
+# %% 16.2 wrong: None for an aborted goal | hint: The robot aborted the goal, but the function did not return
+replace("    return client.get_result()", "    if client.get_state() == actionlib.GoalStatus.ABORTED:\n        return None\n    return client.get_result()")
 # %% 16.2 wrong: sends the goal without a robot | hint: No server started in time, so wait_for_server returned False
 replace("if not client.wait_for_server(rospy.Duration(2)):\n        return None", "client.wait_for_server(rospy.Duration(2))")
 

@@ -20,6 +20,7 @@ CHANGE_SPEED = "course_pkg/ChangeSpeed"
 SERVICES = ("toggle_forward", "change_rate", "change_speed", "start_stop")
 RATE = 20.0  # The check sets this rate in messages per second, which makes the check faster.
 STANDING = (0.0, 0.0)
+HUGE = 1e12  # This speed in m/s is allowed, because every finite number is allowed.
 ANY_SPEED = (
     "The node refused an allowed speed. Accept every finite number: a negative speed moves the "
     "turtle backwards."
@@ -208,7 +209,8 @@ def _starts_and_stops(
         )
         _says(context, switch, moving=False, already=True)
         speed = context.random.number(2.0, 9.0)
-        before = change_speed(speed=speed).before
+        before = change_speed(speed=HUGE).before  # The turtle is stopped, so this speed moves nothing.
+        change_speed(speed=speed)
         _says(context, switch, moving=True, already=False)
         stream.becomes(
             TURNING if turning else (speed, 0.0),

@@ -37,6 +37,9 @@ KEEPING = 2.0  # The check waits at most this many s for a payment that ends in 
 MOST = 5  # If the pauses grow slowly, at most this many attempts fail.
 LONG = 12.0  # In the case with MOST failing attempts, the deadline comes after this many s.
 
+SLOW_GROWTH = (
+    "The pauses do not grow fast enough. After each failed call, make the next pause at least twice as long."
+)
 SLOW = "slow"
 FAULTS = {
     "stumbling": [Fault(Stumble("list index out of range"))],
@@ -266,15 +269,22 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         holds=pauses[2] > 3.5 * PAUSE,
         expected=f"{4 * PAUSE:g} s before the fourth try",
         actual=f"{pauses[2]:.2f} s",
-        hints=(
-            "The pauses do not grow fast enough. After each failed call, make the next pause at least "
-            "twice as long."
-        ),
+        hints=SLOW_GROWTH,
     )
     # The pauses grow slowly, so MOST failing attempts fit before the deadline.
     if pauses[2] < 8 * PAUSE:
+        before = len(till.arrivals)
         till.plan.extend([Fault(HangUp())] * MOST)
         pays_after(context, name, till, books, f"failing {MOST} times", LONG)
+        pause = till.arrivals[before + MOST] - till.arrivals[before + MOST - 1]
+        longest = 2 ** (MOST - 1) * PAUSE
+        context.require(
+            "each pause is longer than the previous pause",
+            holds=pause > 0.95 * longest,
+            expected=f"{longest:g} s before the try number {MOST + 1}",
+            actual=f"{pause:.2f} s",
+            hints=SLOW_GROWTH,
+        )
 
 
 def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:

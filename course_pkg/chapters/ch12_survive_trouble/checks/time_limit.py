@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+
 from course_pkg.checking import ANYTHING, CheckContext, HangUp, Its, Late, Refuse, Silence, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.peers.scripted_server import Act
@@ -11,6 +13,7 @@ from course_pkg.checking.result import Result
 ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
 LONG = 4.0  # This time limit in s is longer than every call.
+HELD = 10.0  # The server holds a response back for at most this many s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
 SLACK = 1.2  # On a busy machine, a call may take this many s longer.
 KERNEL_CODE = """
@@ -35,6 +38,7 @@ class CheckedCall:
 
 checked_call = CheckedCall()
 """
+ABANDONED = (1, 2)  # These numbers are in the requests of the calls that end with TimeoutError.
 BUSY = 0.2  # A loop without a sleep uses more than this CPU time (s) within LONG s.
 ERRORS = [
     (
@@ -58,11 +62,26 @@ ERRORS = [
 ]
 
 
+class Held:
+    """Return the sum after release() was called."""
+
+    def __init__(self) -> None:
+        self._released = threading.Event()
+
+    def release(self) -> None:
+        """Let the response go."""
+        self._released.set()
+
+    def wait(self) -> None:
+        """Wait until release() was called, or for HELD s."""
+        self._released.wait(HELD)
+
+
 class Adder:
     """Returns the sum of two numbers; if `act` is not None, the server executes `act` instead."""
 
     def __init__(self) -> None:
-        self.act: Act | None = None
+        self.act: Act | Held | None = None
         self.requests = 0
 
     def __call__(self, request: Message) -> Act:
@@ -71,6 +90,9 @@ class Adder:
         total = {"sum": request.a + request.b}
         if isinstance(self.act, Late):
             return Late(self.act.delay, total)
+        if isinstance(self.act, Held):
+            self.act.wait()
+            return total
         return total if self.act is None else self.act
 
 
@@ -96,9 +118,17 @@ def a_call_with_a_limit(context: CheckContext) -> None:
     for failure in context.random.shuffled(failures):
         adder.act = failure
         _passes_on(context, name, failure)
-    adder.act = Silence()
-    _gives_up(context, name, LIMIT)
+    _returns_no_late_response(context, name, adder)
     _in_a_random_order(context, name, adder)
+
+
+def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) -> None:
+    """Send the response of a call after its TimeoutError, and before the response of the next call."""
+    adder.act = held = Held()
+    _gives_up(context, name, LIMIT)
+    held.release()
+    adder.act = Late(WORK, {})
+    _responds(context, name, adder)
 
 
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
@@ -129,7 +159,7 @@ def _call(context: CheckContext, name: str, seconds: float, a: int, b: int) -> R
 
 
 def _responds(context: CheckContext, name: str, adder: Adder) -> None:
-    a, b = context.random.integers(2, 1, 1000)
+    a, b = context.random.integers(2, 3, 1000)
     before = adder.requests
     result = _call(context, name, LONG, a, b)
     label = "if a response comes in time, the function returns it"
@@ -141,6 +171,13 @@ def _responds(context: CheckContext, name: str, adder: Adder) -> None:
         actual=result.returned(),
         hints=[
             (None, NO_RETURN),
+            (
+                [sum(ABANDONED)],
+                (
+                    "The function returned the late response of an earlier call, which had ended with "
+                    "TimeoutError. In each call of the function, create a new list or queue for the result."
+                ),
+            ),
             (ANYTHING, "The response belongs to a different request. Pass *values to the proxy."),
         ],
     )
@@ -202,7 +239,7 @@ def _passes_on(context: CheckContext, name: str, act: Act) -> None:
 
 
 def _gives_up(context: CheckContext, name: str, limit: float) -> None:
-    result = _call(context, name, limit, 1, 2)
+    result = _call(context, name, limit, *ABANDONED)
     result.raised(
         "TimeoutError when the time is over",
         "TimeoutError",

@@ -22,6 +22,7 @@ SOON = 5.0  # SOON is the time limit in s for a few polls on a busy machine.
 AWAY = 3.0
 LEFT_ALONE = 0.8  # A wrong watchdog would register the name again within this many s.
 LATE = 0.5  # After stop(), the check waits this many s for a wrong registration.
+LAST = 2  # After stop() has returned, a watchdog may still make this many polls.
 READY = 15.0  # READY is the time limit in s for the start of a master.
 
 ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread that you start in __init__."
@@ -124,6 +125,7 @@ def _registers_again(
     second.stop()
     looks = watched.looks
     polled = wait_until(lambda: watched.looks > looks + 2, AWAY)
+    often = not polled or bool(wait_until(lambda: watched.looks > looks + 5, AWAY))
     master = second.start()
     # A watchdog may detect a master in another way, for example with rosgraph.is_master_online.
     context.require(
@@ -133,6 +135,16 @@ def _registers_again(
         actual="no further poll",
         hints=DIED if polls else ONCE,
     )
+    if not often:
+        context.fail(
+            "the watchdog polls the master at intervals of `every` seconds",
+            expected=f"a poll every {EVERY:g} s, even without a master",
+            actual="longer and longer pauses",
+            hint=(
+                "The pauses between the polls grew while no master was running. Wait `every` seconds after "
+                "each poll, even if the poll failed several times."
+            ),
+        )
     restarted = "the service is registered with a master that was restarted"
     _is_registered(context, watched, master, name, uri, restarted, DIED)
     _only_polls(context, watched)
@@ -270,6 +282,13 @@ NOT_STOPPED: Hints = [
         ),
     ),
     (
+        "further polls",
+        (
+            "The thread continued to poll the master after stop() had returned. In stop(), set a flag, and "
+            "end the loop of the thread when the flag is set."
+        ),
+    ),
+    (
         "stop() hangs",
         (
             "stop() does not return. Check whether stop() waits for a lock that is always held, or for "
@@ -289,7 +308,7 @@ def _stops(context: CheckContext, watched: CheckedMaster) -> None:
 
 
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
-    """Call stop() during a poll; return "quiet" if the watchdog registers nothing in the next LATE s.
+    """Call stop() during a poll; return "quiet" if the watchdog then registers nothing and polls no more.
 
     Otherwise, return what went wrong.
     """
@@ -302,7 +321,9 @@ def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
         return "stop() hangs"
     result.returned()
     late = wait_until(lambda: any(when > stopped for when in watched.registered), LATE)
-    return "after stop" if late else "quiet"
+    if late:
+        return "after stop"
+    return "further polls" if watched.polls_after(stopped) > LAST else "quiet"
 
 
 def _answers(master: MasterClient) -> bool:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import Counter
 
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
@@ -64,6 +65,8 @@ class CheckedMaster:
         # `registered` contains the times of the registrations (s, time.monotonic()).
         self.registered: list[float] = []
         self.looks = 0  # `looks` is the number of calls to the master.
+        # `polls` contains the method and the time of each call that is not a registration.
+        self.polls: list[tuple[str, float]] = []
         self.gap = 60.0  # `gap` is the shortest time in s between two consecutive calls of the same method.
         self.inside = threading.Event()  # This event is set while a registration waits.
         self.stopped_at: float | None = None  # `stopped_at` is the time when stop() returned.
@@ -102,6 +105,10 @@ class CheckedMaster:
         self.stopped_at = time.monotonic()
         self._release()
 
+    def polls_after(self, when: float) -> int:
+        """Return the number of polls that began after `when` (s, time.monotonic())."""
+        return max(Counter(method for method, at in self.polls.copy() if at > when).values(), default=0)
+
     def hold(self) -> None:
         """From now on, report that the master knows no services, and let the next registration wait."""
         self._holds = True
@@ -120,3 +127,4 @@ class CheckedMaster:
         if method != "registerService":
             self.gap = min(self.gap, now - self._times.get(method, now - self.gap))
             self._times[method] = now
+            self.polls.append((method, now))

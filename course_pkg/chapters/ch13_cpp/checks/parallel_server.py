@@ -174,8 +174,8 @@ def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str
 
 
 def _number(message: str) -> int:
-    """Return the number in a response, or -1 without a number."""
-    return int(message) if message.isdecimal() else -1
+    """Return the number in a response, or -1 if the message contains other characters, such as "01"."""
+    return int(message) if re.fullmatch(r"0|[1-9]\d*", message) else -1
 
 
 def _why_lost(code: str) -> str:

@@ -75,7 +75,7 @@ def more_threads(context: CheckContext) -> None:
     _uses(
         context,
         THREADS,
-        r"MultiThreadedSpinner|AsyncSpinner",
+        r"(MultiThreaded|Async)Spinner\b(?!\s+\w+\s*[({]\s*1\s*,)",
         "the program has a spinner with several threads",
         (
             "The program uses a spinner with only one thread. Use a MultiThreadedSpinner or an "
@@ -116,6 +116,16 @@ def own_queue(context: CheckContext) -> None:
             "setCallbackQueue of a second NodeHandle."
         ),
     )
+    context.require(
+        "the program creates another callback queue",
+        holds=not _leaves_battery_in_the_global_queue(_code(context, QUEUE)),
+        expected="a queue for /battery",
+        actual="/battery in the global queue",
+        hints=(
+            "The program creates a second callback queue, but /battery does not use it. Create the service "
+            "/battery with the NodeHandle that has the second queue."
+        ),
+    )
     _reports(
         context,
         QUEUE,
@@ -127,8 +137,24 @@ def own_queue(context: CheckContext) -> None:
     )
 
 
+def _code(context: CheckContext, program: TurtleProgram) -> str:
+    """Return the student's program without comments."""
+    return COMMENT.sub("", context.source(f"file:{program.path}"))
+
+
+def _leaves_battery_in_the_global_queue(code: str) -> bool:
+    """Return whether a NodeHandle creates /battery and certainly never gets a callback queue.
+
+    The answer is False if the handle is initialized with a value, copied or passed to a function.
+    """
+    created = re.search(r'(\w+)\s*\.\s*advertiseService\s*\(\s*"/?battery"', code)
+    if created is None or not re.search(rf"NodeHandle\s+{created[1]}\s*;", code):
+        return False
+    return not re.search(rf"\b{created[1]}\s*\.\s*setCallbackQueue|[(,=&]\s*{created[1]}\s*[,);]|\[&\]", code)
+
+
 def _uses(context: CheckContext, program: TurtleProgram, pattern: str, assertion: str, hint: str) -> None:
-    code = COMMENT.sub("", context.source(f"file:{program.path}"))
+    code = _code(context, program)
     context.require(
         assertion,
         holds=bool(re.search(pattern, code)),

@@ -39,6 +39,10 @@ DEFAULT = (
     "rospy.get_param is this default value."
 )
 ONCE = "The program called the service more than once. Make only one call, and print its result."
+ONCE_REFUSED = (
+    "The service refused the call, and the program called the service again. Make only one call, and "
+    "end the program if the service refuses this call."
+)
 NEVER = (
     "The program did not call the service. After rospy.init_node, call detect_customer; write no "
     "slash at the beginning of this name."
@@ -118,7 +122,7 @@ def the_client(context: CheckContext) -> None:
         _calls(context, early.end(), detector)
         _finds_nobody(context, default.end(), usual)
         context.fulfilled(ASKED)
-        _is_refused(context, refused.end())
+        _is_refused(context, refused.end(), usual)
         alone.is_on_the_graph()
         _gives_up(context, alone.end(LIMIT + 2.0))
 
@@ -188,10 +192,12 @@ class _Detector:
     def __init__(self, wait: float) -> None:
         self.wait = wait
         self.patiences: list[float] = []
+        self.refused = 0  # This is the number of refused calls.
 
     def answer(self, request: AwaitCustomerRequest) -> Act:
         patience = round(request.patience, 3)
         if patience == REFUSED:
+            self.refused += 1
             return Refuse(REASON)
         self.patiences.append(patience)
         return {"found": patience == self.wait}
@@ -264,7 +270,14 @@ def _prints(context: CheckContext, run: Run, word: str) -> None:
     context.expect("after a response, the exit status is 0", expected=0, actual=run.status, hints=STATUS_0)
 
 
-def _is_refused(context: CheckContext, run: Run) -> None:
+def _is_refused(context: CheckContext, run: Run, detector: _Detector) -> None:
+    context.require(
+        "the program calls the service once and ends",
+        holds=detector.refused <= 1,
+        expected="one call, even if the service refuses it",
+        actual=f"{detector.refused} calls; {run.last}",
+        hints=ONCE_REFUSED,
+    )
     context.require(
         "after a refused call, the program prints the reason, and its exit status is 1",
         holds=run.status == 1 and REASON in run.out and "Traceback" not in run.out,

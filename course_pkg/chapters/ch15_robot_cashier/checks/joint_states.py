@@ -13,6 +13,7 @@ FIRST = 1000  # The first joint state has this stamp in s; each following stamp 
 COUNT = 24
 EFFORT = 7  # The joint state with this index has an infinite effort.
 FEW_EFFORTS = 9  # The joint state with this index has fewer efforts than names.
+LARGE = 11  # The sum of the positions of the joint state with this index is too large for a float.
 EMPTY = 21  # The joint state with this index has no joints.
 
 
@@ -80,6 +81,7 @@ def joint_states(context: CheckContext) -> list[JointState]:
     # The joint states that are changed below are still valid.
     states[EFFORT].effort[0] = math.inf
     states[FEW_EFFORTS].effort = states[FEW_EFFORTS].effort[:2]
+    states[LARGE].position[:2] = [1e308, 1e308]
     states[EMPTY].name, states[EMPTY].position, states[EMPTY].velocity, states[EMPTY].effort = [], [], [], []
     return states
 

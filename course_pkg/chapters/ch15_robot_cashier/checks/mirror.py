@@ -8,6 +8,7 @@ from course_pkg.chapters.ch15_robot_cashier.checks.joint_states import (
     FEW_EFFORTS,
     FIRST,
     JOINTS,
+    LARGE,
     JointState,
     joint_states,
 )
@@ -220,6 +221,11 @@ def _wrong_selection(stamps: list[int]) -> Hints:
             "The node ignored a joint state in which the number of efforts is different from the "
             "number of names. Publish the mirror image of this joint state, because any number of "
             "efforts is valid.",
+        ),
+        (
+            lambda actual: set(stamps) - set(actual) == {FIRST + LARGE},
+            "The node ignored a joint state with two positions of 1e308, which are finite numbers. Check "
+            "each number separately, because the sum of finite numbers can be infinite.",
         ),
         (
             lambda actual: set(stamps) - set(actual) == {FIRST + EMPTY},

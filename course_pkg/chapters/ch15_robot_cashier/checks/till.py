@@ -197,6 +197,10 @@ NO_PRINTER = (
     "The service print_line does not exist, and the till did not refuse the call within 5 s. Do "
     "not wait for this service without a time limit."
 )
+RESTARTED = (
+    "The printer was started again, but the till still refuses an item. Create the proxy without "
+    "persistent=True, because a closed connection of a persistent proxy is never opened again."
+)
 ILLEGAL = (
     "The till printed a line for a refused item. Check for negative cents and an empty name before you print."
 )
@@ -260,6 +264,7 @@ def the_printed_till(context: CheckContext) -> None:
         context.fulfilled(PRINTED)
         _adds_up_in_order(context, till, {**prices, other: more})
         _refuses_without_printer(context, till, third, rest)
+        _prints_with_a_new_printer(context, till, third, rest)
 
 
 def _refuses_without_print(
@@ -339,6 +344,20 @@ def _refuses_without_printer(context: CheckContext, till: Till, item: str, cents
     )
 
 
+def _prints_with_a_new_printer(context: CheckContext, till: Till, item: str, cents: int) -> None:
+    """Start the printer again, and assert that the till accepts the item that it has just refused."""
+    context.serve(f"{till.space}/{PRINT}", PRINT_LINE, till.printer.answer)
+    before = len(till.printer.lines)
+    till.service(context, SET, TILL_SET, [(ANYTHING, RESTARTED)])(item=item, cents=cents)
+    context.require(
+        "the till prints a line",
+        holds=len(till.printer.lines) == before + 1,
+        expected="a line on the new printer",
+        actual="none",
+        hints=NOT_PRINTED,
+    )
+
+
 # -- 15.9
 
 SUCCEEDS = "The field `success` is False, but a reset always succeeds. Set this field to True."
@@ -384,9 +403,11 @@ def the_reset(context: CheckContext) -> None:
         reset = till.service(context, RESET, TRIGGER, [(ANYTHING, SUCCEEDS)])
         _resets(context, reset, "already empty", EMPTY)
         items = _items(context, 2)
-        for item, cents in items:
+        paid = sum(cents for _, cents in items)
+        old = items[1][1]  # The first item is set with this price first, and later with its own price.
+        for item, cents in ((items[0][0], old), *items):
             till.set(item=item, cents=cents)
-        _resets(context, reset, f"paid {sum(cents for _, cents in items)} cents", PAID)
+        _resets(context, reset, f"paid {paid} cents", [(f"paid {paid + old} cents", TWICE), (ANYTHING, PAID)])
         _totals(context, total, {}, KEPT, KEPT)
         _resets(context, reset, "already empty", EMPTY)
         till.set(item=items[0][0], cents=0)
@@ -398,7 +419,7 @@ def the_reset(context: CheckContext) -> None:
         _resets(context, reset, f"paid {items[0][1]} cents", PAID)
 
 
-def _resets(context: CheckContext, reset: Service, message: str, hint: str) -> None:
+def _resets(context: CheckContext, reset: Service, message: str, hint: Hints) -> None:
     response = reset()
     context.expect("a reset succeeds", expected=True, actual=response.success, hints=SUCCEEDS)
     context.expect("the message of a reset is right", expected=message, actual=response.message, hints=hint)

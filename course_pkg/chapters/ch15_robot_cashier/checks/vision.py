@@ -33,9 +33,8 @@ NOISE = (
 )
 TENTH = "Exactly a tenth of the points is dark, so this frame shows a customer. Compare with >=, not with >."
 ROUNDED = (
-    "The number of dark points is one less than a tenth of all points, so this frame shows no "
-    "customer. Compare "
-    "without rounding: 10 * dark >= width * height."
+    "The number of dark points is less than a tenth of all points, so this frame shows no "
+    "customer. Compare without rounding: 10 * dark >= width * height."
 )
 LIMIT = (
     "Some points have the value 96, but a point is dark only if its value is below 96. Compare with <, "
@@ -44,6 +43,10 @@ LIMIT = (
 PADDING = (
     "Each row has frame.step bytes, but only the first frame.width bytes are points. The row with "
     "the index r begins at byte r * frame.step."
+)
+ENCODING = (
+    "The encoding of this frame is not mono8, so the frame is malformed. Publish nothing if "
+    'frame.encoding is not "mono8".'
 )
 EMPTY = "No point is dark, so this frame shows no customer. Publish False."
 NOTHING = (
@@ -141,6 +144,8 @@ def image_of(context: CheckContext, width: int, height: int, dark: int, style: S
 
 def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]:
     tenth = width * height // 10
+    odd_width, odd_height = width + 1, height + 1
+    odd_dark = odd_width * odd_height // 10  # This number is less than a tenth of the points, by 0.1.
     return [
         Frame(assertion, image_of(context, width, height, dark, style), customer, hint)
         for assertion, dark, customer, style, hint in (
@@ -158,6 +163,13 @@ def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]
                 Style(padding=9, filling=255),
                 PADDING,
             ),
+        )
+    ] + [
+        Frame(
+            "one dark point less is not enough",
+            image_of(context, odd_width, odd_height, odd_dark),
+            customer=False,
+            hint=ROUNDED,
         )
     ]
 
@@ -184,13 +196,14 @@ def _shows(context: CheckContext, camera: Camera, seen: Subscription, frame: Fra
 
 def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tuple[str, Image, str]]:
     dark = width * height
-    frames = [image_of(context, width, height, dark) for _ in range(6)]
+    frames = [image_of(context, width, height, dark) for _ in range(7)]
     frames[0].data = frames[0].data[:-3]
     frames[1].data += b"\0"
     frames[2].encoding, frames[2].step, frames[2].data = "rgb8", 3 * width, frames[2].data * 3
     frames[3].step, frames[3].data = width - 1, frames[3].data[height:]
     frames[4].width, frames[4].height, frames[4].step, frames[4].data = 0, 0, 0, b""
     frames[5].width, frames[5].step, frames[5].data = 0, 4, bytes(4 * height)
+    frames[6].encoding = "8UC1"
     return [
         (
             "too few bytes",
@@ -208,14 +221,8 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
                 "with <."
             ),
         ),
-        (
-            "another encoding",
-            frames[2],
-            (
-                "This frame has three bytes for each point, so it has the wrong encoding. Check "
-                "frame.encoding."
-            ),
-        ),
+        ("another encoding", frames[2], ENCODING),
+        ("another encoding", frames[6], ENCODING),
         (
             "a step below the width",
             frames[3],

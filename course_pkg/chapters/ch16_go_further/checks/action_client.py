@@ -41,6 +41,10 @@ NOBODY = (
     "No server started in time, so wait_for_server returned False. In this case, return None and do "
     "not send a goal."
 )
+ABORTED = (
+    "The robot aborted the goal, but the function did not return the number in the result. Return this "
+    "number for every final state."
+)
 EARLY = (
     "There is no result before the goal has ended. After cancel_goal(), wait for the result again, "
     "because the goal ends only after the robot has fetched its current thing."
@@ -50,14 +54,15 @@ EARLY = (
 class Robot:
     """An action server that records its goals and cancellations."""
 
-    def __init__(self, fetched: int, seconds: float, *, stubborn: bool = False) -> None:
+    def __init__(self, fetched: int, seconds: float, *, stubborn: bool = False, aborts: bool = False) -> None:
         self.goals: list[FetchGoal] = []
         self.cancelled = threading.Event()
         self.cancelled_all = False
         self.took = 0.0  # `took` is the time in s from the goal to its cancellation.
         # This event ends a robot that ignores the cancellation.
         self.over = threading.Event()
-        self._fetched, self._seconds, self._stubborn = fetched, seconds, stubborn
+        self._fetched, self._seconds = fetched, seconds
+        self._stubborn, self._aborts = stubborn, aborts
 
     def receive_cancel(self, cancelled: GoalID) -> None:
         """Record a message on the topic `cancel`; an empty id means all goals."""
@@ -79,6 +84,8 @@ class Robot:
             self.cancelled.set()
             wait.wait(0.3)  # The robot still fetches the current thing.
             server.set_preempted(FetchResult(fetched=self._fetched))
+        elif self._aborts:
+            server.set_aborted(FetchResult(fetched=self._fetched))
         else:
             server.set_succeeded(FetchResult(fetched=self._fetched))
 
@@ -265,9 +272,9 @@ def _goes_on(context: CheckContext) -> None:
 
 
 def _comes(context: CheckContext) -> None:
-    """Start a robot while the client is waiting for the action server."""
+    """Start a robot while the client is waiting for the action server; this robot aborts the goal."""
     name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
-    robot = Robot(fetched, 0.1)
+    robot = Robot(fetched, 0.1, aborts=True)
     with ExitStack() as ending:
 
         def serve() -> None:
@@ -279,6 +286,13 @@ def _comes(context: CheckContext) -> None:
             result = _fetch(context, robot, name, 3, ENOUGH)
         finally:
             coming.join()
+        if robot.goals:
+            context.expect(
+                "if a robot finishes in time, its result is returned",
+                expected=fetched,
+                actual=result.returned(),
+                hints=ABORTED,
+            )
         if result.returned() != fetched:
             too_short = (
                 f"The server started {LATE:g} s after the call, but the goal did not arrive. Use "

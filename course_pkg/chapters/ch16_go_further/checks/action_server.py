@@ -42,6 +42,10 @@ NO_STATE = (
     "The function returned, but the goal has no end state, because the server ignores the return "
     "value. Call set_succeeded, set_preempted or set_aborted of the server."
 )
+COUNTED_ON = (
+    "The result also counts the things of the previous goal. At the beginning of each goal, set the "
+    "number of fetched things to 0."
+)
 EXECUTED = "Publish feedback after each thing, and the result at the end."
 
 
@@ -221,10 +225,7 @@ def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.Simple
         "the result is the number of fetched things",
         expected=2,
         actual=client.get_result().fetched,
-        hints=(
-            "The result also counts the things of the previous goal. At the beginning of each "
-            "goal, set the number of fetched things to 0."
-        ),
+        hints=COUNTED_ON,
     )
 
 
@@ -292,6 +293,12 @@ def _fetches_nothing(context: CheckContext, client: actionlib.SimpleActionClient
         client,
         "a goal with 0 things ends immediately, even after a cancelled goal",
         GoalStatus.SUCCEEDED,
+    )
+    context.expect(
+        "the result is the number of fetched things",
+        expected=0,
+        actual=client.get_result().fetched,
+        hints=COUNTED_ON,
     )
 
 
