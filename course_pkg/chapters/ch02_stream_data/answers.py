@@ -125,6 +125,14 @@ replace("\n    def show(message … JointState, show)", "    return rospy.Subscr
 replace("[-speed for speed in message.velocity]", "message.velocity")
 # %% 02.2 wrong: the velocity is left out | hint: The list in the field
 replace("\n        image.velocity = [-speed for speed in message.velocity]", "")
+# %% 02.2 wrong: goes through both lists at once | hint: that has no velocities. Change the signs
+replace("[-angle for angle in message.position]\n        image.velocity = [-speed for speed in message.velocity]", """[]
+        image.velocity = []
+        for angle, speed in zip(message.position, message.velocity):
+            image.position.append(-angle)
+            image.velocity.append(-speed)""")
+# %% 02.2 wrong: expects a velocity for each name | hint: that has no velocities. Change the signs
+replace("[-speed for speed in message.velocity]", "[-message.velocity[number] for number in range(len(message.name))]")
 # %% 02.2 wrong: reverses the lists | hint: Your callback reversed the order
 replace("[-angle for angle in message.position]\n        image.velocity = [-speed for speed in message.velocity]", """message.position[::-1]
         image.velocity = message.velocity[::-1]""")

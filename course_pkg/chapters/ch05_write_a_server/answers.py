@@ -69,6 +69,10 @@ replace("\n    area = request.width * request.length\n    return geometryRespons
     return round(request.width * request.length), round(request.width * request.length * request.height)""")
 # %% 05.1 wrong: rounds the volume | hint: Your volume is rounded
 replace("volume=area * request.height", "volume=round(area * request.height)")
+# %% 05.1 wrong: both rounded to two digits | hint: The area is rounded
+replace("area=area, volume=area * request.height", "area=round(area, 2), volume=round(area * request.height, 2)")
+# %% 05.1 wrong: a volume with two digits | hint: Your volume is rounded
+replace("volume=area * request.height", "volume=round(area * request.height, 2)")
 # %% 05.1 wrong: an area in square centimetres | hint: This area is in square centimetres
 replace("area=area", "area=area * 10000")
 # %% 05.1 wrong: a volume in cubic centimetres | hint: Your volume is in cubic centimetres
@@ -245,6 +249,19 @@ replace('raise rospy.ServiceException(f"{side} is {value}, and a side cannot be 
 replace("value < 0", "int(value) < 0")
 # %% 05.3 wrong: names the side, and not its value | hint: The message does not contain the value
 replace("{value}, and a side cannot be negative", "negative")
+# %% 05.3 wrong: names a whole number | hint: The message contains a rounded value.
+replace("{value}, and", "{int(value)}, and")
+# %% 05.3 wrong: the program of the course serves, and the handler is empty | hint: Another program provides the service with the name
+import subprocess
+
+
+def handle_checked_geometry(request):
+    """Return area and volume, or refuse with rospy.ServiceException."""
+
+
+checked_service = subprocess.Popen(["rosrun", "course_pkg", "server", "getGeometry:=/getGeometryChecked"])
+rospy.wait_for_service("/getGeometryChecked", timeout=15)
+
 # %% 05.3 wrong: sends the whole request back | hint: The message contains the names of more than one
 replace('"{side} is {value}, and a side cannot be negative"', '"a negative side in {request}"')
 # %% 05.3 wrong: only the values of all sides | hint: The message does not contain the name of a side

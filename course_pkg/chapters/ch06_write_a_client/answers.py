@@ -494,6 +494,10 @@ replace("    print(\"fits\" if volume <= limit", """    if len(limit) != 1:
         return 2
     print("fits" if volume <= limit[0]""")
 replace("return 0 if volume <= limit else", "return 0 if volume <= limit[0] else")
+# %% 06.6 wrong: converts LIMIT after the call | hint: The arguments were wrong, but the
+replace("[float(text) for text in rospy.myargv(argv)[1:]]", "rospy.myargv(argv)[1:]\n        numbers[:3] = [float(text) for text in numbers[:3]]")
+replace("geometry)(*sides).volume", "geometry)(*sides).volume\n        limit = float(limit)")
+replace("        return 3\n", "        return 3\n    except ValueError:\n        print(\"usage: fits.py LENGTH WIDTH HEIGHT LIMIT\")\n        return 2\n")
 # %% 06.6 wrong: prints nothing | hint: The exit status is right, but
 replace("        print(error)\n", "")
 # %% 06.6 wrong: calls without waiting | hint: The service started while the program

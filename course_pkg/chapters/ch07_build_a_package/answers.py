@@ -269,6 +269,10 @@ replace("except ValueError:\n        usage()", "except TypeError:\n        usage
 replace("map(float, arguments)\n", "map(float, arguments[:3])\n")
 # %% 07.5 wrong: no usage | hint: Print a line that begins with
 replace("print(USAGE, file=sys.stderr)", "pass")
+# %% 07.5 wrong: waits for the server before it reads the arguments | hint: The client waited for the service before
+replace("    try:\n        length, width, height = map(float, arguments)\n    except ValueError:\n        print(USAGE, file=sys.stderr)\n        return 2\n", "")
+replace('"/getGeometry", timeout=5)', '"/getGeometry", timeout=5)\n        length, width, height = map(float, arguments)')
+replace("        return 1\n", "        return 1\n    except ValueError:\n        print(USAGE, file=sys.stderr)\n        return 2\n")
 # %% 07.5 wrong: another text before usage | hint: Print a line that begins with
 replace('"usage:', '"Wrong arguments, usage:')
 # %% 07.5 wrong: calls with zeros for wrong arguments | hint: The client sent a request
@@ -386,6 +390,11 @@ replace("# my_geometry\n", "my_geometry\n")
 # %% 07.7 wrong: no code block | hint: Write a line ``` above
 replace("```bash\n", "", times=2)
 replace("```\n", "", times=2)
+# %% 07.7 wrong: only comments | hint: In the code block, each line begins
+replace("catkin_make\nsource", "# catkin_make\n# source")
+replace("rosrun my_geometry server.py", "# rosrun my_geometry server.py")
+replace("source devel/setup.bash\nrosservice", "# source devel/setup.bash\n# rosservice")
+replace("rosrun my_geometry client.py", "# rosrun my_geometry client.py")
 # %% 07.7 wrong: no build | hint: The command that builds the package
 replace("catkin_make\n", "")
 # %% 07.7 wrong: no sourcing | hint: The command `source devel/setup.bash` is missing.

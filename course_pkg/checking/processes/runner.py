@@ -100,11 +100,15 @@ def _require_marks(part: Part, marked: set[str]) -> None:
 
 
 def _not_attempted(part: Part, channel: Channel) -> str:
-    """If a name that the check needs is missing or blank, return an instruction for the student, else ""."""
+    """If a name that the check needs is missing or blank, return an instruction for the student, else "".
+
+    A blank name is ignored if the student has written one of its alternatives.
+    """
     for need in part.needs:
         replies = {name: channel.ask("look", timeout=LOOK, name=name) for name in need.split("|")}
-        blank = next((name for name, reply in replies.items() if reply.get("kind") == "blank"), "")
-        if blank:
+        kinds = [reply.get("kind") for reply in replies.values()]
+        blank = next((name for name, kind in zip(replies, kinds, strict=True) if kind == "blank"), "")
+        if blank and {*kinds} <= {"blank", "missing"}:
             return (
                 f"In {blank.removeprefix('file:')}, replace the three dots (`...`) with your "
                 "answer, run that cell, and then run this cell again."

@@ -62,6 +62,10 @@ OTHER_ORDER = (
     "The two subscribers are in the wrong order. Return the subscriber for `angles` first, and "
     "then the subscriber for `orders`."
 )
+NO_VELOCITIES = (
+    "Your callback lost the positions of a message that has no velocities. Change the signs in each "
+    "list separately."
+)
 NO_TWO = (
     "Return a list of two rospy.Subscriber objects. The check uses these objects to unregister the "
     "subscribers."
@@ -185,11 +189,12 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 def _stances(context: CheckContext, count: int) -> list[Fields]:
     """Return `count` messages.
 
-    The last states have fewer joints, so the student's node must not keep the values of earlier states.
+    The last states have fewer joints, so the student's node must not keep the values of earlier states. One
+    state has no velocities.
     """
     names = [context.random.word() for _ in range(4)]
     counts = [4 if number < count / 2 else 3 for number in range(count)]
-    return [
+    states: list[Fields] = [
         {
             "header": {
                 "stamp": {"secs": 1000 + number, "nsecs": context.random.integer(1, 999_999_999)},
@@ -201,6 +206,8 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
         }
         for number, joints in enumerate(counts)
     ]
+    states[context.random.integer(2, count // 2)]["velocity"] = []
+    return states
 
 
 def _of_both_signs(context: CheckContext, count: int) -> list[float]:
@@ -292,6 +299,10 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
                 ONCE,
             ),
             (
+                [message["header"]["stamp"]["secs"] for message in messages if message["velocity"]],
+                NO_VELOCITIES,
+            ),
+            (
                 lambda actual: len(actual) < len(stamps),
                 "Some messages are missing. Do not pause in the callback, and do not limit the "
                 "queue to a few messages.",
@@ -332,7 +343,12 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
             near=1e-9,
             hints=[
                 (values, f"The field `{field}` was not changed. Change the sign of each number."),
-                ([], f"The list in the field `{field}` is empty. Fill this list, too."),
+                (
+                    [],
+                    f"The list in the field `{field}` is empty. Fill this list, too."
+                    if message["velocity"]
+                    else NO_VELOCITIES,
+                ),
                 (
                     values[::-1],
                     (

@@ -11,6 +11,8 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+# The relative error of a float32 is less than 1e-7; a number with two digits after the point differs more.
+NEAR = 1e-5
 # A message may contain at most this many numbers. In a message with more numbers, one of the numbers may be
 # right by chance.
 MANY = 6
@@ -41,7 +43,7 @@ def area_and_volume(context: CheckContext) -> None:
                 "area is width times length",
                 expected=width * length,
                 actual=response.area,
-                near=1e-3,
+                near=NEAR,
                 hints=_about_area(width, length, height),
             )
         with context.goal(VOLUME):
@@ -49,7 +51,7 @@ def area_and_volume(context: CheckContext) -> None:
                 "volume is area times height",
                 expected=width * length * height,
                 actual=response.volume,
-                near=1e-3,
+                near=NEAR,
                 hints=_about_volume(width * length, height),
             )
 
@@ -59,8 +61,10 @@ def _about_volume(area: float, height: float) -> Hints:
         (0.0, "The volume is 0, because a field without a value is 0. Set the field `volume`."),
         (area + height, "Your volume is area + height. Multiply by the height; do not add the height."),
         (area * height * 1e6, "Your volume is in cubic centimetres. Do not convert the metres."),
-        (round(area * height), "Your volume is rounded. Return all digits of the volume."),
-        (int(area * height), "Your volume is rounded. Return all digits of the volume."),
+        (
+            lambda actual: abs(actual - area * height) <= 1,
+            "Your volume is rounded. Return all digits of the volume.",
+        ),
         (ANYTHING, "The volume is wrong. Multiply all three sides: width, length and height."),
     ]
 
@@ -125,8 +129,8 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    # A float32 stores these numbers exactly.
-    depths = [*(-depth / 2 for depth in context.random.integers(2, 3, 99)), -1 / 1024]
+    # A float32 stores these numbers exactly. No number is an integer, so a message must contain the fraction.
+    depths = [*(-depth - 0.5 for depth in context.random.integers(2, 1, 49)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})
     for pair in combinations(SIDES, 2):
@@ -191,13 +195,16 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
             and any(abs(number - value) < 0.01 for number in numbers),
             expected=f"a message that contains {side} and {value:g}, and no other side",
             actual=error,
-            hints=_unclear(named, side, reason),
+            hints=_unclear(named, numbers, side, value, reason),
         )
 
 
-def _unclear(named: list[str], side: str, reason: str) -> str:
-    """Return the hint for an error message that names the sides `named` instead of only `side`."""
-    if len(re.findall(NUMBER, reason)) > MANY:
+def _unclear(named: list[str], numbers: list[float], side: str, value: float, reason: str) -> str:
+    """Return the hint for an error message with the sides `named` and the `numbers`.
+
+    The message has to contain only `side` and `value`.
+    """
+    if len(numbers) > MANY:
         return "The message contains too many numbers. Write only the value of the negative side."
     if "{" in reason:
         return (
@@ -219,4 +226,6 @@ def _unclear(named: list[str], side: str, reason: str) -> str:
             "The message contains the name of the wrong side. Write the name of the first "
             "negative side, in the order of the fields."
         )
+    if any(abs(number - value) < 1 for number in numbers):
+        return "The message contains a rounded value. Write the value with all digits after the point."
     return "The message does not contain the value of the side. Write the value after the name."

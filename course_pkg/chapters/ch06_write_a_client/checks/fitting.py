@@ -155,7 +155,9 @@ def _cases(context: CheckContext) -> list[Case]:
                 "float() raises ValueError for a word. Catch this exception, print the usage line, "
                 "and end with exit status 2."
             ),
-            ends=USED,
+        ),
+        Case(
+            "a word in place of a number", [*sides, "ten"], answer, 2, USAGE, calls=0, hint=usage, ends=USED
         ),
         Case(
             "a refusal",

@@ -21,6 +21,7 @@ CLIENT = Program("scripts/client.py")
 FILE = MY_GEOMETRY.path(CLIENT.file)
 SERVICE = "/getGeometry"
 USAGE = re.compile("^usage:", re.MULTILINE)
+WAITED = re.compile("waiting for service|unavailable")  # rospy's error messages if there is no service
 # A run may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client waits up to 5
 # s.
 WITHIN = 16.0
@@ -130,16 +131,8 @@ def _why_not_sent(sent: list[float], sides: list[float], done: Finished) -> str:
 
 def _explains_its_usage(context: CheckContext, package: BuiltPackage) -> None:
     server = context.serve(SERVICE, geometry_class(), lambda _: {"area": 1.0, "volume": 1.0})
-    for arguments in (["1.2", "5.2"], ["1.2", "5.2", "8.9", "4"], ["1.2", "wide", "8.9"]):
-        done = _run(package, arguments)
-        printed = done.out + done.err
-        context.require(
-            "wrong arguments: it prints a usage message and ends with 2",
-            holds=done.status == 2 and bool(USAGE.search(printed)),
-            expected="usage: …, and exit status 2",
-            actual=_outcome(done),
-            hints=_why_no_usage(printed, arguments),
-        )
+    for arguments in (["1.2", "5.2"], ["1.2", "5.2", "8.9", "4"]):
+        _prints_usage(context, package, arguments)
     context.require(
         "wrong arguments: it sends no request",
         holds=not server.requests,
@@ -151,6 +144,20 @@ def _explains_its_usage(context: CheckContext, package: BuiltPackage) -> None:
         ),
     )
     server.leave()
+    context.absent(SERVICE)
+    _prints_usage(context, package, ["1.2", "wide", "8.9"])
+
+
+def _prints_usage(context: CheckContext, package: BuiltPackage, arguments: list[str]) -> None:
+    done = _run(package, arguments)
+    printed = done.out + done.err
+    context.require(
+        "wrong arguments: it prints a usage message and ends with 2",
+        holds=done.status == 2 and bool(USAGE.search(printed)),
+        expected="usage: …, and exit status 2",
+        actual=_outcome(done),
+        hints=_why_no_usage(printed, arguments),
+    )
 
 
 def _why_no_usage(printed: str, arguments: list[str]) -> str:
@@ -158,6 +165,11 @@ def _why_no_usage(printed: str, arguments: list[str]) -> str:
         return (
             "The exit status has to be 2 if the arguments are wrong. Call sys.exit(2) after the "
             "usage message."
+        )
+    if WAITED.search(printed):
+        return (
+            "The client waited for the service before it looked at the wrong arguments. First check the "
+            "arguments, and then wait for the service."
         )
     if "wide" in arguments and len(arguments) == 3:
         return "float() raises ValueError for a text that is not a number. Catch this exception."

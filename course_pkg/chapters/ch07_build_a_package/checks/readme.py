@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from course_pkg.chapters.ch07_build_a_package.checks.packages import MY_GEOMETRY
-from course_pkg.checking import CheckContext, part
+from course_pkg.checking import ANYTHING, CheckContext, part
 
 FILE = MY_GEOMETRY.path("README.md")
 BLOCK = re.compile(r"^[ \t]*(?:```|~~~)[^\n`]*\n(.*?)^[ \t]*(?:```|~~~)", re.DOTALL | re.MULTILINE)
@@ -60,15 +60,24 @@ def the_readme(context: CheckContext) -> None:
         hints="The title is missing. Write a line that begins with # and a space.",
     )
     lines = [line.strip().removeprefix("$ ") for block in BLOCK.findall(text) for line in block.splitlines()]
-    commands = "\n".join(lines)
+    commands = "\n".join(line for line in lines if not line.startswith("#"))
     context.require(
         "it has commands in a code block",
         holds=bool(commands),
         expected="lines between ``` and ```",
-        actual="no code block",
-        hints=(
-            "The code block is missing. Write a line ``` above the commands, and another line ``` below them."
-        ),
+        actual="only comments" if any(lines) else "no code block",
+        hints=[
+            (
+                "only comments",
+                "In the code block, each line begins with #, so the shell ignores it. Remove the # from "
+                "each command.",
+            ),
+            (
+                ANYTHING,
+                "The code block is missing. Write a line ``` above the commands, and another line ``` below "
+                "them.",
+            ),
+        ],
     )
     places = [_place(context, commands, *command) for command in COMMANDS]
     places.append(_place_of_call(context, commands))
