@@ -58,6 +58,8 @@ replace('"MyTurtle")', '"myturtle")')
 replace('(3, 3, 0, "MyTurtle")', '(0, 3, 3, "MyTurtle")')
 # %% 09.1 wrong: outside of the main block | hint: Move rospy.init_node and all lines after it
 replace('if __name__ == "__main__":\n    rospy.init_node("spawn_turtle")\n    sys.exit(main())', 'rospy.init_node("spawn_turtle")\nsys.exit(main())')
+# %% 09.1 wrong: the main block also runs in an import | hint: Move rospy.init_node and all lines after it
+replace('if __name__ == "__main__":', 'if __name__ in ("__main__", "spawn_turtle"):')
 # %% 09.1 wrong: an undefined variable | hint: The program stopped with an error
 replace('3, 3, 0, "MyTurtle")\n', 'x, 3, 0, "MyTurtle")\n')
 # %% 09.1 wrong: starts the course's program | hint: Your program starts or imports a program of the course
@@ -154,6 +156,9 @@ replace("if used != … rate.sleep()", "rospy.sleep(1.0 / frequency)")
 replace("    global frequency\n", "    global frequency, forward\n    forward = True\n")
 # %% 09.3 wrong: the loop keeps its rate | hint: A Rate object cannot change its rate
 replace('used != frequency', 'used < 0')
+# %% 09.3 wrong: a table of rates | hint: The program published at another rate than the rate that the client had set
+based_on("sleeps for the pause")
+replace("rospy.sleep(1.0 / frequency)", "rates = (0.5, 1, 2, 2.5, 4, 5, 10, 20, 50, 100)\n        rospy.sleep(1 / min(rates, key=lambda each: abs(each - frequency)))")
 # %% 09.3 wrong: returns the new rate | hint: The field `before` contains the new rate
 replace('before=before', 'before=frequency')
 # %% 09.3 wrong: an empty response | hint: The field `before` has its default value, 0.0
@@ -267,6 +272,8 @@ replace('linear.x = self.speed', 'linear.x = 1.0')
 replace('linear.x = self.speed', 'linear.x = abs(self.speed)')
 # %% 09.4 wrong: whole numbers | hint: Store the speed as a float in Python, or as a double in C++
 replace('linear.x = self.speed', 'linear.x = int(self.speed)')
+# %% 09.4 wrong: turns to the right with a negative speed | hint: The velocity is wrong while the turtle turns
+replace("angular.z = 1.0", "angular.z = math.copysign(1.0, self.speed)")
 # %% 09.4 wrong: returns the new speed | hint: The field `before` contains the new speed
 replace('before, self.speed = self.speed, request.speed', 'before = self.speed = request.speed')
 # %% 09.4 wrong: forgets to return it | hint: The field `before` is wrong
@@ -296,6 +303,10 @@ replace('success=True, message=word)', 'success=True)')
 replace('message=word)', 'message=f"now already {word}")')
 # %% 09.4 wrong: never already | hint: This call changed nothing
 replace('message=f"already {word}"', 'message=word')
+# %% 09.4 wrong: compares with the last published message | hint: This call changed nothing
+replace("self.moving = True", "self.moving = self.wanted = True")
+replace("self.moving = request.data", "self.wanted = request.data")
+replace("        publisher.publish(", "        driver.moving = driver.wanted\n        publisher.publish(")
 # %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call that changes nothing
 replace('return SetBoolResponse(success=True, message=f"already {word}")', 'raise rospy.ServiceException("already")')
 
@@ -354,6 +365,16 @@ replace('Twist, publisher.publish)', 'Twist, lambda message: None)')
 replace('Twist, publisher.publish)', 'Twist, lambda message: [publisher.publish(message) for _ in range(2)])')
 # %% 09.5 wrong: leaves out velocities of 0 | hint: Some velocities are missing
 replace("Twist, publisher.publish)", "Twist, lambda message: publisher.publish(message) if message.linear.x else None)")
+# %% 09.5 wrong: leaves out equal velocities | hint: Some velocities are missing
+replace("    publisher = rospy", """    last = [None]
+
+    def follow(message):
+        if message != last[0]:
+            publisher.publish(message)
+        last[0] = message
+
+    publisher = rospy""")
+replace("Twist, publisher.publish)", "Twist, follow)")
 # %% 09.5 wrong: a pause in the callback | hint: Some velocities are missing
 replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(message), rospy.sleep(0.3)), queue_size=1)')
 # %% 09.5 wrong: two fields only | hint: Some fields of the published message differ from the received message
@@ -361,6 +382,12 @@ replace('    publisher = rospy', '    def copy(message):\n        new = Twist()\
 replace('Twist, publisher.publish)', 'Twist, copy)')
 # %% 09.5 wrong: continues after a failure | hint: After a failed call, the program still called the next service
 replace('        call("toggle_forward", Empty)\n', '        try:\n            call("toggle_forward", Empty)\n        except (rospy.ROSException, rospy.ServiceException) as error:\n            print(error)\n')
+# %% 09.5 wrong: continues after a refused /spawn | hint: After a failed call, the program still called the next service
+replace('        name = call("spawn", Spawn, 3, 3, 0, "MyTurtle").name\n', """        try:
+            name = call("spawn", Spawn, 3, 3, 0, "MyTurtle").name
+        except rospy.ServiceException:
+            name = "MyTurtle"
+""")
 # %% 09.5 wrong: no limit | hint: A service is missing, but the program did not end
 replace('(name, timeout=5)', '(name)')
 # %% 09.5 wrong: no exit status | hint: If a wait times out or a call is refused, print a

@@ -74,6 +74,17 @@ replace("messages.append(proxy().message)", "try:\n            messages.append(p
 # %% 10.1 wrong: args is not a tuple | hint: The service was not called
 replace("def call():", "def call(name):")
 replace("target=call)", "target=call, args=name)")
+# %% 10.1 wrong: rosservice in other processes | hint: Another program called the service
+import re
+import subprocess
+
+
+def call_at_once(name, count):
+    command = ["rosservice", "call", name]
+    helpers = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(count)]
+    texts = [helper.communicate()[0] for helper in helpers]
+    return [re.search(r"message: [\"']?(.*?)[\"']?$", text, re.M)[1] for text in texts]
+
 # %% 10.1 wrong: the return value of a thread | hint: The list contains None
 replace("messages.append(proxy().message)", "proxy()")
 replace("return messages", "return [thread.join() for thread in threads]")
@@ -206,6 +217,9 @@ replace("\n        customer = watch.next(request.after)", "")
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
 replace("customer.arrived", "rospy.Time.now()")
+# %% 10.2 wrong: the time of the answer after a wait | hint: Two calls for the same customer returned different times
+replace("    with watch.changed:", "    with watch.changed:\n        waited = not watch.next(request.after)")
+replace("customer.arrived", "rospy.Time.now() if waited else customer.arrived")
 # %% 10.2 wrong: a time although there is no customer | hint: The field `arrived` is wrong
 replace("watch.changed.wait_for", "customer = watch.changed.wait_for")
 replace("\n        customer = watch.next(request.after)", "")
@@ -333,6 +347,10 @@ replace('return TriggerResponse(success=False, message="empty")', 'raise rospy.S
 replace('return TriggerResponse(success=False, message="empty")', "return None")
 # %% 10.3 wrong: another word for empty | hint: No item came, but the response is wrong
 replace('"empty"', '"nothing there"')
+# %% 10.3 wrong: full after ten items | hint: The basket did not accept an item
+replace("            self.items += 1", """            if self.items >= 10:
+                return TriggerResponse(success=False, message="full")
+            self.items += 1""")
 # %% 10.3 wrong: leaves success out | hint: The message is right, but the field `success` is wrong
 replace("success=True, ", "", times=2)
 # %% 10.3 wrong: counts before the change | hint: the number of items in the basket after the call
@@ -522,6 +540,14 @@ replace("\n            with self.lock:\n                self.shelf.write(self.sh
 replace('(success=False, message=f"not paid: {error}")', """(success=False, message=f"not paid: {error}")
         with self.lock:
             self.shelf.write(self.shelf.read() - 1)""")
+# %% 10.5 wrong: only /left counts the buyers | hint: The number on the shelf is different from the number that /left returns
+based_on("takes the thing after the payment")
+replace("self.lock = threading.Lock()", "self.lock = threading.Lock()\n        self.paying = 0")
+replace("message=str(self.shelf.read())", "message=str(self.shelf.read() - self.paying)")
+replace("if self.shelf.read() == 0:", "if self.shelf.read() == self.paying:")
+replace("        try:", "            self.paying += 1\n        try:")
+replace("as error:", "as error:\n            with self.lock:\n                self.paying -= 1")
+replace("self.shelf.write(self.shelf.read() - 1)", "self.shelf.write(self.shelf.read() - 1)\n            self.paying -= 1")
 # %% 10.5 wrong: puts nothing back | hint: the thing is not on the shelf
 replace("\n            with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "")
 # %% 10.5 wrong: catches nothing | hint: The call of the till failed, and the exception ended your handler

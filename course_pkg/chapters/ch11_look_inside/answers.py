@@ -58,6 +58,9 @@ replace("I", "H", times=2)
 replace("(fields):", '(fields):\n    if not fields:\n        return b""')
 # %% 11.1 wrong: a line end in each field | hint: Some bytes are wrong
 replace("{name}={value}", "{name}={value}\\n")
+# %% 11.1 wrong: lengths of one byte | hint: The function failed because a length was greater than 255
+replace('struct.pack("<I", len(text)) + text', "bytes([len(text), 0, 0, 0]) + text")
+replace('struct.pack("<I", len(body))', "bytes([len(body), 0, 0, 0])")
 
 # %% 11.2 right: adds up
 def receive(sock, count):
@@ -301,6 +304,8 @@ replace("        receive(sock, 5)", r"""        if receive(sock, 1) == b"\x00":
 replace("sock, 5", "sock, 4")
 # %% 11.3 wrong: the error message is not decoded | hint: Convert the bytes with decode()
 replace("answer.decode()", "str(answer)")
+# %% 11.3 wrong: the error message as ASCII | hint: and your function could not decode them
+replace("answer.decode()", 'answer.decode("ascii")')
 # %% 11.3 wrong: leaves the connection open | hint: The connection was still open after the call
 based_on("with comments")
 replace("sock.settimeout(5)", "rospy.kept = sock\n    sock.settimeout(5)")
@@ -579,6 +584,13 @@ replace("\n        self.proxy.close()\n        self.connect()\n        return se
 # %% 11.5 wrong: None after the second break | hint: The second call also failed, so there is no response
 based_on("a loop of two")
 replace(" or attempt == 2", "")
+# %% 11.5 wrong: raises the first error again | hint: The server refused the second call, but your method raised a different error
+replace("raise\n", "raise\n            first = error\n")
+replace("\n        return self.proxy(length, width, height)", """
+        try:
+            return self.proxy(length, width, height)
+        except rospy.ServiceException:
+            raise first""")
 
 # %% 11.6 right: in the constructor
 class Remembering:
@@ -650,6 +662,10 @@ replace("try:\n            return ask(self.uri, self.service, length, width, hei
                 return ask(self.uri, self.service, length, width, height)
             except OSError:
                 self.look_up()""")
+# %% 11.6 wrong: tries five times | hint: Your method called the service again and again
+based_on("looks up again and again")
+replace("while True:", "for attempt in range(5):")
+replace("                self.look_up()", "                self.look_up()\n        raise ConnectionError")
 # %% 11.6 wrong: None after the second error | hint: The second call also failed. Raise
 replace("self.look_up()\n            return ask(self.uri, self.service, length, width, height)", """self.look_up()
         try:

@@ -193,6 +193,11 @@ class Absent:
         self._former: Registration | None = None
         self._uri = ""
 
+    @property
+    def uri(self) -> str:
+        """The address with a closed port, or "" if no address is registered."""
+        return self._uri
+
     def __enter__(self) -> Absent:
         self._former = self._node.registration(self._name)
         if self._former:

@@ -25,13 +25,13 @@ LOGGERS = ("/get_loggers", "/set_logger_level")  # Every rospy node has these se
 # This code imports the script as a module. Calls that only a running node makes end the import with a
 # message.
 IMPORTS = """\
-import importlib.util, sys, rospy
+import importlib.util, pathlib, sys, rospy
 def began(*args, **kwargs):
     print("it began its work")
     sys.exit(3)
 for name in ("init_node", "Service", "ServiceProxy", "wait_for_service", "spin", "myargv"):
     setattr(rospy, name, began)
-spec = importlib.util.spec_from_file_location("imported", sys.argv[1])
+spec = importlib.util.spec_from_file_location(pathlib.Path(sys.argv[1]).stem, sys.argv[1])
 spec.loader.exec_module(importlib.util.module_from_spec(spec))
 sys.exit(77)
 """

@@ -99,7 +99,7 @@ class Driver:
 def follows(context: CheckContext, program: TurtleProgram) -> None:
     """Assert that a program does what the exercise requires of spawn_turtle_plus.
 
-    Three runs of the program overlap, because one run takes 5 s.
+    Three runs of the program overlap, because one run takes 5 s. During these 5 s, there is a fourth run.
     """
     copy = program.prepare(context, program)
     name = context.random.word()
@@ -108,6 +108,8 @@ def follows(context: CheckContext, program: TurtleProgram) -> None:
     refusing = Driver(context, World(context, copy, program))
     missing.serve("spawn", "change_speed")
     refusing.serve(*ORDER, refusing="toggle_forward")
+    alone = Driver(context, World(context, copy, program))
+    alone.serve(*ORDER, refusing="spawn")
     with missing.world.run() as first, refusing.world.run() as second, whole.world.run() as running:
         whole.serve("spawn")
         _calls_in_order(context, whole, running)
@@ -115,6 +117,8 @@ def follows(context: CheckContext, program: TurtleProgram) -> None:
         _passes_on(context, whole, running)
         context.fulfilled(PASSED_ON)
         _stops_early(context, refusing, second, ["spawn", "toggle_forward"], LIMIT)
+        with alone.world.run() as third:
+            _stops_early(context, alone, third, ["spawn"], at_this_load(LIMIT))
         # On a busy machine, this program may be slower than the first program.
         end = missing.called + LIMIT + at_this_load(LATE)
         _stops_early(context, missing, first, ["spawn"], end - time.monotonic())
@@ -182,7 +186,8 @@ def _passes_on(context: CheckContext, driver: Driver, running: Running) -> None:
     The response contains a random name for the new turtle.
     """
     standing = _velocity(0.0, 0.0, 0.0)
-    velocities = [standing, *(_velocity(*context.random.numbers(3, -2.0, 2.0)) for _ in range(COUNT - 1))]
+    moving = [_velocity(*context.random.numbers(3, -2.0, 2.0)) for _ in range(COUNT - 2)]
+    velocities = [standing, *moving, moving[-1]]  # The last two velocities are equal.
     subscription = context.subscribe(driver.world.name(f"{driver.name}/cmd_vel"), TWIST)
     wait_until(lambda: running.status is not None, ENDING, 0.1)
     ended: tuple[Condition, str] = ((lambda _: running.status is not None), ENDED)

@@ -107,7 +107,7 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
     )
     first, second = context.random.number(2.0, 4.0), -context.random.number(100.0, 900.0)
     before = STRAIGHT[0]
-    for wanted in (first, second, first):
+    for wanted in (first, second):
         _returns_the_old_speed(context, change, wanted, before)
         before = wanted
         stream.becomes(
@@ -144,10 +144,10 @@ def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: 
                 ),
             ],
         )
-    toggles_the_stream(toggle, stream, straight=(first, 0.0))
+    toggles_the_stream(toggle, stream, straight=(second, 0.0))
     for impossible in (float("nan"), float("inf"), -float("inf")):
         refuses(context, change, "a speed that is not finite is refused", speed=impossible)
-    _returns_the_old_speed(context, change, 0.0, first)
+    _returns_the_old_speed(context, change, 0.0, second)
     _returns_the_old_speed(context, change, first, 0.0)
     return change
 
@@ -236,6 +236,10 @@ def _starts_and_stops(
         _says(context, switch, moving=True, already=True)
         if turning:
             toggle()
+    # These calls come one immediately after the other, so several calls come between two messages.
+    for moving in (False, True):
+        for already in (False, True):
+            _says(context, switch, moving=moving, already=already)
 
 
 def _says(context: CheckContext, switch: Service, *, moving: bool, already: bool) -> None:

@@ -69,6 +69,10 @@ TOO_EARLY = (
     "The handler of /take returned before its time limit was over. If a thread wakes up and no item "
     "is there, let the thread wait again for the remaining time."
 )
+FULL = (
+    "The basket did not accept an item, but it has no maximum number of items. Add one item in each call "
+    "of /put."
+)
 SHARED = (
     "Two baskets share their items, so the second basket was not empty at first. Create the items in "
     "__init__ and store them in self, not in the class."
@@ -127,9 +131,17 @@ def wait_for_another_call(context: CheckContext) -> None:
 
 
 def _puts_and_takes(context: CheckContext, put: Service, take: Service) -> None:
-    count = context.random.integer(2, 4)
+    count = context.random.integer(12, 24)
     for number in range(1, count + 1):
-        _answer(context, "/put adds one to the number of items", put(), True, str(number))
+        response = put()
+        context.require(
+            "/put adds one to the number of items",
+            holds=response.success or response.message == str(number),
+            expected=f"success=True, and the message {number}",
+            actual=f"success={response.success}, and the message {response.message}",
+            hints=FULL,
+        )
+        _answer(context, "/put adds one to the number of items", response, True, str(number))
     for number in range(count - 1, -1, -1):
         response = take()
         _at_once(context, "an item that is in the basket is taken immediately", take.took)

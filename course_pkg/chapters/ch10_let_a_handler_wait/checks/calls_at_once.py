@@ -32,6 +32,7 @@ import rospy
 
 class ProxyWatch:
     def begin(self):
+        self.caller = rospy.get_name()
         small_stacks.begin()
         self.proxies, self.original = [], rospy.ServiceProxy.call
 
@@ -178,6 +179,7 @@ def _round(context: CheckContext, count: int, hold: float = 0.0) -> float:
     late = time.monotonic() - gate.answered
     found = result.returned()
     _called(context, count, gate)
+    _calls_itself(context, server)
     _shares_no_proxy(context, proxies, server)
     _returned(context, words, found)
     server.leave()
@@ -211,6 +213,22 @@ def _called(context: CheckContext, count: int, gate: Gate) -> None:
         expected=count,
         actual=gate.most,
         hints=NOT_TOGETHER,
+    )
+
+
+def _calls_itself(context: CheckContext, server: ScriptedServer) -> None:
+    """Assert that the node of the notebook has made each call."""
+    own = context.read("proxy_watch.caller")
+    others = [caller for header in server.received.headers if (caller := header.get("callerid")) != own]
+    context.require(
+        "the service is called `count` times",
+        holds=not others,
+        expected=f"calls from the node {own}",
+        actual=f"a call from the node {others[0]}" if others else "no other caller",
+        hints=(
+            "Another program called the service. Call the service with a rospy.ServiceProxy in each "
+            "thread of your function."
+        ),
     )
 
 

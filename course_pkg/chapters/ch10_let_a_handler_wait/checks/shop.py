@@ -17,7 +17,7 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, Refuse, matches, pa
 from course_pkg.checking.assertions import Hints
 from course_pkg.checking.peers.scripted_server import Act, HangUp
 from course_pkg.checking.peers.service_calls import Service
-from course_pkg.checking.plain_values import Message
+from course_pkg.checking.plain_values import Message, Value
 from course_pkg.checking.result import Result
 from course_pkg.errors import GraphError
 from course_pkg.ros.node.proxy import BoundedProxy
@@ -43,6 +43,10 @@ TORN = (
     "Two threads changed the shelf at the same time, so one change was lost. Hold the same lock "
     "while you sell a thing and while you put a thing back."
 )
+ANOTHER_NUMBER = (
+    "The number on the shelf is different from the number that /left returns. Use the methods "
+    "read() and write(count) of the shelf, and do not replace these methods."
+)
 SOLD_OUT = (
     '"Sold out" is a normal response of /buy, not an error. Return success=False instead of '
     "raising an exception."
@@ -61,13 +65,16 @@ NO_TILL = (
 class Till:
     """A till that charges amounts; during the first charge, it calls the shop."""
 
-    def __init__(self, context: CheckContext, left: str) -> None:
+    def __init__(self, context: CheckContext, left: str, shelf: CheckedShelf) -> None:
         # `acts` contains the results of the next calls; None means that the till charges the amount.
         self.acts: list[Act | None] = []
         self.charged: list[int] = []  # cents
         self.ids: list[str] = []
         # `answers` contains the shop's responses to calls of /left; "" means that there was no response yet.
         self.answers: list[str] = []
+        # `on_shelf` contains the number of things on the shelf during each call.
+        self.on_shelf: list[Value] = []
+        self._shelf = shelf
         self._first = context.random.integer(1000, 9000)
         self._left, self._kind = left, context.service_class(TRIGGER)
         self._inside, self._meets = 0, False
@@ -100,6 +107,7 @@ class Till:
                 self.answers.append("")
             act = self.acts.pop(0) if self.acts else None
             self.ids.append(request.request_id)
+            self.on_shelf.append(self._shelf.things)
             if act is None:
                 self.charged.append(request.cents)
             receipt = self._first + len(self.charged)
@@ -132,14 +140,14 @@ PUT_BACK = "Put the thing back if the call of the till's service fails."
 def no_lock_across_a_call(context: CheckContext) -> None:
     """Buy once with a till that calls /left; then buy with tills that fail; then buy in 50 threads."""
     buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
-    till = Till(context, left)
-    context.prepare(KERNEL_CODE)
-    context.serve(charge, CHARGE, till)
     cents = context.random.integer(100, 900)
     count = context.random.integer(28, 36)
+    shelf = CheckedShelf(count)
+    till = Till(context, left, shelf)
+    context.prepare(KERNEL_CODE)
+    context.serve(charge, CHARGE, till)
     services = {buy: "handle_buy", left: "handle_left"}
     worded = f"Shop(shelf, {cents}, the till) with {count} on the shelf"
-    shelf = CheckedShelf(count)
     opened = _opened(context, shelf, services, cents, charge, worded)
     context.require(
         "a Shop can be created from a shelf, a price and the name of a till",
@@ -265,6 +273,12 @@ def _sells(context: CheckContext, buying: Service, till: Till, cents: int, count
         hints=_not_reserved(count),
     )
     context.expect(
+        "a thing that is being paid for is not on the shelf",
+        expected=count - 1,
+        actual=till.on_shelf[0],
+        hints=ANOTHER_NUMBER,
+    )
+    context.expect(
         "a client that has paid gets the receipt",
         expected=[True, str(till._first + 1)],
         actual=[response.success, response.message],
@@ -360,10 +374,7 @@ def _sells_to_fifty(
         f"{CALLERS} clients at the same time: the number of things left is right",
         expected=count - sold,
         actual=shelf.things,
-        hints=(
-            "The number on the shelf is different from the number that /left returns. Use the methods "
-            "read() and write(count) of the shelf, and do not replace these methods."
-        ),
+        hints=ANOTHER_NUMBER,
     )
 
 

@@ -77,10 +77,12 @@ class ResettingPort:
     """
 
     def __init__(self, uri: str) -> None:
+        self.connections = 0
         self._listener = socket.create_server(("127.0.0.1", int(uri.rpartition(":")[2])))
 
-    def __enter__(self) -> None:
+    def __enter__(self) -> ResettingPort:
         threading.Thread(target=self._reset, daemon=True).start()
+        return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -93,5 +95,6 @@ class ResettingPort:
         with suppress(OSError):  # The listening socket is closed when the block ends.
             while True:
                 connection, _ = self._listener.accept()
+                self.connections += 1
                 connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
                 connection.close()

@@ -35,6 +35,10 @@ WAITED = (
     "Your method did not return after the server had ended. Call the service only once more, and do not "
     "wait for the service."
 )
+FIRST_ERROR = (
+    "The server refused the second call, but your method raised a different error. Raise the error of the "
+    "second call, not the error of the first call."
+)
 NOT_MEASURED = "The second call also failed, so there is no response. Raise the error of the second call."
 REFUSED = (
     "The server refused the call, but your method did not raise the proxy's exception. Do not catch this "
@@ -84,6 +88,11 @@ def persistent_client(context: CheckContext) -> None:
     _breaks_twice(context, client, server)
     acts.append({"volume": volumes[6]})
     _measures(context, client, "a broken connection is replaced", volumes[6])
+    acts[:] = [HangUp(), Refuse("not any more")]
+    client.measure(ERRORS).raised(
+        "a broken connection is replaced", "ServiceException", saying="not any more", hints=FIRST_ERROR
+    )
+    acts.clear()
     server.leave()
     _reports_a_missing_server(context, client)
     moved = context.serve(name, GEOMETRY, lambda _: {"volume": volumes[5]})
@@ -302,7 +311,7 @@ def _finds_it_after_a_reset(
 ) -> None:
     """Start another program at the server's port, and start the server at another address.
 
-    Then stop the server.
+    Then stop the server: another program that is not a server listens at its registered address.
     """
     former.leave()
     assertion = "a server that moved is found again"
@@ -310,15 +319,15 @@ def _finds_it_after_a_reset(
         last = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), numbers, strict=True)))
         _measures_both(context, client, assertion, numbers, RESET)
     last.leave()
-    context.absent(name, stale=True)
-    result = client.measure(())
+    with ResettingPort(context.absent(name, stale=True).uri) as port:
+        result = client.measure(())
     context.require(
         assertion,
-        holds=bool(result.error) and not result.error.startswith("TimesUp"),
-        expected="an error, because no server is at the new address",
-        actual=result.error or "a value",
+        holds=bool(result.error) and not result.error.startswith("TimesUp") and port.connections < 2,
+        expected="an error after one more call of ask(), because no server is at the new address",
+        actual=f"{result.error or 'a value'}, after calls of ask() at the new address: {port.connections}",
         hints=[
-            (matches("^TimesUp"), AGAIN),
+            ((lambda _: result.error.startswith("TimesUp") or port.connections > 1), AGAIN),
             (ANYTHING, "The second call also failed. Raise the error of the second call."),
         ],
     )

@@ -39,7 +39,14 @@ ERRORS = [
             "ASCII does not contain the letter ü, but UTF-8 does. Call encode() without an argument to "
             "use UTF-8."
         ),
-    )
+    ),
+    (
+        matches("range|OverflowError|too big|format requires"),
+        (
+            "The function failed because a length was greater than 255. Use all 4 bytes of each length: "
+            "struct.pack with '<I' writes such a number."
+        ),
+    ),
 ]
 WITHIN = 3.0  # WITHIN is the time limit in s for one call.
 # Wait this many s before sending the next part to a client that peeks at the bytes without reading them.
@@ -86,13 +93,17 @@ RECEIVED = "Return exactly `count` bytes, even if the bytes arrive in pieces."
     needs=["pack_header"],
 )
 def packed_header(context: CheckContext) -> None:
-    """Compare headers with random fields, with a letter that needs two bytes, and without fields."""
+    """Compare headers with random fields, with a letter that needs two bytes, and without fields.
+
+    The last header is longer than 255 bytes.
+    """
     word = context.random.word
     context.prepare(TYPE_OF_HEADER)
     for what, fields in (
         ("two fields", {"service": f"/{word()}", "md5sum": word(32)}),
         ("a letter outside of ASCII", {"session": "", "robot": f"Jürgen {word(3)}"}),
         ("no field", {}),
+        ("two fields", {"type": f"my/{word()}", "message_definition": word(300)}),
     ):
         assertion = f"{what}: the bytes are a header of TCPROS"
         packed = context.run("pack_header", fields, hints=ERRORS).returned()

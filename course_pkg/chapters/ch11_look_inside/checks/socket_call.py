@@ -86,6 +86,10 @@ SLOWLY = (
     "The function fails if the bytes arrive one after the other. Use `receive()` to read all bytes, "
     "including the first byte and the lengths."
 )
+NOT_DECODED = (
+    "The error message contained letters outside of ASCII, and your function could not decode them. Call "
+    "decode() without an argument to use UTF-8."
+)
 BYTES = "The error message is a bytes object, not a string. Convert the bytes with decode()."
 OPEN = (
     "The connection was still open after the call. Use the socket in a `with` block, which closes "
@@ -127,7 +131,7 @@ def call_over_a_socket(context: CheckContext) -> None:
         for slowly in (False, True):
             _answers(context, slowly=slowly)
         context.fulfilled(ANSWERED)
-        reason = f"no {context.random.word()} today"
+        reason = f"kein {context.random.word()} für dich"
         _refuses(context, f"request from [/you]: {reason}", reason, in_handshake=True)
         _refuses(context, f"service cannot process request: {reason}", reason, in_handshake=False)
     finally:
@@ -321,6 +325,8 @@ def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: 
         "ServiceException",
         saying=reason,
         hints=[
+            (matches("UnicodeDecodeError"), NOT_DECODED),
+            (AS_BYTES, BYTES),
             (
                 matches("^ServiceException"),
                 f"The exception does not contain the error message of the server. {hint}",
