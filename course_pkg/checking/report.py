@@ -79,7 +79,7 @@ class Report:
     printed: str = field(default="", compare=False)  # Student code printed this text during the check.
     # The points are divided among these goals; without goals, a check gives all points or none.
     goals: tuple[Goal, ...] = ()
-    # The value is True if the check did not finish, and grading counts the check as failed.
+    # The value is True if the check did not finish; grading counts such a check as failed.
     inconclusive: bool = False
     review: Review | None = None  # The value is set in grading, if an instructor has reviewed the answer.
 

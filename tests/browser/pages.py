@@ -65,7 +65,7 @@ def picture(target: Page | Locator, name: str) -> None:
 
 
 def save(widget: Panel, path: Path, theme: str = "light") -> str:
-    """Save the widget as a page without a kernel, and return the address of the page."""
+    """Save the widget as an HTML page that needs no kernel, and return the address of the page."""
     state = {
         name: value
         for name, value in widget.get_state().items()

@@ -1,7 +1,8 @@
 """A check's server that fails with a planned list of faults, and recovers.
 
-A client cannot distinguish a planned fault from a real fault. A stopped process accepts connections but does
-not respond. After a kill, the registration with a closed port remains. A restarted process has a new address.
+A client cannot distinguish a planned fault from a real fault. A suspended process accepts connections but
+does not respond. After a kill, the server's registration remains, but its port is closed. A restarted process
+has a new address.
 """
 
 from __future__ import annotations

@@ -114,7 +114,7 @@ class Asset(Handler):
 
 
 class Items(Handler):
-    """Sends all answers and rows."""
+    """Sends all answers and all rows to the browser."""
 
     def get(self) -> None:
         """Send all answers and rows."""

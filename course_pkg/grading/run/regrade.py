@@ -28,7 +28,7 @@ class Regrade:
         """Return the parts of a notebook that are graded again, or () for the whole notebook.
 
         The whole notebook is graded if there is no earlier result, or if the student has submitted another
-        notebook since then.
+        notebook since the last run.
         """
         asked = self.selected.parts_of(submission.chapter)
         return asked if asked and not submission.problem and self._base(submission) else ()

@@ -69,7 +69,7 @@ class BoundedProxy(rospy.ServiceProxy):
         """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            # The call may have ended before cancel() added this action; nothing else disarms it then.
+            # The call may have ended before cancel() added this action; only this line disarms it then.
             if call.over:
                 self._disarm(call)
 

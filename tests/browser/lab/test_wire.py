@@ -124,7 +124,7 @@ def test_it_can_be_read(page: Page, tmp_path: Path, theme: str, width: int) -> N
 
 
 def test_it_runs_in_jupyterlab(lab_page: Page, lab: Lab) -> None:
-    """In a notebook, the arrow keys move only within the panel."""
+    """In a notebook, the arrow keys change the selection only within the panel."""
     cells = (
         "from course_pkg import WireView, join\nnode = join('wire_view')\n"
         "server = node.run('course_pkg', 'server')\nserver.wait_for_service('/getGeometry', timeout=20)",

@@ -1,6 +1,6 @@
 """Tests of a running `course lab`.
 
-Its kernels and terminals are in a private network, and its server is outside this network.
+The kernels and terminals of `course lab` are in a private network, and its server is outside this network.
 """
 
 from __future__ import annotations

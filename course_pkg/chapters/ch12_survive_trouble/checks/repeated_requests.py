@@ -153,7 +153,7 @@ class CheckedPurse:
 
 
 def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Serve `name` with a new Till; return its purse, and the result of the call that creates the Till."""
+    """Serve `name` with a new Till; return the Till's purse, and the result of the call that creates it."""
     purse = CheckedPurse()
     context.place("checked_purse", purse)
     its = Its("Till"), Its("checked_purse")

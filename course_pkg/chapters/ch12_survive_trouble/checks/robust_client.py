@@ -249,7 +249,7 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
 
 
 def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
-    """Let three attempts fail; the third pause shows whether the pauses grow. Longer pauses are allowed."""
+    """Let three attempts fail; the third pause shows whether the pauses grow. Pauses may be longer."""
     before = len(till.arrivals)
     till.plan.extend([Fault(HangUp())] * 3)
     pays_after(context, name, till, books, "failing three times")

@@ -192,7 +192,7 @@ def _groups(report: Service, clients: int) -> Iterator[Reply]:
 
     On a busy machine, the calls of one group may arrive one after another, so one group is not enough. If
     threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, a call may fail in
-    FAILED groups; after a deadlock, all later calls fail.
+    at most FAILED groups; after a deadlock, all later calls fail.
     """
     failed = 0
     for _ in range(GROUPS):
