@@ -168,8 +168,8 @@ class CheckContext:
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         if not probe.answered:
             hint = (
-                "The service is registered, but its server has ended or stopped. Once more, run the "
-                "cell that creates the service."
+                "The service is registered, but its server has ended or stopped. Run the cell "
+                "that creates the service again."
             )
             actual = f"a server that is {probe.reach.value}"
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
