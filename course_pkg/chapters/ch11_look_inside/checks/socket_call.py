@@ -131,7 +131,7 @@ def call_over_a_socket(context: CheckContext) -> None:
         for slowly in (False, True):
             _answers(context, slowly=slowly)
         context.fulfilled(ANSWERED)
-        reason = f"kein {context.random.word()} für dich"
+        reason = f"no {context.random.word()} in the café"
         _refuses(context, f"request from [/you]: {reason}", reason, in_handshake=True)
         _refuses(context, f"service cannot process request: {reason}", reason, in_handshake=False)
     finally:
