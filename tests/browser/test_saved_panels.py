@@ -88,7 +88,7 @@ def test_a_saved_question_is_disabled(page: Page, tmp_path: Path) -> None:
     """On a saved page, the reader cannot enter a prediction."""
     store = PredictionStore(tmp_path / "predictions.json")
     page.goto(save(Question("05.x", "What?", ["this", "that"], store=store), tmp_path / "page.html"))
-    expect(page.get_by_text("run the notebook to keep a prediction")).to_be_visible()
+    expect(page.get_by_text("run the notebook to store a prediction")).to_be_visible()
     expect(page.get_by_label("this")).to_be_disabled()
 
 

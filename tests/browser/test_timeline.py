@@ -215,15 +215,15 @@ def test_a_call_that_is_not_over(page: Page, tmp_path: Path) -> None:
     timeline = show(page, tmp_path, recording(open_end=True))
     click(page, timeline, 0.6, 2)
     expect(timeline.locator(".ros-details")).to_contain_text("was still waiting when the recording ended.")
-    expect(timeline.get_by_text("800 ms, and it is not over.")).to_be_visible()
+    expect(timeline.get_by_text("800 ms, and it is not finished.")).to_be_visible()
     timeline.get_by_text("The same as a table").click()
-    expect(timeline.get_by_role("row", name="wait")).to_contain_text("not over")
+    expect(timeline.get_by_role("row", name="wait")).to_contain_text("not finished")
 
 
 def test_nothing_was_recorded(page: Page, tmp_path: Path) -> None:
     """The panel says that an empty recording contains no events."""
     timeline = show(page, tmp_path, Recording(nodes=("/idle",), length=0.5))
-    expect(timeline.get_by_text("Nothing happened between the nodes")).to_be_visible()
+    expect(timeline.get_by_text("The nodes did not communicate during the recording")).to_be_visible()
     expect(timeline.get_by_role("button")).to_have_count(0)
     picture(timeline, "timeline-empty")
 

@@ -62,7 +62,7 @@ export function waiting(scene) {
 function waited({ node, service, servers, calls, blocked, longest, open, failed }) {
   const whom = servers.length ? `waited for ${servers.map((/** @type {string} */ each) => `\`${each}\``).join(" and ")} on` : open ? "waited for a server that does not answer, on" : "reached no server on";
   const long = calls > 1 ? `${duration(blocked * 1e6)} in ${calls} calls, the longest ${duration(longest * 1e6)}` : duration(blocked * 1e6);
-  const ends = [open ? (calls > 1 ? `${open} not over` : "and it is not finished") : "", failed ? (calls > 1 ? `${failed} failed` : "which failed") : ""].filter(Boolean);
+  const ends = [open ? (calls > 1 ? `${open} not finished` : "and it is not finished") : "", failed ? (calls > 1 ? `${failed} failed` : "which failed") : ""].filter(Boolean);
   return `\`${node}\` ${whom} \`${service}\`: ${[long, ...ends].join(", ")}.`;
 }
 

@@ -86,7 +86,7 @@ def test_the_cause_of_a_failure_is_shown(page: Page, tmp_path: Path) -> None:
     wire = show(page, tmp_path, WireView("/getGeometry", **{**SIDES, "length": -1.0}))
     expect(wire.get_by_text(re.compile("The call failed"))).to_be_visible()
     wire.get_by_role("button", name=re.compile("Error$")).click()
-    expect(pieces(wire, "ok")).to_contain_text("it failed")
+    expect(pieces(wire, "ok")).to_contain_text("the call failed")
     expect(pieces(wire, "error")).to_contain_text("length is -1")
     picture(page, "wire-refused")
     other = compile_service("course_pkg/geometry", WHOLE)
