@@ -35,6 +35,11 @@ NEVER = (
     "The master does not know the name, and the watchdog has not registered the service again. Register "
     "the service each time lookupService() raises rosgraph.MasterError."
 )
+GREW = (
+    "The pauses between the polls grew while no master was running. Wait `every` seconds after each poll, "
+    "even if the poll failed several times."
+)
+TOO_RARELY = "The watchdog polls too rarely. Wait only `every` seconds between two polls."
 
 
 class SecondMaster:
@@ -136,14 +141,12 @@ def _registers_again(
         hints=DIED if polls else ONCE,
     )
     if not often:
+        grew = watched.gap < SELDOM
         context.fail(
             "the watchdog polls the master at intervals of `every` seconds",
             expected=f"a poll every {EVERY:g} s, even without a master",
-            actual="longer and longer pauses",
-            hint=(
-                "The pauses between the polls grew while no master was running. Wait `every` seconds after "
-                "each poll, even if the poll failed several times."
-            ),
+            actual="longer and longer pauses" if grew else f"a poll every {watched.gap:.1f} s",
+            hint=GREW if grew else TOO_RARELY,
         )
     restarted = "the service is registered with a master that was restarted"
     _is_registered(context, watched, master, name, uri, restarted, DIED)
@@ -269,7 +272,7 @@ def _only_polls(context: CheckContext, watched: CheckedMaster) -> None:
         holds=gap < SELDOM,
         expected=f"a poll every {EVERY:g} s",
         actual=f"a poll every {gap:.1f} s",
-        hints="The watchdog polls too rarely. Wait only `every` seconds between two polls.",
+        hints=TOO_RARELY,
     )
 
 
