@@ -336,7 +336,7 @@ replace("prepare(message.data)", "prepare(message.data), queue_size=1")
 # %% 02.4 wrong: ten orders may wait | hint: Some orders were lost. Up to twenty
 replace("prepare(message.data)", "prepare(message.data), queue_size=10")
 replace("lambda message: prepare", "lambda message: time.sleep(0.02) or prepare")
-# %% 02.4 wrong: a thread for each angle | hint: Two calls of this function
+# %% 02.4 wrong: a thread for each angle | hint: () ran at the same time. Do
 replace("(angles, draw, orders, prepare):", """(angles, draw, orders, prepare):
     def on_angle(message):
         threading.Thread(target=draw, args=[message.data], daemon=True).start()

@@ -31,7 +31,7 @@ replace("float32[] seconds", "float[] seconds")
 replace("std_msgs/ColorRGBA", "ColorRGBA")
 # %% 04.1 wrong: brackets after the name | hint: Write the brackets after the type
 replace("float32[] seconds", "float32 seconds[]")
-# %% 04.1 wrong: wider numbers | hint: Line 6: seconds … which has twice as many bits
+# %% 04.1 wrong: wider numbers | hint: Line 6: seconds … and this type is too large
 replace("\n# What the lamp is to do.", "")
 replace("""
 uint8 mode … float32 total""", "uint8 mode\nstd_msgs/ColorRGBA colour\nfloat64[] seconds\n---\nbool success\nfloat64[3] rgb\nfloat64 total")
@@ -212,7 +212,7 @@ replace("\n  <build_depend>message_generation</build_depend>", "")
 # %% 04.3 wrong: a tag left open | hint: Close every
 replace("</name>", "")
 replace("<build_depend>std_msgs … std_msgs</exec_depend>", "<exec_depend>message_runtime</exec_depend>\n  <depend>std_msgs</depend>")
-# %% 04.3 wrong: the program's own library not named | hint: lamp_server.py imports rospy
+# %% 04.3 wrong: the program's own library not named | hint: rospy, which lamp_server.py imports
 replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: a blank line on top | hint: Write <?xml in the first
 replace("<?xml", "\n<?xml")

@@ -158,7 +158,7 @@ replace("self.count += 1", "self.count = self.count % 9 + 1")
 replace("(self.count)", "(self.count)[-1]")
 # %% 05.2 wrong: more text than the number | hint: The message contains more than the number
 replace("str(self.count)", 'f"{self.count} calls"')
-# %% 05.2 wrong: always two digits | hint: The number begins with a zero
+# %% 05.2 wrong: always two digits | hint: The message begins with an extra zero
 replace("str(self.count)", 'f"{self.count:02d}"')
 # %% 05.2 wrong: an int as the message | hint: Convert the count
 replace("str(self.count)", "self.count")

@@ -79,7 +79,7 @@ def is_there(service, seconds):
 
 # %% 06.2 wrong: decides by the elapsed time | hint: The service exists, and 0.5
 replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
-# %% 06.2 wrong: looks only at the first five services | hint: The result was wrong for a second service.
+# %% 06.2 wrong: looks only at the first five services | hint: With another service, the result was wrong.
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)\n    if len(calls) > 5:\n        return True")
 # %% 06.2 wrong: no limit | hint: The function waited longer than `seconds`.
 replace("service, timeout=seconds", "service")

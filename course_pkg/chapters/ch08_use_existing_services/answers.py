@@ -327,7 +327,7 @@ replace("{service} ", "{service} -- ")
 # %% 08.4 wrong: the dict as Python shows it | hint: YAML cannot read a dict
 replace("json.dumps", "str")
 
-# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value
+# %% 08.4 wrong: yaml without quotes | hint: YAML read a value that differs
 def call_line(service, fields):
     text = json.dumps(fields).replace('"', "")
     return f"rosservice call {service} {shlex.quote(text)}"

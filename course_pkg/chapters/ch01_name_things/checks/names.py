@@ -94,7 +94,7 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
             ),
             (
                 matches("^[!%]"),
-                "Remove the first character. In a terminal, the command begins with `rosrun`.",
+                "A command that begins with ! or % works only in a notebook. Remove this character.",
             ),
             (
                 matches("object"),
@@ -239,7 +239,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             hints=[
                 (
                     ("/screen/mirrored_joints",),
-                    "The viewers of all arms would publish on the same topic. Also remap `mirrored_joints`.",
+                    "The viewers of all arms publish on the same topic. Also remap `mirrored_joints`.",
                 ),
                 (
                     (f"/{arm}/mirrored_joints",),

@@ -108,7 +108,13 @@ def decide_and_defend(context: CheckContext) -> None:
                 lambda actual: tuple(actual[::-1]) and actual[0] in REASONS and actual[1] in DESIGNS,
                 "The order in the pair is wrong. Write the design first, and then the reason.",
             ),
-            (ANYTHING, f"The designs are {', '.join(DESIGNS)}; the reasons are {', '.join(REASONS)}."),
+            (
+                ANYTHING,
+                (
+                    "One value is not a valid pair (design, reason). "
+                    f"The designs are {', '.join(DESIGNS)}; the reasons are {', '.join(REASONS)}."
+                ),
+            ),
         ],
     )
     for job, designs in JOBS.items():

@@ -132,7 +132,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
                         "The message is empty, because a string field without a value is "
                         "empty. Set the message to the count.",
                     ),
-                    (matches(r"^0\d"), "The number begins with a zero. Use str(self.count)."),
+                    (matches(r"^0\d"), "The message begins with an extra zero. Use str(self.count)."),
                     (
                         matches(r"\D"),
                         "The message contains more than the number. Return only the number, as a string.",

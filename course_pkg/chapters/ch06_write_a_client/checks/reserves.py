@@ -191,7 +191,7 @@ def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: M
             near=1e-6,
             hints=(
                 "The result has to depend on the services in the list, not on earlier calls. Call "
-                "the services of the list each time."
+                "these services each time your function runs."
             ),
         )
 

@@ -168,10 +168,7 @@ def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float
             ),
             (
                 ANYTHING,
-                (
-                    "The field `before` is wrong. Set it to the old speed, which the last accepted call has "
-                    "set."
-                ),
+                ("The field `before` is wrong. Set it to the speed that was set before this call."),
             ),
         ],
     )
