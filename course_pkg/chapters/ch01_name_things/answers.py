@@ -109,15 +109,15 @@ replace("get_service_list()", 'rosservice_find("course_pkg/geometry")')
 replace("\n    return None", "")
 # %% 01.3 wrong: only in the outermost namespace | hint: Your function called a service
 replace("for service … return None", "return rospy.ServiceProxy(last, geometry)(length, width, height).volume")
-# %% 01.3 wrong: accepts any name that contains the last part | hint: Your function called the wrong
+# %% 01.3 wrong: accepts any name that contains the last part | hint: Your function called another service
 replace("for service … return None", """for service in sorted(rosservice.get_service_list(), key=len, reverse=True):
         if last in service:
             return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 01.3 wrong: accepts any name that ends with the last part | hint: Your function called the wrong
+# %% 01.3 wrong: accepts any name that ends with the last part | hint: Your function called another service
 replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list(), key=len, reverse=True)")
 replace('split("/")[-1] == last', "endswith(last)")
 replace("\n    return None", "")
-# %% 01.3 wrong: the first service of the type | hint: Your function called the wrong
+# %% 01.3 wrong: the first service of the type | hint: Your function called another service
 replace("for service … return None", """service = sorted(rosservice.rosservice_find("course_pkg/geometry"), key=lambda name: name.endswith("/" + last))[0]
     return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
 # %% 01.3 wrong: calls the last part | hint: Your function called a service

@@ -57,7 +57,7 @@ replace("---", "---\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2")
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF\nuint8 ON\nuint8 BLINK")
 # %% 04.1 wrong: constants without a type | hint: Write it as in this example: int32 LIMIT=10
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "OFF=0\nON=1\nBLINK=2")
-# %% 04.1 wrong: counts from one | hint: is different from the … uint8 OFF=0
+# %% 04.1 wrong: counts from one | hint: is wrong. Write … uint8 OFF=0
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF=1\nuint8 ON=2\nuint8 BLINK=3")
 # %% 04.1 wrong: one constant is missing | hint: Write each constant on a separate … uint8 BLINK=2
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")

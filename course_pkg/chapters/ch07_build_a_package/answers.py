@@ -321,7 +321,7 @@ replace("catkin_install_python … DESTINATION lib", "install(DIRECTORY scripts/
 # %% 07.6 wrong: a path that does not exist | hint: Compare each path in the rule
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", "install(PROGRAMS client.py")
-# %% 07.6 wrong: an empty client | hint: The installed file is not the script
+# %% 07.6 wrong: an empty client | hint: The installed file differs
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", 'file(WRITE ${CMAKE_BINARY_DIR}/client.py "#!/bin/true")\ninstall(PROGRAMS ${CMAKE_BINARY_DIR}/client.py')
 

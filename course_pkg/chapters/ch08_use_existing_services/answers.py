@@ -500,7 +500,7 @@ replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5su
 replace('"server is gone"', '"not registered"')
 # %% 08.6 wrong: treats a missing service as a dead server | hint: so get_service_uri returns None
 replace('"not registered"', '"server is gone"')
-# %% 08.6 wrong: compares with the class | hint: Compare the type in the headers
+# %% 08.6 wrong: compares with the class | hint: Compare the entry `type` of the headers
 replace('headers["type"] != kind._type', 'headers["type"] != kind')
 # %% 08.6 wrong: a header that does not exist | hint: The headers have no entry with
 replace('headers["md5sum"]', 'headers["md5"]')
@@ -513,7 +513,7 @@ replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definiti
 replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class())\n    return \"ok\" if")
 # %% 08.6 wrong: the sum of the request | hint: The MD5 sums are equal
 replace("kind._md5sum", "kind._request_class._md5sum")
-# %% 08.6 wrong: the test for None the wrong way round | hint: so a client can connect
+# %% 08.6 wrong: the test for None the wrong way round | hint: so the client can connect
 replace("uri is None", "uri is not None")
 # %% 08.6 wrong: the last part of the name | hint: The names of the types are different
 replace('headers["type"] != kind._type', 'headers["type"].split("/")[1] != kind._type.split("/")[1]')

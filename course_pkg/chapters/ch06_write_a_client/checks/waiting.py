@@ -71,8 +71,8 @@ def is_anybody_there(context: CheckContext) -> None:
         hints=[
             (
                 False,
-                "The service exists, but the function did not find it within 0.5 s. Wait for the service "
-                "with wait_for_service.",
+                "The service exists, but the function returned False with a time limit of 0.5 s. Wait for "
+                "the service with wait_for_service.",
             )
         ],
     )
