@@ -184,7 +184,7 @@ replace("image.velocity", "message.velocity")
 replace("image", "message")
 # %% 02.2 wrong: returns nothing | hint: Return the rospy.Subscriber object. The
 replace("return rospy", "rospy")
-# %% 02.2 wrong: publishes nothing | hint: No message arrived. Publish in
+# %% 02.2 wrong: publishes nothing | hint: Your callback published no message
 replace("publisher.publish(image)", "return image")
 # %% 02.2 wrong: source and target exchanged | hint: The topic `target` has no
 replace("publisher = … JointState, show)", """publisher = rospy.Publisher(source, JointState, queue_size=10)
@@ -208,7 +208,7 @@ def start_mirror(source, target):
 replace("(header=message.header, name=message.name)", "(name=message.name)\n        image.header.stamp = message.header.stamp")
 # %% 02.2 wrong: the names sorted | hint: The names are wrong, or
 replace("message.name", "sorted(message.name)")
-# %% 02.2 wrong: subscribes to the target | hint: No message arrived. Publish in
+# %% 02.2 wrong: subscribes to the target | hint: Your callback published no message
 replace("Subscriber(source", "Subscriber(target")
 # %% 02.2 wrong: position and velocity interchanged | hint: Your message contains the numbers
 replace("angle in message.position", "angle in message.velocity")

@@ -243,7 +243,7 @@ replace('"topic", "many"', '"service", "answer"')
 replace('"action", "long"', '"service", "answer"')
 # %% 03.4 wrong: a topic for tidying the room | hint: With a topic, the sender gets
 replace('"action", "long"', '"topic", "newest"')
-# %% 03.4 wrong: a topic for the disk | hint: With a topic, the number
+# %% 03.4 wrong: a topic for the disk | hint: With a topic, a node would publish the number
 replace('disk": ("service", "seldom")', 'disk": ("topic", "newest")')
 # %% 03.4 wrong: an action for the disk | hint: This job takes only a moment.
 replace('disk": ("service", "seldom")', 'disk": ("action", "answer")')

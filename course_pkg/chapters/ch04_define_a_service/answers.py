@@ -274,7 +274,7 @@ replace("DEPENDENCIES std_msgs)", "DEPENDENCIES std_msgs")
 replace("(lamp_services)", "(my_services)")
 # %% 04.4 wrong: removes the line that fails | hint: The command … catkin_package is missing … Without this command, other packages
 replace("\n\ncatkin_package(CATKIN_DEPENDS message_runtime std_msgs)", "")
-# %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without this command, the build passes but
+# %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without this command, the build generates
 replace("\nfind_package … message_runtime std_msgs)", "find_package(catkin REQUIRED COMPONENTS std_msgs)\ncatkin_package()")
 # %% 04.4 wrong: builds geometry.srv in place of Lamp.srv | hint: The file geometry.srv is not in the folder
 replace("Lamp.srv", "geometry.srv")

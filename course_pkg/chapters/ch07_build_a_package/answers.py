@@ -90,7 +90,7 @@ catkin_package(
 )
 """
 
-# %% 07.3 wrong: no add_service_files | hint: , so the build passes but
+# %% 07.3 wrong: no add_service_files | hint: , so the build generates no
 replace("\nadd_service_files(FILES geometry.srv)", "")
 # %% 07.3 wrong: generate_messages is a comment | hint: The command generate_messages is missing, so the build passes
 replace("generate_messages(DEP", "# generate_messages(DEP")

@@ -494,7 +494,7 @@ replace("    try:\n        headers", "    if True:\n        headers")
 replace("    except rosservice.ROSServiceIOException:\n        return \"server is gone\"\n", "")
 # %% 08.6 wrong: compares the types only | hint: Compare the MD5 sums, too
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return "ok"')
-# %% 08.6 wrong: compares the sums first | hint: The names of the types are different
+# %% 08.6 wrong: compares the sums first | hint: The server and the client have types with different names
 replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5sum:\n        return "ok"\n    return "another definition"')
 # %% 08.6 wrong: treats every error as a missing server | hint: The master has an address for
 replace('"server is gone"', '"not registered"')
@@ -515,7 +515,7 @@ replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class
 replace("kind._md5sum", "kind._request_class._md5sum")
 # %% 08.6 wrong: the test for None the wrong way round | hint: so the client can connect
 replace("uri is None", "uri is not None")
-# %% 08.6 wrong: the last part of the name | hint: The names of the types are different
+# %% 08.6 wrong: the last part of the name | hint: The server and the client have types with different names
 replace('headers["type"] != kind._type', 'headers["type"].split("/")[1] != kind._type.split("/")[1]')
-# %% 08.6 wrong: no types if the sums are equal | hint: The names of the types are different
+# %% 08.6 wrong: no types if the sums are equal | hint: The server and the client have types with different names
 replace('headers["type"] != kind._type', 'headers["type"] != kind._type and headers["md5sum"] != kind._md5sum')

@@ -307,7 +307,7 @@ replace('message=f"already {word}"', 'message=word')
 replace("self.moving = True", "self.moving = self.wanted = True")
 replace("self.moving = request.data", "self.wanted = request.data")
 replace("        publisher.publish(", "        driver.moving = driver.wanted\n        publisher.publish(")
-# %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call that changes nothing
+# %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call that asks for the current state
 replace('return SetBoolResponse(success=True, message=f"already {word}")', 'raise rospy.ServiceException("already")')
 
 # %% 09.5 right: as in the chapter

@@ -261,8 +261,8 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         hints=[
             (
                 matches("nothing arrived"),
-                "No message arrived. Publish in the callback, and look below the cell for an error "
-                "message of the callback.",
+                "Your callback published no message. Look below the cell for an error message of "
+                "the callback.",
             ),
             (
                 matches("'secs': 0, 'nsecs': 0"),

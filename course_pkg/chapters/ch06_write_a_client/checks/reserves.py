@@ -13,8 +13,8 @@ KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhe
 LONGEST = 1.75
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (
-    "If a service does not exist or refuses the request, call the next service, and return the "
-    "volume in its response."
+    "If a service does not exist or refuses the request, return the volume in the response of the "
+    "next service."
 )
 
 

@@ -81,9 +81,7 @@ def _has_type(context: CheckContext, package: BuiltPackage, text: str, wanted: s
 def _why_no_type(text: str) -> str:
     for name in ("add_service_files", "generate_messages"):
         if not _has(text, name):
-            return (
-                f"The command {name} is missing, so the build passes but generates no type. Add this command."
-            )
+            return f"The command {name} is missing, so the build generates no type. Add this command."
     return (
         "The file contains add_service_files and generate_messages, but no type was generated. "
         "Look for an if() with a false condition."

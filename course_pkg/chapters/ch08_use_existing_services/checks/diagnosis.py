@@ -63,8 +63,8 @@ WHY = {
         "whether get_service_headers raises an exception."
     ),
     "another type": (
-        "The names of the types are different, perhaps only in the package. Compare the whole names "
-        "before you compare the MD5 sums."
+        "The server and the client have types with different names. Compare the whole names, with "
+        "the package, before you compare the MD5 sums."
     ),
     "another definition": (
         "The names of the types are equal, but the MD5 sums are different. Compare the MD5 sums, too."

@@ -32,8 +32,8 @@ AGAIN = (
     "more, and raise the error of the second call."
 )
 WAITED = (
-    "Your method did not return after the server had ended. Call the service only once more, and do not "
-    "wait for the service."
+    "Your method did not return after the server had ended. Repeat the call only once, and do not call "
+    "wait_for_service."
 )
 FIRST_ERROR = (
     "The server refused the second call, but your method raised a different error. Raise the error of the "
