@@ -33,8 +33,8 @@ LISTED = {
     "04.3",
     points=2,
     goal=(
-        "Repair package.xml: catkin has to accept the file, and the file has to list all packages that "
-        "the build and the program need."
+        "Repair package.xml, so that catkin accepts the file. List all packages that the build and the "
+        "program need."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,

@@ -139,7 +139,7 @@ def a_counter_that_resets(context: CheckContext) -> None:
                     ),
                     (
                         _lost_a_digit(number),
-                        "After the number 9, the message has only one digit. Return all digits "
+                        "For counts above 9, the message has only one digit. Return all digits "
                         "of the number.",
                     ),
                     (
