@@ -6,8 +6,8 @@ A test in tests/NAME depends on this folder, on the package course_pkg/NAME, and
 course_pkg/NAME may import. The import-linter contract in pyproject.toml lists these packages. A test of a
 chapter depends on the chapter's folder and on the chapters that the chapter imports.
 
-A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group if the group
-has passed and its files have not changed since then.
+A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group if the files
+on which it depends have not changed since the group passed.
 """
 
 from __future__ import annotations
@@ -172,7 +172,7 @@ def _packages_below(folder: str) -> list[str]:
 
 
 def chapter_paths(chapter: str) -> Iterator[str]:
-    """Yield the paths on which the tests of a chapter depend; for "", yield the paths of all chapters."""
+    """Yield the paths on which a chapter's tests depend; if `chapter` is "", yield those of all chapters."""
     for number in [chapter] if chapter else chapters():
         yield from (str(folder.relative_to(ROOT)) for folder in folders_for(number))
     for pattern in (f"solutions/{chapter}*", f"notebooks/{chapter}*"):

@@ -317,7 +317,7 @@ def test_an_end_that_comes_during_the_start(name: str, master: PrivateMaster) ->
     """After Ctrl-C during the start, a node exits and is not registered."""
     client = MasterClient(master.uri)
     with NodeProcess(["rosrun", "course_pkg", name, f"__name:=new_{name}"]) as process:
-        # The next condition becomes true during init_node().
+        # The node registers at the master during init_node(), so SIGINT arrives during the start.
         eventually(partial(client.lookup_node, f"/new_{name}"), interval=0.001)
         os.kill(process.pid, signal.SIGINT)
         assert process.wait(20) == 0

@@ -43,9 +43,9 @@ def test_the_goals_of_each_part_have_its_points() -> None:
 
 
 def test_a_mark_counts_after_a_failure_and_a_separate_goal_does_not() -> None:
-    """If a check stops early, only the marked goals without a failed assertion count.
+    """If a check stops early, only goals in `marked` without a failed assertion count.
 
-    If a check runs completely, separately examined goals count too.
+    If a check runs completely, other goals without a failed assertion count too.
     """
     results = Results()
     results.marked.add("first")

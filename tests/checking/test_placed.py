@@ -38,7 +38,7 @@ class Drawer:
 
     @remote
     def add(self, count: int, *, twice: bool = False) -> int:
-        """Add `count` to `things`; with `twice`, add it two times."""
+        """Add `count` to `things`, or add it two times if `twice` is true; return the sum."""
         self.threads.add(threading.get_ident())
         self.things += count * (1 + twice)
         return self.things

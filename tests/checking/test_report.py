@@ -72,7 +72,7 @@ def test_a_part_that_is_not_attempted_has_one_thing_to_do() -> None:
 
 
 def test_the_html_of_a_pass_has_no_heading() -> None:
-    """The HTML of a pass does not change, because the stored solutions contain this HTML."""
+    """The HTML of a pass is exactly this HTML, because the stored solutions contain it."""
     report = Report("05.1", Verdict.PASSED, "Answer.", 2, 2, FAILED.assertions[:1])
     assert report.html() == (
         '<section class="course-report" style="border-left:4px solid #2e7d32;padding:0.2em 1em">'

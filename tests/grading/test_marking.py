@@ -45,7 +45,7 @@ BREAKERS = {
         "import os, xmlrpc.client\nhandle_geometry = 1\n"
         'xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).shutdown("/x", "")'
     ),
-}  # Each key describes what the student's program does or sends.
+}  # Each value is a student's program; its key describes how the program disturbs the check.
 
 
 @pytest.fixture(scope="module")

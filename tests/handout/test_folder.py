@@ -147,7 +147,7 @@ def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
 
 
 def test_paths_and_chapters() -> None:
-    """A path is selected by its name, and the error message for an unknown path lists all names."""
+    """A learning path is selected by its name; for an unknown name, the error message lists all names."""
     assert chosen_chapters("the lab session") == chosen_chapters("Lab-Session") == ("00", "05", "06", "07")
     assert chosen_chapters("The turtle tutorial") == ("00", "02", "05", "06", "07", "09", "13", "14")
     assert chosen_chapters("The whole course") == chosen_chapters()
@@ -196,7 +196,7 @@ def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
 
 
 def test_a_packed_module_is_the_same_module(tmp_path: Path) -> None:
-    """A packed module has the same names, but a text search does not find its source."""
+    """A module that pack() has encoded defines the same names, but a search does not find its text."""
     source = '"""Text."""\n\nfrom __future__ import annotations\n\nANSWER = "lock order"\n'
     module: dict[str, object] = {"__file__": "x.py", "__name__": "x"}
     exec(compile(pack(source), "x.py", "exec"), module)  # noqa: S102 -- it is the text above

@@ -23,7 +23,7 @@ from tests.hub.running import hub, passwords
 from tests.hub.student import Student
 from tests.support import terminal
 
-# A new user namespace has its own limits for namespaces, and a new mount namespace has its own mounts.
+# This script runs in new namespaces, so it does not change the limits and mounts of the machine.
 POOR = """
 echo 0 > /proc/sys/user/max_user_namespaces
 echo 0 > /proc/sys/user/max_net_namespaces
@@ -99,7 +99,7 @@ def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:
 def test_a_certificate_is_for_the_name_that_students_type(tmp_path: Path) -> None:
     """The certificate contains the machine's name as a subjectAltName.
 
-    Students type this name in the address if a hub listens on all addresses.
+    If a hub listens on 0.0.0.0, students use this name in its URL.
     """
     assert reached_at("127.0.0.1") == "127.0.0.1"
     assert reached_at("0.0.0.0") == socket.getfqdn()  # noqa: S104 -- no server listens here

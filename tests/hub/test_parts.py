@@ -71,7 +71,7 @@ def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
 
 
 def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
-    """The text for the teacher says which mechanism limits the servers."""
+    """Without control groups, describe() returns a text about rlimits, and rlimits limit the memory."""
     assert limits.group_of_hub(tmp_path) is None
     assert "rlimits" in limits.describe(LIMITS, None, own_account=True)
     program = "from tests.hub.test_parts import *; limits.set_rlimits(LIMITS, True); bytearray(400 << 20)"

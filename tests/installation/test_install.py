@@ -104,7 +104,7 @@ def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
 def test_a_full_disk_leaves_the_current_version(
     prefix: Prefix, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """The installer removes the new version, and `course` still starts the old version."""
+    """If the disk is full, the installer removes the new version, and `course` still starts the old one."""
     edition = tmp_path / "edition"
     edition.mkdir()
     for name in ("package.xml", "course"):

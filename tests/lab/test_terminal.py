@@ -81,7 +81,8 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             request = Request(f"http://{parts.netloc}/api/terminals", data=b"", headers=headers)
             urlopen(request, timeout=20).close()  # noqa: S310
             shells = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
-            terminal = Terminal(min(shells))  # While the shell starts, it has child processes with this name.
+            # A shell that starts has child processes with the same command line, but with higher ids.
+            terminal = Terminal(min(shells))
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
             assert rosout  # If a test starts another node /rosout, the master's own /rosout exits.
             try:

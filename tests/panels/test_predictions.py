@@ -26,7 +26,7 @@ CHOICES = ("an empty reply", "an error", "it waits for ever")
 
 @pytest.fixture
 def store(tmp_path: Path) -> PredictionStore:
-    """Return a store in a folder that does not exist."""
+    """Return an empty store of predictions; its folder does not exist yet."""
     return PredictionStore(tmp_path / "state" / "predictions.json")
 
 
@@ -166,7 +166,7 @@ def test_the_widgets_show_what_is_stored(store: PredictionStore) -> None:
 
 @pytest.fixture
 def choice_store(tmp_path: Path) -> ChoiceStore:
-    """Return a store of choices in a folder that does not exist."""
+    """Return an empty store of choices; its folder does not exist yet."""
     return ChoiceStore(tmp_path / "state" / "choices.json")
 
 

@@ -15,7 +15,7 @@ from course_pkg.setup.lock import LEFT_OUT, UV
 ROOT = Path(__file__).parents[2]
 DEPENDENCIES = "\ndependencies = ["
 PIN = re.compile(r"^([a-z0-9-]+)==([^ ;]+)(?: ; (.*?))?(?: \\)?$", re.MULTILINE)
-OLDEST = "< '3.11'"  # This marker is for libraries whose next version does not support Python 3.10.
+OLDEST = "< '3.11'"  # The marker of a library whose newer versions do not support Python 3.10.
 
 
 def pinned(extra: str) -> set[tuple[str, str]]:

@@ -92,7 +92,7 @@ def test_python_keeps_types_of_one_name_apart() -> None:
 
 
 def test_python_of_unbuilt_parts_runs(packages: Path) -> None:
-    """For types that are not built, the Python code creates the types from their definitions, and it runs."""
+    """For types that are not built, the generated code runs; it creates the types from their definitions."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     value = {"crate": {"parts": [{"size": 2.0, "label": "nut"}]}}

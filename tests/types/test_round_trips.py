@@ -18,7 +18,7 @@ from tests.types.random_values import service, values
 
 TYPES = 30
 VALUES = 5
-SEEDS = range(4)  # The tests use 120 types, and 5 values for each request and response.
+SEEDS = range(4)  # Each seed gives 30 types, with 5 values for each request and response.
 
 
 def drawn(seed: int) -> Iterator[tuple[ServiceType, random.Random]]:
@@ -88,7 +88,7 @@ def test_the_python_lines_make_the_same_request(seed: int) -> None:
 
 
 def request_of(lines: str) -> genpy.Message:
-    """Run the Python code without its last line, and return the request in the last line."""
+    """Run the Python code without its last line, and return the request that the last line would send."""
     *before, last = ast.parse(lines).body
     assert isinstance(last, ast.Assign)
     assert isinstance(last.value, ast.Call)

@@ -72,7 +72,7 @@ def test_a_flag_with_a_harmful_line(tmp_path: Path) -> None:
 
 
 def test_the_record_keeps_flags(tmp_path: Path) -> None:
-    """A stored record contains its flags, and a record without flags is valid."""
+    """The flags of a grade are stored in its record; a record without the field "flags" can also be read."""
     flag = Flag("copies", "05.2", WORDS, 1, "x = 1", ("s02", "s03"))
     _write(tmp_path, flag)
     assert read_grades(tmp_path)[0].flags == (flag,)
@@ -100,7 +100,7 @@ def test_the_option() -> None:
 
 
 def test_the_grade_of_an_earlier_run_keeps_its_flags() -> None:
-    """If a grade has no new submission, its flags do not change."""
+    """If the student has not submitted again, the flags of the earlier grade do not change."""
     flag = Flag("files", "05.1", WORDS)
     grade = replace(class_of(1)[0], flags=(flag,))
     assert with_flags([grade], [], ["files"]) == [grade]

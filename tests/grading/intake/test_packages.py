@@ -80,7 +80,7 @@ def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
 
 
 def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
-    """If no part needs the name in package.xml, the folder's name is used."""
+    """If no part needs a package with the name in package.xml, the folder's name is used as package name."""
     manifest = my_geometry()["package.xml"].decode().replace("<name>my_geometry<", "<name>my_geometri<")
     write_package(tmp_path, "s01/my_geometry", my_geometry({"package.xml": manifest}))
     found = _only(tmp_path)

@@ -130,7 +130,7 @@ def test_a_shared_graph_is_in_the_machines_network() -> None:
 def test_a_command_in_a_graph_stays_in_it(graph: Graph) -> None:
     """`course run` inside `course run bash` uses the same network and master.
 
-    With --new-graph, it uses a new network and master.
+    With --new-graph, the inner command uses a new network and master.
     """
     script = f"{SHOW}; ./course run sh -c '{SHOW}'; ./course run --new-graph sh -c '{SHOW}'"
     seen = course_run("sh", "-c", script).stdout.split()

@@ -52,7 +52,10 @@ class Wall:
 
 
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
-    """For each number in `messages`, return this count of the messages on /chatter."""
+    """Return an Activity for each number in `messages`, which is the message count of /chatter.
+
+    The Activities are `every` s apart.
+    """
     return [
         Activity(turn * every, (Traffic("/chatter", "/talker", "/listener", 7, count),))
         for turn, count in enumerate(messages)
@@ -229,7 +232,7 @@ def test_a_type_that_is_not_here(kind: str) -> None:
 
 
 def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
-    """A saved picture contains all colours, and no buttons."""
+    """A saved picture contains its style sheet, the rates and the text of the graph, but no buttons."""
     wall = Wall()
     for activity in counts(100, 120, 140):
         wall.model.count(activity)
@@ -306,7 +309,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The displayed rate has the fewest digits for which its error is at most `doubt`."""
+    """The displayed rate differs by at most `doubt` from `rate`, and has as few digits as possible."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 

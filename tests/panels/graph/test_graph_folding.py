@@ -211,7 +211,7 @@ def test_the_list_contains_folded_shapes() -> None:
 
 @pytest.mark.parametrize("noise", [False, True])
 def test_loggers_of_a_node_are_a_namespace(noise: bool) -> None:
-    """If the loggers are shown, the two logger services of each node are a namespace."""
+    """If the logger services are shown, the two logger services of each node form a namespace."""
     loggers = {f"/sim/{name}": "/sim" for name in ("get_loggers", "set_logger_level")}
     shown = picture(graph(("/sim", "/pose", "/watch"), services=loggers), noise=noise)
     assert list(namespaces(shown)) == ["/sim/"] * noise

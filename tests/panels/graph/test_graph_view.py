@@ -58,7 +58,7 @@ def test_the_repr_is_stable(panel: GraphPanel) -> None:
 
 
 def test_a_rate_appears_while_a_page_shows_the_panel(panel: GraphPanel, kernel: Kernel) -> None:
-    """Only a visible panel asks the nodes for their message counts, and then shows the rate of a topic."""
+    """A visible panel reads the message counts and shows a topic's rate; a hidden panel reads no counts."""
     kernel.run("from course_pkg.ros import join\nnode = join('listener')")
     kernel.run("node.subscribe('/pulse', 'std_msgs/UInt32')")
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])

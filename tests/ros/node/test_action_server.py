@@ -1,4 +1,4 @@
-"""Tests of action servers whose cell runs again, and of stop()."""
+"""Tests of action servers: their cell runs again, and stop() removes them."""
 
 from __future__ import annotations
 

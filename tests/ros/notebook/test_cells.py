@@ -1,4 +1,4 @@
-"""Tests of cells with plain rospy that run again."""
+"""Tests that run cells with plain rospy again."""
 
 from __future__ import annotations
 

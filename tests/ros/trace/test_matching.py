@@ -60,7 +60,7 @@ def call(number: int, start: float, end: float) -> list[SpanData]:
 
 
 def test_same_connection_and_number_is_the_same_call() -> None:
-    """A handler belongs to the call with the same connection and the same number."""
+    """A handler belongs to the call with the same connection and the same call number."""
     assert keys(events(call(1, 1, 3), [span("handler", 2, 2.5)])) == [
         ("request", "call 1"),
         ("wait", "call 1"),
@@ -70,7 +70,7 @@ def test_same_connection_and_number_is_the_same_call() -> None:
 
 
 def test_another_number_is_another_call() -> None:
-    """A handler with another number belongs to another call."""
+    """A handler with another call number belongs to another call."""
     found = events(call(1, 1, 3), [span("handler", 2, 2.5, transfers=[(TRANSFER[0], 2, "/n0")])])
     assert ("handler", "call 2") in keys(found)
 

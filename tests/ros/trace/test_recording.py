@@ -242,7 +242,7 @@ def test_a_server_that_died(asker: Kernel) -> None:
             called("/dying", Trigger)
     """,
     )
-    # The test does not check the reason, because the reason depends on the order in which the sockets close.
+    # The recorded reason depends on the order in which the sockets close, so the test does not check it.
     assert [*recording.unrecorded] == ["/dying_server"]
     assert kinds(recording, "call 1") == ["lookup", "connect", "request", "wait", "error"]
 
