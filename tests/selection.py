@@ -87,7 +87,7 @@ class SelectionPlugin:
     def pytest_collection_modifyitems(self, config: pytest.Config, items: list[pytest.Item]) -> None:
         """Deselect the slow tests. With `--slow`, deselect all other tests.
 
-        With `--changed`, also deselect unchanged groups.
+        With `--changed`, deselect also the tests of unchanged groups.
         """
         named = any("::" in word for word in config.args)
         left = {
@@ -157,9 +157,9 @@ def digest_of(group: str) -> str:
 
 
 def _packages_below(folder: str) -> list[str]:
-    """Return the packages on which a folder of tests depends.
+    """Return the packages on which the folder tests/`folder` depends.
 
-    The result contains the packages in the import layer of the package `folder`, and in all lower layers.
+    These are the packages in the import layer of course_pkg/`folder`, and in all lower layers.
 
     If no package has the name of the folder, return all packages.
     """

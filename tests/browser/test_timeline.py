@@ -75,7 +75,7 @@ def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
 
 
 def click(page: Page, timeline: Locator, time: float, lane: int) -> None:
-    """Click in the row of the node with the index `lane`, at `time` in s."""
+    """Click at the time `time` (in s) in the row of the node with the index `lane`."""
     x, y = spot(timeline, time, lane)
     drawing(timeline).click(position={"x": x, "y": y})
 

@@ -45,7 +45,7 @@ def test_the_goals_of_each_part_have_its_points() -> None:
 def test_a_mark_counts_after_a_failure_and_a_separate_goal_does_not() -> None:
     """If a check stops early, only goals in `marked` without a failed assertion count.
 
-    If a check runs completely, other goals without a failed assertion count too.
+    If a check runs completely, all goals without a failed assertion count.
     """
     results = Results()
     results.marked.add("first")

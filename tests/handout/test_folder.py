@@ -161,7 +161,7 @@ def test_paths_and_chapters() -> None:
 def test_the_link_for_nbgitpuller() -> None:
     """The link for nbgitpuller contains the repository, the branch and the notebook.
 
-    The format is described in nbgitpuller's documentation.
+    nbgitpuller's documentation describes the format of such a link.
     """
     link = urlsplit(pull_link(HUB, REPOSITORY, "main", "notebooks/05_write_a_server.ipynb"))
     assert (link.netloc, link.path) == ("hub.example.edu", "/hub/user-redirect/git-pull")
@@ -184,7 +184,7 @@ def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository:
 def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
     """The record in the folder lists the released chapters.
 
-    If a folder has neither this record nor solutions, the error message says that the solutions are needed.
+    If a folder has neither a record nor solutions, the error message says that the solutions are needed.
     """
     assert released_chapters(tmp_path) is None
     with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get this folder"):

@@ -110,7 +110,7 @@ def test_the_proxy_is_pinned() -> None:
 def test_the_files_for_containers_can_be_read() -> None:
     """The files for Kubernetes and Docker contain a memory limit and start JupyterLab.
 
-    The test does not start a container.
+    This test only reads the files, and starts no container.
     """
     deploy = Path(__file__).parents[2] / "deploy"
     values = yaml.safe_load((deploy / "kubernetes" / "values.yaml").read_text())

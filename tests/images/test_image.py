@@ -1,12 +1,12 @@
 """Tests of the container image.
 
-They build the image without an existing base image, and run the quick tests of the suite in a container of
-the new image.
+The tests build the image without an existing base image, and run the quick tests of the suite in a container
+of the new image.
 
 mmdebstrap creates the base, and buildah runs the Dockerfile in a chroot, so the test needs no registry.
 
-The files need 4 GB in a temporary folder, which is removed at the end. COURSE_IMAGE_FOLDER selects the parent
-folder of this temporary folder.
+The image and its container need 4 GB in a temporary folder, which is removed at the end. The variable
+COURSE_IMAGE_FOLDER selects the parent folder of this temporary folder.
 """
 
 from __future__ import annotations

@@ -58,9 +58,9 @@ def test_an_upgrade_keeps_a_version_that_is_in_use(prefix: Prefix) -> None:
 
 
 def test_an_uninstall_removes_what_the_installation_made(prefix: Prefix) -> None:
-    """Even without --bin, the uninstall finds and removes the links.
+    """Even without --bin, uninstall() finds and removes the links.
 
-    It does not remove files of other programs.
+    uninstall() does not remove files of other programs.
     """
     (prefix.bin / "other").touch()
     assert uninstall(prefix.path, force=False) == 0

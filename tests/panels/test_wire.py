@@ -218,7 +218,7 @@ def test_a_header_is_fields_with_their_lengths() -> None:
 def test_the_steps_of_a_call() -> None:
     """A call has these steps: connection, two headers, request, response, and end of the connection.
 
-    The times are in ms since the first step.
+    The time of each step is in ms since the first step.
     """
     wire = Wire(
         "/x",

@@ -73,7 +73,7 @@ def test_conda_gets_the_same_libraries() -> None:
 
 @pytest.mark.parametrize("name", LEFT_OUT)
 def test_excluded_libraries_are_in_no_lock(name: str) -> None:
-    """No lock file contains an excluded library, but a comment lists the excluded libraries."""
+    """No lock file pins an excluded library, but a comment in each lock file names it."""
     for extra in ("course", "test"):
         assert name not in {pin for pin, _ in pinned(extra)}
         assert name in lock_file(extra).read_text().split("anyio==")[0]

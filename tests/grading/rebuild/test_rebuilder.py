@@ -71,7 +71,7 @@ def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
 
 
 def _rebuilt(content: bytes) -> Rebuilt:
-    """Rebuild a submission, and assert the rules that apply to every submission."""
+    """Rebuild a submission, and assert what must be true for every rebuilt submission."""
     before = copy.deepcopy(REFERENCE)
     made = rebuild(REFERENCE, content)
     assert before == REFERENCE

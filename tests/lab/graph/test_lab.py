@@ -1,6 +1,6 @@
 """Tests of a running `course lab`.
 
-The kernels and terminals of `course lab` are in a private network, and its server is outside this network.
+The kernels and terminals are in a private network, but JupyterLab's server is outside this network.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ SLEEP = "import time; print('begun', flush=True); time.sleep(1000)"
 
 
 def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
-    """Only the page's port is outside the network.
+    """Outside the private network, only the port of JupyterLab's page is open.
 
     A kernel, a terminal and `course run` use the same master at port 11311.
 

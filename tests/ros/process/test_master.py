@@ -66,7 +66,7 @@ def test_the_master_of_ros_master_uri_is_used(master: PrivateMaster) -> None:
 def test_stopped_master_is_silent(master: PrivateMaster) -> None:
     """A request to a master that is suspended with SIGSTOP raises MasterSilent.
 
-    After SIGCONT, requests work again.
+    After SIGCONT, the master responds again.
     """
     client = MasterClient(master.uri, timeout=0.3)
     client.pid()

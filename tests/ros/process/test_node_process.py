@@ -232,7 +232,7 @@ def test_close_ends_everything_of_a_private_graph() -> None:
 def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateMaster) -> None:
     """If a program is unknown, the error of run() contains similar names.
 
-    If a program exits too early, the error contains its output.
+    If a program exits immediately, the error of run() contains the program's output.
     """
     started = time.monotonic()
     with PrivateGraph() as graph:
