@@ -13,9 +13,9 @@ from dataclasses import dataclass
 class Shows:
     """The symptom of a fault.
 
-    The client's output must contain `said`, and the server's output must contain `server`. If `hangs` is true,
-    the client waits forever. The explanation from `explain` must contain `cause`; if `cause` is "", there is
-    no explanation.
+    The client's output must contain `said`, and the server's output must contain `server`. If `hangs` is
+    true, the client waits forever. The explanation from `explain` must contain `cause`; if `cause` is "",
+    there is no explanation.
     """
 
     fault: str

@@ -199,7 +199,7 @@ def one_call(context: CheckContext) -> None:
 
 
 def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path: Path) -> None:
-    """If an answer uses too much memory during its check, the result says so.
+    """If an answer uses too much memory during its check, the result contains an error about the memory.
 
     The result does not contain an error about a lost master.
     """

@@ -71,8 +71,8 @@ def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
 def test_a_scan_finds_nothing_but_the_page(served: Service, tmp_path: Path) -> None:
     """A scan from outside the lab's network finds no master, node, service or socket.
 
-    No scan calls or replaces the service. A scan from inside the network finds a master, a node, a service and
-    a socket.
+    No scan calls or replaces the service. A scan from inside the network finds a master, a node, a service
+    and a socket.
     """
     name = f"hidden_{secrets.token_hex(4)}"
     messages = Messages(served)
