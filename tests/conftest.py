@@ -25,7 +25,7 @@ def pytest_configure() -> None:
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-# The same hook of pytest-xdist reads the groups, so this function must run before that hook.
+# pytest-xdist has a hook of the same name, which reads the groups, so this function must run first.
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put tests into groups. pytest-xdist runs each group on one worker.

@@ -87,7 +87,7 @@ class SelectionPlugin:
     def pytest_collection_modifyitems(self, config: pytest.Config, items: list[pytest.Item]) -> None:
         """Deselect the slow tests. With `--slow`, deselect all other tests.
 
-        With `--changed`, deselect also the tests of unchanged groups.
+        With `--changed`, also deselect the tests of unchanged groups.
         """
         named = any("::" in word for word in config.args)
         left = {

@@ -267,7 +267,7 @@ def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
 
 
 def test_failed_assertion_without_a_hint_is_counted(tmp_path: Path) -> None:
-    """The page also lists failed assertions without a hint."""
+    """The class page lists a failed assertion even if it has no hint."""
     failed = report("05.1", Verdict.FAILED)
     plain = replace(failed, assertions=tuple(replace(rule, hint="") for rule in failed.assertions))
     write_reports([Grade("s01", "05", (plain,))], tmp_path)

@@ -1,7 +1,7 @@
 """Tests of all steps from a platform's submissions to the file that the platform imports.
 
-Sources: Moodle's importgradeslib.php and locallib.php, Canvas's gradebook_importer.rb, and the
-specification of Gradescope's autograder.
+The tests imitate Moodle's importgradeslib.php and locallib.php, and Canvas's gradebook_importer.rb. They also
+follow the specification of Gradescope's autograder.
 """
 
 from __future__ import annotations

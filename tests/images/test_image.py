@@ -156,7 +156,7 @@ def test_the_course_works_without_namespaces(image: Image) -> None:
 
 
 def test_the_course_works_with_namespaces(image: Image) -> None:
-    """The same tests pass with namespaces, and the sandbox checks answers of two chapters."""
+    """In a container with namespaces, the quick tests pass, and the sandbox checks answers."""
     image.run_with_namespaces("unshare -Urn true")
     assert "passed" in image.run_with_namespaces(f"{PYTEST} {QUICK} {STARTED}")
     assert "passed" in image.run_with_namespaces(f"{PYTEST} {ANSWERS}")

@@ -145,7 +145,7 @@ def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
 
 
 def test_roscore_starts_a_new_master_after_the_lab_master_has_ended(terminal: Terminal) -> None:
-    """If the master of the lab is killed, roscore starts a new master at the same address, with /rosout."""
+    """If the master of the lab is killed, roscore starts a new master and /rosout at the same address."""
     master = "python3 -c 'from course_pkg.ros import *; print(MasterClient(master_uri()).pid())'"
     former = int(terminal.run(master))
     os.kill(former, signal.SIGKILL)

@@ -212,7 +212,7 @@ def test_choices_cannot_change_while_the_reasons_are_shown(choices_model: Choice
 
 
 def test_the_first_time_counts(choices_model: ChoicesModel) -> None:
-    """If the student chooses again after again(), the stored first choices do not change."""
+    """If the student makes new choices after again(), the stored first choices do not change."""
     decide(choices_model, "a topic", "a topic", "a service")
     assert choices_model.compare().fit == 1
     assert choices_model.again().shown is False

@@ -207,7 +207,7 @@ def test_in_plain_sentences() -> None:
 
 
 def test_messages_without_a_subscriber() -> None:
-    """The description says whether a message had no subscriber."""
+    """If no node received a message, the description says whether a subscriber was connected."""
     (sent,) = message(1, 1.0)
     assert timeline_text(recording(sent)).endswith("no recorded node received it.")
     lost = replace(sent, note="no subscriber was connected")

@@ -93,7 +93,7 @@ def values(pieces: list[PieceState]) -> dict[str, str]:
 
 
 def covered(pieces: list[PieceState]) -> list[tuple[int, int]]:
-    """Return the offset and the size of each field, but not of headings that combine several fields."""
+    """Return the offset and the size of each field; headings of groups are omitted."""
     return [(piece["at"], piece["size"]) for piece in pieces if piece["role"] != "group"]
 
 

@@ -169,7 +169,7 @@ def test_only_the_parts_own_folders_are_writable(worker: SandboxWorker) -> None:
 
 
 def test_only_a_private_network_exists(worker: SandboxWorker) -> None:
-    """A submission cannot connect to servers of this machine or of the network."""
+    """A submission cannot connect to servers on this machine or on other machines."""
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
         words = told(

@@ -50,7 +50,7 @@ def hints_of(chapter: str) -> list[Hint]:
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
-    """Return the hints that no header in `answers` contains, not even in part."""
+    """Return the hints for which no header of an answer contains a part of the hint."""
     shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
     return [hint for hint in hints if hint.pieces not in shown]
 

@@ -84,13 +84,13 @@ def found() -> dict[str, set[str]]:
 
 @pytest.mark.parametrize(("line", "kind"), LINES)
 def test_a_line_and_its_kind(found: dict[str, set[str]], line: str, kind: str) -> None:
-    """The line leads to a flag of the expected kind."""
+    """Each tested line leads to a flag of the expected kind."""
     assert kind in found[line]
 
 
 @pytest.mark.parametrize("line", ORDINARY)
 def test_an_ordinary_line(found: dict[str, set[str]], line: str) -> None:
-    """An ordinary line leads to no flag."""
+    """A line of ordinary code leads to no flag."""
     assert found[line] == set()
 
 

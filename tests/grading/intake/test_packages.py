@@ -98,7 +98,7 @@ def test_package_that_no_part_needs(tmp_path: Path) -> None:
 
 
 def test_newest_of_two_packages_with_one_name_is_used(tmp_path: Path) -> None:
-    """Of two packages with the same name, the newest package is used, and the submission gets a note."""
+    """If two packages have the same name, the newer package is used, and the submission gets a note."""
     write_package(tmp_path, "s01/a", my_geometry())
     for path in write_package(tmp_path, "s01/b", my_geometry()).rglob("*"):
         os.utime(path, (1, 1))

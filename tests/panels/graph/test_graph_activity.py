@@ -54,7 +54,7 @@ class Wall:
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
     """Return an Activity for each number in `messages`, which is the message count of /chatter.
 
-    The Activities are `every` s apart.
+    The times of two consecutive Activity objects differ by `every` s.
     """
     return [
         Activity(turn * every, (Traffic("/chatter", "/talker", "/listener", 7, count),))
@@ -183,7 +183,7 @@ def test_a_killed_caller_is_gone() -> None:
 
 
 def test_a_server_that_does_not_report_callers_is_left_out() -> None:
-    """If a server does not report its callers, the list of callers does not contain its service."""
+    """If a server does not report its callers, the server's service is not in the list of callers."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers={"/robot/tell": ()}))
     assert set(wall.now["callers"]) == {"service /robot/tell"}

@@ -94,7 +94,7 @@ def test_a_folded_namespace_is_one_box_with_all_lines() -> None:
 
 
 def test_lines_inside_a_box_are_not_drawn() -> None:
-    """A folded box has no line to itself."""
+    """If a line connects two elements of the same folded namespace, the line is not drawn."""
     shown = folded(picture(NESTED), {"/robot/": True})
     assert names(shown) == {"/screen", "/robot/"}
     assert set(shown.lines) == {

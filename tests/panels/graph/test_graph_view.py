@@ -118,7 +118,7 @@ def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
 def test_a_node_that_is_late_once_is_not_lost(
     panel: GraphPanel, pulse: NodeProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The panel reports a node as silent only if the node fails to respond two times."""
+    """The panel reports a node as silent only after two requests without a response."""
     seen = panel._model.snapshot
     assert seen is not None
     late = Snapshot(seen.master, tuple(replace(each, reach="silent") for each in seen.nodes), (), ())

@@ -1,4 +1,4 @@
-"""Tests of action servers: their cell runs again, and stop() removes them."""
+"""Tests of action servers: what happens if a cell runs again, and after stop()."""
 
 from __future__ import annotations
 

@@ -147,7 +147,7 @@ def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
 
 
 def test_running_again_replaces(kernel: Kernel) -> None:
-    """A second run() with the same node name ends the first process; a run with another name does not."""
+    """run() ends an earlier process with the same node name, but not a process with another node name."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")

@@ -271,7 +271,10 @@ def test_a_latched_message_is_kept_for_its_subscriber(reports: Reports) -> None:
 
 
 def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master: PrivateMaster) -> None:
-    """A new queue size replaces the publisher, and the command `withdraw` unregisters it."""
+    """If the queue size changes, a new publisher replaces the old one.
+
+    The command `withdraw` unregisters the publisher.
+    """
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)

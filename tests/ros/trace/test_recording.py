@@ -150,7 +150,7 @@ def test_a_service_that_does_not_exist(asker: Kernel) -> None:
 
 
 def test_a_caller_that_gave_up(asker: Kernel) -> None:
-    """After a timeout, the caller's wait ends with an error, and the handler has no end."""
+    """After a timeout, the caller's wait ends with an error, and the handler's event has no end time."""
     recording = recorded(
         asker,
         """
