@@ -111,7 +111,7 @@ def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
-    """If a file of the package is removed or loses a permission, the key of the grade changes."""
+    """If a file of the package is removed or loses a permission, the grade is stored with another key."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     keys = set()
     for change in (lambda: None, lambda: (package / SERVER).chmod(0o644), (package / "README.md").unlink):
