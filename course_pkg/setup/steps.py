@@ -158,5 +158,7 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
 
 def _explained(error: OSError, places: Places) -> SetupError:
     if error.errno == errno.ENOSPC:
-        return SetupError(f"The disk of {places.cache} is full. Delete other files, and start again.")
+        return SetupError(
+            f"The disk of {places.cache} is full. Delete files that you do not need, and start again."
+        )
     return SetupError(f"The set-up stopped: {error}. Correct the cause, and start again.")

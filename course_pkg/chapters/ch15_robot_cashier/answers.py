@@ -72,7 +72,7 @@ replace("        seen.publish(customer)", "        seen.publish(customer)\n     
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None", "    if len(frame.data) != frame.height * frame.step:\n        rospy.signal_shutdown('malformed')\n        return None")
 # %% 15.1 wrong: bytes are missing | hint: Bytes are missing in this frame
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None\n", "")
-# %% 15.1 wrong: too many bytes | hint: This frame has more bytes than height * step, so it is malformed
+# %% 15.1 wrong: too many bytes | hint: This frame has more bytes than height * step, so it is not valid
 replace("len(frame.data) != frame", "len(frame.data) < frame")
 # %% 15.1 wrong: any encoding | hint: The encoding of this frame is not mono8
 replace('frame.encoding != "mono8" or ', "")

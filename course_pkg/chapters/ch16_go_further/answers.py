@@ -82,7 +82,7 @@ replace("\n        self.server.start()", "")
 replace("Server(name", 'Server("/my_fetch"')
 # %% 16.1 wrong: succeeds although it was cancelled | hint: The client cancelled the goal, so SUCCEEDED is the wrong state
 replace("set_preempted", "set_succeeded")
-# %% 16.1 wrong: aborts a cancelled goal | hint: set_aborted means that the robot failed
+# %% 16.1 wrong: aborts a cancelled goal | hint: the function called set_aborted, which means that the robot failed
 replace("set_preempted", "set_aborted")
 # %% 16.1 wrong: no feedback | hint: No feedback arrived
 replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "")
