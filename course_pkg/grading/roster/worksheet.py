@@ -224,7 +224,7 @@ def _columns(file: str, head: Sequence[str]) -> dict[str, int]:
             f"{file} is not a grading worksheet of Moodle: the first line does not contain "
             f"{' and '.join(missing)}. In Moodle's assignment, choose Download grading worksheet. "
             "The column names can be English, German, French or Spanish. If your Moodle uses "
-            "another language, set Moodle to English. Then download the worksheet again, and leave Moodle in English until you "
-            "have uploaded the grades."
+            "another language, set Moodle to English. Then download the worksheet again, and leave Moodle "
+            "in English until you have uploaded the grades."
         )
     return found

@@ -391,7 +391,8 @@ LEFT = (
     goals={
         EMPTIED: 3,
         (
-            "If a line is being printed, wait until it is printed. Reset the till even if there is no printer."
+            "If a line is being printed, wait until it is printed. "
+            "Reset the till even if there is no printer."
         ): 1,
     },
 )
