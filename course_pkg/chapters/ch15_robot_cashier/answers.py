@@ -722,7 +722,7 @@ replace('        if not prices:\n            return True, "already empty"\n', ""
 replace("if not prices:", "if not sum(prices.values()):")
 # %% 15.9 wrong: keeps the items | hint: The till still has items after a reset
 replace("        prices.clear()\n", "")
-# %% 15.9 wrong: a sum before the lock | hint: and the sum has to contain this item, but
+# %% 15.9 wrong: a sum before the lock | hint: but the sum does not contain this item
 replace("handle_reset(request):", """handle_reset(request):
     if not prices:
         return True, "already empty"

@@ -251,7 +251,7 @@ replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True and 
 replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or speed <= 0:", """if isinstance(speed, str):
         return default
     if not isinstance(speed, list) and speed <= 0:""")
-# %% 16.3 wrong: no whole numbers | hint: The value was the int 2
+# %% 16.3 wrong: no whole numbers | hint: The function did not return the int 2
 replace("(int, float)", "float")
 # %% 16.3 wrong: a fixed default | hint: The parameter is not set
 replace(", default)\n", ", 1.0)\n")
