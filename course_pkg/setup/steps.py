@@ -61,9 +61,7 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
     except OSError as error:
         raise _explained(error, places) from error
     except KeyboardInterrupt:
-        progress.note(
-            "The set-up was interrupted. The next start continues with the steps that are not done."
-        )
+        progress.note("The set-up was interrupted. The next set-up continues with the unfinished steps.")
         raise
 
 

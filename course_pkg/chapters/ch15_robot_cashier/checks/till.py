@@ -376,8 +376,8 @@ TOO_EARLY = (
     "handlers of till/set and till/reset."
 )
 LEFT = (
-    "The printer was printing the line of an item during the reset, and this item was in the till "
-    "after the reset. Hold one lock while you print the line and store the price."
+    "The reset came while the printer was printing an item, and this item was in the till after the "
+    "reset. Hold one lock while you print the line and store the price."
 )
 
 

@@ -113,7 +113,7 @@ NO_PAUSE = (
 LONG_PAUSE = "After a failed call, the next call came too late. Wait only 0.5 s."
 HUNG_UP = (
     "The node made a second call before it got the first response. Wait for each response, even if "
-    "this takes `patience` seconds."
+    "this takes several seconds."
 )
 NOT_GREETED = (
     'A customer came, but the node sent no greeting. Publish on the topic "greetings" when `found` is True.'
