@@ -6,12 +6,30 @@ import os
 import signal
 import subprocess
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TypeVar
 
+import pytest
+from _pytest.mark import ParameterSet
+
 Result = TypeVar("Result")
+
+
+def usual(count: int, cases: Mapping[str, object]) -> list[ParameterSet]:
+    """Return the parameters of a test; the cases after the first `count` cases are slow tests.
+
+    A key of `cases` is the id of a test. A value is the test's parameter, or a tuple of parameters.
+    """
+    return [
+        pytest.param(
+            *(case if isinstance(case, tuple) else (case,)),
+            id=name,
+            marks=[] if number < count else [pytest.mark.slow],
+        )
+        for number, (name, case) in enumerate(cases.items())
+    ]
 
 
 def eventually(condition: Callable[[], Result], timeout: float = 10.0, interval: float = 0.01) -> Result:

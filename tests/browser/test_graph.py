@@ -24,6 +24,7 @@ from course_pkg.ros import (
 )
 from tests.browser.jupyter import Lab, running_notebook
 from tests.browser.pages import FAINT, panel, picture, save
+from tests.support import usual
 
 FRAMES = "async (count) => { while (count--) await new Promise(requestAnimationFrame) }"
 NODES, TOPICS = 20, 40
@@ -86,7 +87,7 @@ def shape(graph: Locator, key: str) -> Locator:
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1280, 560])
+@pytest.mark.parametrize("width", usual(1, {"560": 560, "1280": 1280}))
 def test_a_large_graph_can_be_read(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str, width: int
 ) -> None:
@@ -150,7 +151,7 @@ def seek(graph: Locator, seconds: float) -> None:
     graph.get_by_label("Moment of the recording").fill(str(round(1000 * seconds)))
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("theme", usual(1, {"light": "light", "dark": "dark"}))
 def test_a_recording_of_the_graph_is_played_without_a_kernel(
     widget: GraphPanel, page: Page, tmp_path: Path, theme: str
 ) -> None:

@@ -24,7 +24,7 @@ from course_pkg.srv import (
 
 from course_pkg.ros import BoundedProxy, MasterClient, NodeProcess, PrivateMaster
 from tests.kernel import Kernel
-from tests.support import eventually, program
+from tests.support import eventually, program, usual
 
 pytestmark = pytest.mark.usefixtures("master")
 
@@ -124,14 +124,14 @@ def test_all_waiting_calls_return_the_customer() -> None:
         assert {answer.result(20).number for answer in answers} == {first}
 
 
-@pytest.mark.parametrize("patience", [-1.0, math.nan, math.inf, 61.0])
 @pytest.mark.usefixtures("detector")
-def test_impossible_patience_is_refused_with_the_range(patience: float) -> None:
+def test_impossible_patience_is_refused_with_the_range() -> None:
     """For an impossible patience, the error message contains the allowed range."""
     words = "cannot process request: patience: a wait of .* s is not possible; expected seconds, from 0 to 60"
-    with pytest.raises(rospy.ServiceException, match=words):
-        detect(patience=patience)
-    assert not detect().detected
+    for patience in (-1.0, math.nan, math.inf, 61.0):
+        with pytest.raises(rospy.ServiceException, match=words):
+            detect(patience=patience)
+        assert not detect().detected
 
 
 @pytest.mark.usefixtures("detector")
@@ -211,9 +211,15 @@ def test_each_customer_is_published_once(master: PrivateMaster, kernel: Kernel) 
     assert kernel.run("result = heard.count") == 4
 
 
-@pytest.mark.parametrize(
-    "settings", [["_design:=poll", "_rate:=20"], ["_design:=topic"], ["_design:=wait", "_patience:=0.5"], []]
-)
+SETTINGS = {
+    "poll": ["_design:=poll", "_rate:=20"],
+    "topic": ["_design:=topic"],
+    "wait": ["_design:=wait", "_patience:=0.5"],
+    "default": [],
+}
+
+
+@pytest.mark.parametrize("settings", usual(3, SETTINGS))
 @pytest.mark.usefixtures("detector")
 def test_cashier_greets_each_customer_once(settings: list[str]) -> None:
     """Each version of the cashier greets the customers once and in the right order."""

@@ -94,12 +94,12 @@ def test_on_off_returns_the_state(on_off: NodeProcess, number: str, state: str) 
     assert terminal("rosservice", "call", "/on_off", number).stdout == f'state: "{state}"\n'
 
 
-@pytest.mark.parametrize("number", ["2", "-1", "2147483647"])
-def test_on_off_refuses_other_numbers(on_off: NodeProcess, number: str) -> None:
+def test_on_off_refuses_other_numbers(on_off: NodeProcess) -> None:
     """The error message contains the wrong number and the allowed numbers."""
-    done = terminal("rosservice", "call", "/on_off", "--", number)
-    assert done.returncode == 2
-    assert f"cannot process request: {number} is neither 0 (OFF) nor 1 (ON)" in done.stderr
+    for number in ("2", "-1", "2147483647"):
+        done = terminal("rosservice", "call", "/on_off", "--", number)
+        assert done.returncode == 2
+        assert f"cannot process request: {number} is neither 0 (OFF) nor 1 (ON)" in done.stderr
     assert "Traceback" not in on_off.output()
     assert terminal("rosservice", "call", "/on_off", "1").returncode == 0
 

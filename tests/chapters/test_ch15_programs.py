@@ -101,11 +101,11 @@ def test_a_call_ends_when_its_patience_is_over() -> None:
 
 
 @pytest.mark.usefixtures("detector")
-@pytest.mark.parametrize("patience", [-0.1, 60.1, float("nan"), float("inf")])
-def test_impossible_patience_is_refused(patience: float) -> None:
+def test_impossible_patience_is_refused() -> None:
     """For an impossible patience, the error message contains the word "patience"."""
-    with pytest.raises(rospy.ServiceException, match="cannot process request: patience"):
-        detect(patience)
+    for patience in (-0.1, 60.1, float("nan"), float("inf")):
+        with pytest.raises(rospy.ServiceException, match="cannot process request: patience"):
+            detect(patience)
 
 
 @pytest.mark.usefixtures("detector")

@@ -72,33 +72,31 @@ def test_reply_to_a_call_contains_the_response(
     }
 
 
-@pytest.mark.parametrize(
-    ("service", "args", "words"),
-    [
-        ("/getGeometry", {"length": -1.0}, "cannot process request: length is -1"),
-        ("/getGeometry", {"hieght": 1.0}, "No field name"),
-        ("/getGeometry", [1.0], "Not enough arguments"),
-        ("/getGeometry", "a text", "must be an object"),
-        ("/getGeometry", 5, "must be an object"),
-        ("/getGeometry", {"length": "long"}, "length"),
-        ("/nobody", {}, "not available"),
-    ],
-)
-def test_failed_call_gets_its_error_message(
-    line: websocket.WebSocket, geometry: NodeProcess, service: str, args: object, words: str
-) -> None:
+FAILED_CALLS: list[tuple[str, JSON, str]] = [
+    ("/getGeometry", {"length": -1.0}, "cannot process request: length is -1"),
+    ("/getGeometry", {"hieght": 1.0}, "No field name"),
+    ("/getGeometry", [1.0], "Not enough arguments"),
+    ("/getGeometry", "a text", "must be an object"),
+    ("/getGeometry", 5, "must be an object"),
+    ("/getGeometry", {"length": "long"}, "length"),
+    ("/nobody", {}, "not available"),
+]
+
+
+def test_failed_call_gets_its_error_message(line: websocket.WebSocket, geometry: NodeProcess) -> None:
     """The reply contains the result false and the error message."""
-    answer = said(line, call(service, args))
-    assert answer["result"] is False
-    assert words in answer["values"]
-    assert said(line, call("/getGeometry", SIDES))["result"] is True
+    for service, args, words in FAILED_CALLS:
+        answer = said(line, call(service, args))
+        assert answer["result"] is False
+        assert words in answer["values"]
+        assert said(line, call("/getGeometry", SIDES))["result"] is True
 
 
-@pytest.mark.parametrize("message", ["no JSON", "[]", "7", {"op": "publish"}, {"op": "call_service"}])
-def test_message_that_is_not_a_call_gets_a_status(line: websocket.WebSocket, message: object) -> None:
+def test_message_that_is_not_a_call_gets_a_status(line: websocket.WebSocket) -> None:
     """The bridge replies to any other message with a status of the level "error"."""
-    answer = said(line, message)
-    assert (answer["op"], answer["level"]) == ("status", "error")
+    for message in ("no JSON", "[]", "7", {"op": "publish"}, {"op": "call_service"}):
+        answer = said(line, message)
+        assert (answer["op"], answer["level"]) == ("status", "error")
 
 
 def test_nested_message_becomes_an_object(line: websocket.WebSocket) -> None:

@@ -13,6 +13,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser.pages import Colours, page_at, picture
 from tests.class_view.classes import NASTY, TEACHER, result, send, serving, tokens_in
 from tests.site.test_pages import AXE, violations
+from tests.support import usual
 
 PARTS = ("05.1", "05.2", "05.3", "05.4")
 HINTS = ("That is width + length. An area is a product.", f"Return a response. {NASTY}")
@@ -70,7 +71,7 @@ def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
         assert words == []
 
 
-@pytest.mark.parametrize("colours", ["light", "dark"])
+@pytest.mark.parametrize("colours", usual(1, {"light": "light", "dark": "dark"}))
 def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colours: Colours) -> None:
     """axe-core finds no problem, no script in a result runs, and nothing overflows.
 

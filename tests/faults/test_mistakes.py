@@ -4,19 +4,29 @@ from __future__ import annotations
 
 import subprocess
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from _pytest.mark import ParameterSet
 
 from course_pkg.faults import caused, names
 from course_pkg.ros import MasterClient, PrivateMaster, explain
 from tests.faults.mistakes import COUNTS, ROWS, Builds, Shows
 from tests.faults.surroundings import Surroundings
-from tests.support import eventually
+from tests.support import eventually, usual
 from tests.workspace.packages import GOOD, build, shell, spoilt, write
 
 SHOWN = [each for row in ROWS for each in row.shown if isinstance(each, Shows)]
 BUILT = [each for row in ROWS for each in row.shown if isinstance(each, Builds)]
+
+
+def _params() -> Iterator[ParameterSet]:
+    """Yield all faults; the faults after the first four faults of a section are slow tests."""
+    for section in COUNTS:
+        rows = [row for row in ROWS if row.section == section]
+        shown = [each for row in rows for each in row.shown if isinstance(each, Shows)]
+        yield from usual(4, {each.fault: each for each in shown})
 
 
 def test_the_table_is_complete() -> None:
@@ -35,7 +45,7 @@ def test_each_fault_prints_something_or_hangs() -> None:
     assert all(each.said or each.server or each.hangs for each in SHOWN)
 
 
-@pytest.mark.parametrize("shows", SHOWN, ids=lambda shows: shows.fault)
+@pytest.mark.parametrize("shows", list(_params()))
 def test_a_fault_is_caused_seen_explained_and_undone(master: PrivateMaster, shows: Shows) -> None:
     """Each fault has the symptom in the table, and `explain` explains the symptom."""
     assert master.uri
@@ -103,7 +113,7 @@ def printed(built: Builds, workspace: Path, tmp_path: Path) -> str:
     return build(tmp_path)[1]
 
 
-@pytest.mark.parametrize("built", BUILT, ids=lambda built: built.slip)
+@pytest.mark.parametrize("built", usual(4, {each.slip: each for each in BUILT}))
 def test_a_mistake_in_a_build_is_explained(built: Builds, workspace: Path, tmp_path: Path) -> None:
     """The command's output contains the expected text, and `explain` explains the output."""
     text = printed(built, workspace, tmp_path)

@@ -92,7 +92,7 @@ def test_second_run_uses_the_stored_grades(submissions: Path, undisturbed: Path)
     assert points(undisturbed) == before
 
 
-@pytest.mark.parametrize("after", [1.5, 4.0])
+@pytest.mark.parametrize("after", [1.5, pytest.param(4.0, marks=pytest.mark.slow)])
 def test_a_run_that_was_killed_goes_on(
     submissions: Path, undisturbed: Path, tmp_path: Path, after: float
 ) -> None:

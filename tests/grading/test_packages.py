@@ -20,6 +20,7 @@ from course_pkg.sandbox.job import PartJob, PartResult, work_file
 from course_pkg.sandbox.worker_client import SandboxWorker
 from tests.grading.packages import NO_SERVER, SERVER, my_geometry, work_files, write_package
 from tests.grading.submitted import hand_in
+from tests.support import usual
 
 # These parts examine the package my_geometry.
 MINE = ("07.1", "07.2", "07.3", "07.4", "07.5", "07.6", "07.7")
@@ -128,6 +129,7 @@ def test_a_path_that_leads_out_is_not_written(tmp_path: Path, path: str) -> None
     assert os.listdir(tmp_path) == []
 
 
+@pytest.mark.slow
 @pytest.mark.timeout(300)
 def test_the_solution_as_a_package_earns_full_marks(
     tmp_path: Path, seven: Plan, worker: SandboxWorker
@@ -210,7 +212,7 @@ def counter(context: CheckContext) -> None:
 
 
 @pytest.mark.timeout(300)
-@pytest.mark.parametrize(("calls", "earned"), [("++calls", 3), ("calls", 0)])
+@pytest.mark.parametrize(("calls", "earned"), usual(1, {"++calls": ("++calls", 3), "calls": ("calls", 0)}))
 def test_a_program_in_cpp(tmp_path: Path, sandbox: None, calls: str, earned: int) -> None:
     """A C++ program is compiled and run in the sandbox."""
     (tmp_path / "private_07.py").write_text(PRIVATE)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal
@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from course_pkg.site.scripts import fronts
 from tests.browser.pages import picture
+from tests.support import usual
 
 AXE = Path(__file__).with_name("axe.min.js").read_text("utf-8")
 # These rules are added to axe-core's default rules.
@@ -22,17 +23,9 @@ OPTIONS = {"rules": RULES, "preload": False}
 CONTRAST = "color-contrast"
 WIDTHS = (1200, 390)
 COLOURS: tuple[Literal["light", "dark"], ...] = ("light", "dark")
-# Every test run checks the pages with this window width and theme. A test run checks the other widths and
-# themes only if the pages have changed.
-ALWAYS = (1200, "light")
-SWEEPS = [
-    pytest.param(width, colours, marks=() if (width, colours) == ALWAYS else pytest.mark.when_changed)
-    for width in WIDTHS
-    for colours in COLOURS
-]
 PAGE = "00_panels.html"
-# In the narrow window with the dark theme, the test checks only these pages.
-ENOUGH = ("index.html", "glossary.html", PAGE)
+# Every test run checks these pages. A run checks the other pages only if the pages have changed.
+ENOUGH = ("index.html", "glossary.html", "05_write_a_server.html", PAGE)
 
 
 @contextmanager
@@ -69,7 +62,7 @@ def open_page(page: Page, site: Path, name: str) -> None:
     expect(page.locator("[data-panel]:empty")).to_have_count(0)
 
 
-@pytest.mark.parametrize("way", ["folder", "server"])
+@pytest.mark.parametrize("way", usual(1, {"folder": "folder", "server": "server"}))
 def test_every_page_is_whole_without_a_network(
     browser: Browser, course: Path, panels: Path, served: dict[Path, str], way: str
 ) -> None:
@@ -82,8 +75,15 @@ def test_every_page_is_whole_without_a_network(
                 assert page.evaluate("document.documentElement.scrollWidth") <= 390, name
 
 
+def test_axe_finds_no_problem_on_some_pages(browser: Browser, course: Path, panels: Path) -> None:
+    """In a wide window with the light theme, axe-core finds no problem on some pages."""
+    assert problems(browser, [course, panels], WIDTHS[0], "light", ENOUGH) == {}
+
+
+@pytest.mark.when_changed
 @pytest.mark.timeout(360)  # This test needs much CPU time, and the machine may be busy.
-@pytest.mark.parametrize(("width", "colours"), SWEEPS)
+@pytest.mark.parametrize("colours", COLOURS)
+@pytest.mark.parametrize("width", WIDTHS)
 def test_axe_finds_no_problem(
     browser: Browser, course: Path, panels: Path, width: int, colours: Literal["light", "dark"]
 ) -> None:
@@ -91,11 +91,23 @@ def test_axe_finds_no_problem(
 
     `tests.bench.site axe` checks every rule with every width and theme.
     """
+    names = ENOUGH if (width, colours) == (390, "dark") else [*pages(course), *pages(panels)]
+    assert problems(browser, [course, panels], width, colours, names) == {}
+
+
+def problems(
+    browser: Browser,
+    sites: Iterable[Path],
+    width: int,
+    colours: Literal["light", "dark"],
+    names: Container[str],
+) -> dict[str, list[str]]:
+    """Return the problems that axe-core finds on the pages in `names`, with and without the search dialog."""
     found, options = {}, options_for(width, colours)
     with reader(browser, width, colours) as page:
-        for site in (course, panels):
+        for site in sites:
             for name in pages(site):
-                if (width, colours) == (390, "dark") and name not in ENOUGH:
+                if name not in names:
                     continue
                 open_page(page, site, name)
                 page.evaluate(AXE)
@@ -104,7 +116,7 @@ def test_axe_finds_no_problem(
                 # While the search dialog is open, axe-core checks only the dialog.
                 found[f"{name}, searching"] = violations(page, options, "dialog")
         picture(page, f"site-search-{width}-{colours}")
-    assert {name: what for name, what in found.items() if what} == {}
+    return {name: what for name, what in found.items() if what}
 
 
 def options_for(width: int, colours: str) -> dict[str, Any]:

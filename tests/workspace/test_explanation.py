@@ -13,6 +13,7 @@ import pytest
 
 from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.fault import dependencies, locate, manifest_tags
+from tests.support import usual
 from tests.workspace.packages import BOX, GOOD, LISTS, MANIFEST, build, shell, spoilt, write
 
 LIST_FILE = "my_services/CMakeLists.txt"
@@ -212,7 +213,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("workspace-with-a-long-name")
 
 
-@pytest.mark.parametrize(("files", "place", "words"), SLIPS.values(), ids=SLIPS)
+@pytest.mark.parametrize(("files", "place", "words"), usual(10, SLIPS))
 def test_mistake_in_a_package_is_explained(
     workspace: Path, files: dict[str, str], place: str, words: str
 ) -> None:
@@ -225,16 +226,15 @@ def test_mistake_in_a_package_is_explained(
     assert words in str(fault)
 
 
-@pytest.mark.parametrize(
-    "files",
-    [
-        GOOD,
-        {name: text.replace("\n", "\r\n") for name, text in GOOD.items()},
-        {**GOOD, C: "\ufeff" + LISTS},
-        {**GOOD, C: LISTS.replace("cmake_minimum_required(VERSION 3.10)\n", "")},
-    ],
-    ids=["good", "Windows line ends", "a byte order mark", "no minimum"],
-)
+CORRECT: dict[str, dict[str, str]] = {
+    "good": GOOD,
+    "Windows line ends": {name: text.replace("\n", "\r\n") for name, text in GOOD.items()},
+    "a byte order mark": {**GOOD, C: "\ufeff" + LISTS},
+    "no minimum": {**GOOD, C: LISTS.replace("cmake_minimum_required(VERSION 3.10)\n", "")},
+}
+
+
+@pytest.mark.parametrize("files", usual(1, CORRECT))
 def test_successful_build_has_no_fault(workspace: Path, files: dict[str, str]) -> None:
     """explain() finds no fault in the output of a successful build."""
     write(workspace, files)
@@ -274,7 +274,7 @@ SAID = {
 }
 
 
-@pytest.mark.parametrize(("line", "sourced", "words"), SAID.values(), ids=SAID)
+@pytest.mark.parametrize(("line", "sourced", "words"), usual(5, SAID))
 def test_messages_of_other_tools_are_explained(workspace: Path, line: str, sourced: bool, words: str) -> None:
     """A wrong import, a missing shebang or a wrong command is explained."""
     scripts = {"plain": 'print("hello")\n', "shell": 'print("hello")\n'}
