@@ -61,7 +61,7 @@ class Answers:
         return text[:LONGEST_CODE]
 
     def lacking(self, part: Part) -> list[str]:
-        """Return a sentence for each package in which files for `part` are missing."""
+        """Return a sentence for each submitted package that lacks a file that `part` needs."""
         named = {each.name for each in self.packages}
         return [
             f"The package {name} in this submission has no {' and no '.join(paths)}."
@@ -141,7 +141,7 @@ def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Repor
 
 
 def _run(job: PartJob, run: Run) -> PartResult:
-    """Run a part. Run the part again if there was no verdict, unless the answer took very long."""
+    """Run a part. If there was no verdict, run the part again, but not after an answer that ran very long."""
     for _ in range(TRIES):
         try:
             result = run(job)
@@ -173,7 +173,7 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
     if report.verdict is Verdict.PASSED:
         return report
     if report.verdict is Verdict.UNDECIDED:
-        # An answer can cause this verdict, so the part counts as failed.
+        # The part counts as failed, because an answer can prevent the check from finishing.
         note = f"No points, because the check could not finish: {report.note}"
         return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]

@@ -1,7 +1,7 @@
 """Grades many submissions in parallel, in threads of this machine or in workers of a dask cluster.
 
-Threads and clusters use the same code: a `Task` (plain data) is submitted to an object with the interface of
-concurrent.futures.Executor, and the result is a grade as plain data.
+Threads and clusters use the same code, because both have the interface of concurrent.futures.Executor. A task
+and its result consist of plain data, which can be sent to another machine.
 """
 
 from __future__ import annotations

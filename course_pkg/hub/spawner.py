@@ -64,7 +64,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
             limits.end_group(self._group)
 
     def make_preexec_fn(self, name: str) -> Callable[[], None]:
-        """Return the function in which the new process sets its limits, and then changes to the account."""
+        """Return a function that sets the limits of the new process and changes to the student's account."""
         become = _work_in(self.home) if self.homes else super().make_preexec_fn(name)
         group, chosen, own_account = self._group, self._limits(), not self.homes
 

@@ -27,7 +27,7 @@ def install(path: Path | None, bin_folder: Path | None) -> int:
     """Install this course in the prefix `path`, make it the current version, and return 0.
 
     Versions that no process uses are removed, except the previous version. Raises SetupError if the
-    installation fails; then the current version has not changed.
+    installation fails; in this case, the current version does not change.
     """
     source = Places.of()
     if source.conda:
@@ -94,7 +94,8 @@ def _make(version: Path, edition: Path) -> None:
 def _compile(places: Places) -> None:
     """Compile all modules.
 
-    Users cannot store compiled files in the installation, so Python would compile the modules at each start.
+    Users cannot write to the installation. Without compiled files, Python would compile the modules at each
+    start.
     """
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
     # Some libraries contain files for a different version of Python, which this version cannot compile.

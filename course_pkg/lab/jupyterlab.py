@@ -30,8 +30,8 @@ from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
 
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ports, and 0 means any free port
-# The server has to start within this time in s. Usually it needs 2 s, but much longer with an empty disk
-# cache.
+# The server has to start within this time in s. The server usually needs 2 s. If its files are not in the
+# disk cache, it needs much longer.
 READY = 60.0
 LOOK = 0.01  # This is the time in s between two checks whether the server answers.
 KEPT_LINES = 12  # number of lines of the server's log in an error message

@@ -1,4 +1,4 @@
-"""The notebook that `course lab` opens: its path, and the workspace of JupyterLab that shows it."""
+"""The notebook that `course lab` opens: its path, and a workspace of JupyterLab with this notebook."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ class _Token:
 def cpp_statements(source: str) -> list[Statement]:
     """Return the statements of a C++ program.
 
-    A statement is a line that begins with #, or code that ends with a semicolon or before a brace.
+    A line that begins with # is a statement. A semicolon or a brace ends any other statement.
     """
     every = list(_tokens(source))
     directives = {token.line for token in every if token.text.lstrip().startswith("#")}

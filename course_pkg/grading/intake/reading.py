@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from course_pkg.errors import GradingError
 from course_pkg.types.fields import Plain
 
-# A file may contain at most this many lists and objects; reading 20 MiB of short lists would need half a GB
-# of memory.
+# A file may contain at most this many lists and objects. Without this limit, a file of 20 MiB with short
+# lists would need half a GB of memory.
 BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {

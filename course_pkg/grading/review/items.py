@@ -128,9 +128,11 @@ def _handed_out(chapter: str) -> dict[str, str]:
 
 
 def _flags_by_part(grade: Grade) -> dict[str, list[Flag]]:
-    """Return the flags of each part: flags about its answer or about a file of its answer.
+    """Return the flags of each part.
 
-    The first part gets the flags about other files.
+    A flag belongs to a part if it is about the part's cell or about one of the part's files.
+
+    A flag that belongs to no part is added to the first part.
     """
     found: dict[str, list[Flag]] = {}
     checks = [report.check for report in grade.reports]

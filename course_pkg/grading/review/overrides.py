@@ -226,7 +226,7 @@ def _name(cell: str) -> str:
 
 
 def _protected(text: str) -> str:
-    """Return a cell that a spreadsheet does not read as a formula; `_plain` reverses the change."""
+    """Add a quote before a text that a spreadsheet would read as a formula; `_plain` removes the quote."""
     return f"'{text}" if text.lstrip("'").startswith(tuple(clean.FORMULA)) else text
 
 

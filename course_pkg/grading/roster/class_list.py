@@ -187,7 +187,7 @@ def origins_of(handed_in: Iterable[Submission | Grade]) -> dict[str, list[str]]:
 
 
 def _platform(origins: Origins, source: Path | None, nameless: str) -> dict[str, Person]:
-    """Return the data about students that platforms write into the names of files and folders.
+    """Return the data about each student in file names, folder names and metadata of a platform.
 
     `nameless` is the word that Moodle writes instead of a name if submissions are anonymous.
     """

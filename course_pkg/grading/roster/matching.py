@@ -88,7 +88,7 @@ def _keys(person: Person) -> Iterator[tuple[str, str]]:
 
 
 def orders(name: str) -> set[str]:
-    """Return the letters of a name, once for each order of first and last names that platforms use.
+    """Return the letters of a name in each order of first and last names that a platform can use.
 
     For Jane Maria Doe, Canvas writes "doejanemaria", and a spreadsheet can contain "Doe, Jane Maria".
     """
@@ -97,7 +97,10 @@ def orders(name: str) -> set[str]:
 
 
 def _agree(one: str, other: str) -> bool:
-    """Return whether two names can belong to one student; Moodle may write a group's name before a name."""
+    """Return whether two names can belong to one student.
+
+    Moodle may write the name of a group before a student's name, so `one` only has to end with `other`.
+    """
     return not one or not other or any(folded(one).endswith(order) for order in orders(other))
 
 

@@ -82,7 +82,8 @@ class Graph:
             # The holder continues to run for other commands, so this process does not wait for it.
             self._holder.returncode = 0
         if not received.endswith(LAST) and (left := _connected(self._path)):
-            # The holder still runs. If it had been killed, _connected() would have removed its socket.
+            # The holder still runs. If the holder has been killed, _connected() removes its socket and
+            # returns None.
             left.close()
         for file in self.files:
             os.close(file)
@@ -93,8 +94,8 @@ class Graph:
 def graph_of_this_command(which: Which) -> Iterator[Graph | None]:
     """Run the `with` block on a graph; ROS_MASTER_URI contains the address of its master.
 
-    If ROS_MASTER_URI is set and `which` is RUNNING, the block gets None, and uses the master at this address
-    in the network of this process. Raises GraphError if the graph cannot be started.
+    If `which` is RUNNING and ROS_MASTER_URI is already set, no graph is used: the block gets None, and
+    ROS_MASTER_URI does not change. Raises GraphError if the graph cannot be started.
     """
     if os.environ.get("ROS_MASTER_URI") and which is Which.RUNNING:
         yield None

@@ -5,8 +5,8 @@ usage: holder.py LISTENER SOCKET KIND
 LISTENER is the descriptor of a listening Unix socket, SOCKET is its path, and KIND is "private" or "shared".
 `graph.py` runs this file as a script. Each command that uses the graph has a connection to the socket, until
 the command leaves the graph or ends, even by SIGKILL. When the last connection is closed, the holder ends the
-graph. The holder does not have to check process ids: the operating system closes the connections of a process
-that has ended, and it refuses new connections to a holder that has ended.
+graph. The holder does not have to check process ids, because the operating system closes the connections of a
+process that has ended. If the holder has ended, the operating system refuses new connections to its socket.
 
 To each command, the holder sends a line of JSON together with the file descriptors of the namespaces. The
 holder sends a second line when the master answers, or when the master cannot be started. When a command

@@ -17,7 +17,8 @@ from typing import NoReturn
 from course_pkg.sandbox.linux import namespaces
 
 ENTER = "nsenter"  # a program of util-linux
-# The keys are the possible numbers of file descriptors, and the values are the kinds of their namespaces.
+# A graph has 0, 1 or 2 file descriptors. For each of these numbers, the value contains the kind of each
+# namespace.
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 
@@ -43,8 +44,8 @@ def enter(files: Sequence[int]) -> None:
     """Enter the namespaces with these file descriptors; the calling process must have only one thread."""
     for file, kind in zip(files, KINDS[len(files)], strict=True):
         namespaces.enter(file, kind)
-    # A change of the user namespace makes a process unreadable, but other programs of the course read
-    # /proc/PID.
+    # After a change of the user namespace, other processes of the user cannot read this process in /proc.
+    # Other programs of the course need to read /proc/PID.
     namespaces.be_readable()
 
 

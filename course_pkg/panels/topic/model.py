@@ -160,7 +160,10 @@ class TopicModel:
             self._changed(check=self._checked())
 
     def act(self, action: str, draft: Draft, settings: Settings) -> None:
-        """Publish once, in a burst, or at a rate; do nothing if the form has an error."""
+        """Publish the message in the form once, in a burst, or at a rate.
+
+        Do nothing if the form has an error.
+        """
         with self._turn:
             if not self._form or action not in ACTIONS:
                 return

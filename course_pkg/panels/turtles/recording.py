@@ -39,7 +39,10 @@ class RecordingState(TypedDict):
 
 @dataclass
 class _Track:
-    """One turtle: its pen, its last row, and its latest position, if the movement was too small for a row."""
+    """One turtle: its pen and its last row.
+
+    `skipped` is the latest position, if the turtle has moved too little for a new row.
+    """
 
     number: int
     pen: Pen

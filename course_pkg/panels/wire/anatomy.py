@@ -1,4 +1,4 @@
-"""Splits a stream of TCPROS bytes into frames, and a header, a request or a reply into pieces.
+"""Splits a stream of TCPROS bytes into frames (a header, requests or replies), and each frame into pieces.
 
 Sources: http://wiki.ros.org/ROS/TCPROS (the framing, the ok byte),
 http://wiki.ros.org/ROS/Connection%20Header (the fields), and http://wiki.ros.org/msg (the order of a
@@ -201,7 +201,8 @@ def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
             before = reader.at
             _field(reader, item, name)
             if reader.at == before:
-                # Elements without fields take no bytes, so a wrong count could cause a very long loop.
+                # An element without fields has no bytes. Without this line, a wrong number of elements in the
+                # data could cause a very long loop.
                 return
     else:
         reader.take(count * _format(item)[1], RAW, name)

@@ -91,7 +91,8 @@ def _of_text(text: str) -> Explanation | None:
 def _candidates(text: str) -> Iterator[str]:
     """Yield possible error messages.
 
-    Possible messages are the error lines of each traceback, the last traceback first, and the whole text.
+    Possible messages are the error lines of each traceback, from the last traceback to the first, and then
+    the whole text.
     """
     if _TRACEBACK in text:
         for part in reversed(text.split(_TRACEBACK)[1:]):

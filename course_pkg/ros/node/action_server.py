@@ -28,8 +28,8 @@ class ActionServer:
     `server` is an actionlib.SimpleActionServer: `execute` uses this object to send feedback and the result,
     and to check whether the goal was cancelled.
 
-    An ActionServer ends when stop() is called, or when no variable refers to it any more, for example because
-    its cell runs again.
+    An ActionServer ends when stop() is called, or when no variable refers to it any more. The second case
+    occurs, for example, when its cell runs again.
     """
 
     def __init__(self, name: str, kind: type, execute: Execute) -> None:

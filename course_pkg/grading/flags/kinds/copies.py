@@ -60,9 +60,9 @@ def blank_fingerprints(group: Group) -> dict[str, Fingerprint]:
 
 
 def _rarest_line(exercise: Exercise, answer: Answer, one: Fingerprint, other: Fingerprint) -> int:
-    """Of the statements that both answers contain, find the one that the fewest students have.
+    """Find the rarest statement that both answers contain.
 
-    Return its line number in `answer`, or 0 if the two answers have no statement in common.
+    Return the statement's line number in `answer`, or 0 if the two answers have no statement in common.
     """
     theirs = {form for form, _ in other.lines}
     shared = [
