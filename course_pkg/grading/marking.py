@@ -18,8 +18,8 @@ from course_pkg.grading.rebuild.rebuilder import Rebuilt
 from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
-# If a sandbox worker fails, the part is run again, up to this number of runs. An answer cannot cause this
-# failure.
+# A part is run at most this many times. It is run again if a sandbox worker fails, because an answer cannot
+# cause this failure.
 LONGEST_CODE = 20_000  # LONGEST_CODE is the maximum number of characters of a part's code in the feedback.
 TRIES = 2
 
@@ -84,8 +84,8 @@ def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: 
 def mark(submission: Submission, plan: Plan, run: Run, secret: str, key: str, *, sandboxed: bool) -> Grade:
     """Return the grade of one submission.
 
-    `secret` is the seed for the random inputs of the checks. Students do not know the seed, but each run of
-    `course grade` with the same results folder uses the same inputs.
+    `secret` is the seed for the random inputs of the checks. Students do not know this seed. Each run of
+    `course grade` with the same results folder uses the same seed.
     """
     grade = Grade(
         submission.student,

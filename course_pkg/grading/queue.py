@@ -103,7 +103,7 @@ def _result(future: Future[dict[str, Any]], cluster: Cluster | None) -> Grade:
 
 @contextmanager
 def pool_of(scheduler: str, jobs: int) -> Iterator[Pool]:
-    """Yield a pool of threads in this process, or the dask cluster at the address `scheduler`.
+    """Yield a pool of threads in this process, or of workers of the dask cluster at the address `scheduler`.
 
     `jobs` is the number of threads or workers to use; for a cluster, 0 means all workers.
     """

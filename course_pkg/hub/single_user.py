@@ -59,7 +59,8 @@ def pull(repository: str, folder: Path) -> None:
 
     If git fails, the server starts with the notebooks that are already in the folder.
     """
-    # The repository belongs to another user. git then requires this setting outside of the repository.
+    # The repository belongs to another user. In this case, git reads this setting only from a configuration
+    # file outside of the repository.
     environment = {**os.environ, "GIT_CONFIG_SYSTEM": str(Path(repository).parent / GIT_SETTINGS)}
     command = [sys.executable, "-m", "nbgitpuller.pull", f"file://{repository}", BRANCH, str(folder)]
     try:

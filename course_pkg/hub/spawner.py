@@ -46,7 +46,11 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
         return {**env, "USER": self.user.name, "HOME": str(self.home), "SHELL": "/bin/bash"}
 
     async def start(self) -> object:
-        """Start the server; if it cannot work, raise HubError with a message for the student's page."""
+        """Start the server.
+
+        Raises HubError, with a message for the student's page, if the server cannot use the home folder or
+        its limits.
+        """
         try:
             self._refuse()
             hub = limits.group_of_hub()

@@ -127,7 +127,7 @@ def renew_password(user: str, data: Path | None) -> int:
 
 
 def data_folder(places: Places, given: Path | None) -> Path:
-    """Return the folder of the hub's data. Students can read it, except for `private`.
+    """Return the folder of the hub's data. Students can read this folder, except its subfolder `private`.
 
     In a shared installation, this folder is next to the folders of the versions, so an upgrade does not
     delete it.

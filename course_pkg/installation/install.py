@@ -69,7 +69,8 @@ def _make(version: Path, edition: Path) -> None:
     """Build a version; it is complete when its record exists. After a failure, only the log remains."""
     places = Places(version / "course", version / BUILT)
     shutil.rmtree(version, ignore_errors=True)
-    # A hard link to uv's cache would let the owner of this cache change the installation.
+    # uv has to copy files. With hard links to uv's cache, the owner of this cache could change the
+    # installation.
     os.environ["UV_LINK_MODE"] = "copy"
     try:
         for name in edition_files(edition):
@@ -98,7 +99,8 @@ def _compile(places: Places) -> None:
     start.
     """
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
-    # Some libraries contain files for a different version of Python, which this version cannot compile.
+    # The exit status is ignored, because some libraries contain files that this version of Python cannot
+    # compile.
     subprocess.run([places.python, "-m", "compileall", "-qq", "-j", "0", *folders], check=False)
 
 

@@ -46,7 +46,7 @@ def run_command(command: Sequence[str], which: Which = Which.RUNNING) -> int:
 
 
 def _with_plugins(command: Sequence[str]) -> list[str]:
-    """Return `command` with the course's plug-ins of pytest, if it runs notebooks with nbval."""
+    """Return `command`; if it runs notebooks with nbval, add the course's pytest plug-ins."""
     given = list(command)
     runs_pytest = Path(given[0]).name in ("pytest", "py.test") or given[1:3] == ["-m", "pytest"]
     if not runs_pytest or not any(word.startswith("--nbval") for word in given):

@@ -38,9 +38,9 @@ class Fingerprint:
 
     statements: int
     code: frozenset[str] = field(default=frozenset())
-    # The set contains comments, strings, and names that the program defines.
+    # `words` contains the comments and strings of the program, and the names that the program defines.
     words: frozenset[str] = field(default=frozenset())
-    # Each tuple contains the normal form and the line number of a statement.
+    # `lines` contains, for each statement, its normal form and its line number.
     lines: tuple[tuple[str, int], ...] = ()
 
 

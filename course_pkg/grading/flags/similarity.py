@@ -31,7 +31,7 @@ from course_pkg.grading.flags.fingerprints import Fingerprint
 STATEMENTS = 10  # An answer with fewer statements is not compared.
 COMMON = 0.1  # Code is ignored if more than this fraction of the class has it.
 FEW = 3  # Even in a small class, code is compared if at most this many students have it.
-SMALL = 30  # The weights are computed for a class with at least this many students.
+SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
 # The pair is flagged because of one answer if at least this many features of the code are in both answers and

@@ -1,6 +1,6 @@
 """The submitted catkin packages.
 
-Each package is a folder next to the notebooks. SUBMISSIONS/<student>/<package>/package.xml.
+An example is SUBMISSIONS/<student>/<package>/package.xml.
 
 A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
 writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
@@ -170,7 +170,8 @@ def _made(
 ) -> Submission | None:
     """Return the submission `given` with the packages that the chapter needs.
 
-    Without a notebook, return a submission with only the packages, or None if there are none.
+    If there is no notebook, return a submission with only the packages, or None if there are no packages
+    either.
     """
     taken, notes = [], []
     for name in asked:

@@ -66,7 +66,7 @@ def read_cells(content: bytes) -> list[StudentCell]:
 def slimmed(cells: Sequence[StudentCell]) -> bytes:
     """Return a notebook with only the data for grading.
 
-    The outputs of all students' notebooks would fill the memory.
+    The result contains no outputs, because the outputs of all students' notebooks would fill the memory.
     """
     kept = [
         {

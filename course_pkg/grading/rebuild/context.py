@@ -20,7 +20,7 @@ LONGEST = 20_000
 # A cell with magics may have at most this many lines, because IPython's time grows with the square of the
 # number of lines.
 MAGICAL = 300
-# Names that are assigned inside these nodes are not names of the cell.
+# These nodes have a separate scope: names that are assigned in them are not names of the cell.
 SCOPES = (
     *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),
     *(ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),

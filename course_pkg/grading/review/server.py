@@ -90,7 +90,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Answers requests for any other address."""
+    """Answers requests for an address that does not exist."""
 
     def get(self) -> None:
         """Send 404."""

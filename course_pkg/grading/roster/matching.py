@@ -1,4 +1,4 @@
-"""Finds the row of a list that belongs to a student, from the data in a submission.
+"""Finds a student's row in a list, from the data in a submission.
 
 For each known field (a number, an address or a name), the rows with the same value are found. A field is
 ignored if no row has the same value. A row belongs to the student only if it is the only row that matches all
@@ -17,11 +17,11 @@ from course_pkg.grading.roster.people import IDENTITY, Person
 
 @dataclass(frozen=True)
 class Match:
-    """The row that belongs to a student. If several rows are possible, `problem` says why."""
+    """The result of a search for a student's row. If several rows are possible, `problem` says why."""
 
     person: Person | None = None
     problem: str = ""
-    # If several rows are possible, these are the numbers of their lines.
+    # The line numbers of the possible rows, if several rows are possible.
     possible: frozenset[int] = frozenset()
 
 

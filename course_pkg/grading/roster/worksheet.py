@@ -194,7 +194,7 @@ def read_worksheet(path: Path) -> Worksheet:
             f"The {WHAT} {path.name} is not in UTF-8, but Moodle writes this file in UTF-8. {AGAIN}"
         ) from error
     separator = delimiter_of(text)
-    # The byte order mark is still before the name of the first column.
+    # The name of the first column still begins with the byte order mark.
     found = list(records(text, separator))
     head = [clean.line(found[0].value(place)) for place in range(len(found[0].cells))] if found else []
     if found and text.startswith("\ufeff"):

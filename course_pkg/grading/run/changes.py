@@ -17,7 +17,7 @@ SHOWN = 40  # At most this many lines are printed; changes.csv contains all chan
 
 @dataclass(frozen=True)
 class Change:
-    """Points that differ from the last run; `part` is "total" if only the lateness has changed."""
+    """Points that have changed since the last run; `part` is "total" if only the lateness has changed."""
 
     student: str
     chapter: str

@@ -21,7 +21,7 @@ class Regrade:
 
     @property
     def again(self) -> bool:
-        """Whether the selected notebooks are graded again even if grades are stored."""
+        """Whether the selected notebooks are graded again even if their grades are already stored."""
         return self.fresh or self.selected.again
 
     def parts(self, submission: Submission) -> tuple[str, ...]:

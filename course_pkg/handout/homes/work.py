@@ -31,8 +31,7 @@ TRIES = 3  # If a file changes while it is read, this many attempts are made.
 class WorkFile:
     """A file of a student: a notebook, or a file of a package.
 
-    `package` is the name of the package's folder. `asked` is the name under which the parts require the
-    package.
+    `package` is the name of the package's folder. `asked` is the name that the parts use for the package.
     """
 
     path: str  # `path` is NN_topic.ipynb, or the path inside the package.

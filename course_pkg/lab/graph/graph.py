@@ -36,8 +36,8 @@ class Graph:
     """A graph that this command uses until leave() is called.
 
     `uri` is the address of the master. `files` are the file descriptors of the private network's namespaces.
-    If `files` is empty, the graph uses the network of this machine. In this case, `reason` says why; it is
-    empty if the user asked for the network of this machine. After wait_for_master(), `outgoing` is true if
+    If `files` is empty, the graph uses the network of this machine. In this case, `reason` is the reason, or
+    "" if the user asked for the network of this machine. After wait_for_master(), `outgoing` is true if
     programs in the private network can connect to other computers.
     """
 

@@ -34,8 +34,7 @@ def create() -> list[int]:
         try:
             return _create(namespaces.NETWORK)
         except OSError:
-            # In a container, root may not be allowed to create a network namespace alone, but may be allowed
-            # to create it together with a user namespace.
+            # In some containers, root can create a network namespace only together with a user namespace.
             pass
     return _create(namespaces.USER | namespaces.NETWORK)
 

@@ -30,7 +30,7 @@ class Check(TypedDict, total=False):
     refused: int
     shell: str  # The equivalent terminal commands for a service call.
     python: str
-    once: str  # The equivalent command publishes one message.
+    once: str  # The terminal command that publishes one message.
     often: str
 
 
@@ -55,7 +55,10 @@ class MessageForm:
         self._commands = commands
 
     def errors(self, draft: Draft) -> dict[str, str]:
-        """Return the error messages by field path, with at most one message for each top-level field."""
+        """Return the error messages; the keys are field paths.
+
+        Each top-level field has at most one message.
+        """
         wrong: dict[str, str] = {}
         given = {**self.blank, **draft}
         for name in self.blank:

@@ -108,7 +108,7 @@ class RateMeter:
 
 
 def plainest(rate: float, tolerance: float) -> float:
-    """Return the number with the fewest digits that differs from the rate by at most `tolerance`."""
+    """Round the rate to 1, 2 or 3 digits: the fewest digits with an error of at most `tolerance`."""
     if rate <= 0:
         return 0.0
     for digits in range(3):
@@ -160,7 +160,7 @@ class _Ends:
 
 
 class GraphActivity:
-    """Computes the activity that the page shows from repeated counts."""
+    """Computes the activity for the page from repeated counts of messages and calls."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None

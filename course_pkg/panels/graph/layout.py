@@ -86,9 +86,9 @@ class Layout:
 def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
     """Return the layout that graphviz computes for a picture.
 
-    The arrows point from left to right. If this layout is too wide for a page and a layout from top to bottom
-    is clearly easier to read, the arrows point from top to bottom. Raises DrawingFailed if graphviz is
-    missing, fails, or takes longer than `timeout` s.
+    The arrows point from left to right. If this layout is too wide for a page, the arrows may point from top
+    to bottom. The second layout is used only if its letters are at least 10 % larger. Raises DrawingFailed if
+    graphviz is missing, fails, or takes longer than `timeout` s.
     """
     if not picture.shapes:
         return Layout()

@@ -65,7 +65,7 @@ class Scene(TypedDict):
 
 
 def facts(picture: Picture, describe: Describe) -> list[Fact]:
-    """Return the details of each shape and of each namespace, as if no namespace were folded."""
+    """Return the details of each shape and of each namespace; shapes in folded namespaces are included."""
     spaces = [space(name, picture, members) for name, members in namespaces(picture).items()]
     known: dict[Pair, list[Pair]] = {}
     return [_entry(each, _fields(each, describe, known)) for each in (*picture.shapes, *spaces)]

@@ -180,9 +180,9 @@ def _ends(lines: Iterable[Line]) -> set[str]:
 def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
     """Return the picture with some namespaces as folded boxes, and with frames around all other namespaces.
 
-    `choices` maps a namespace to True if the reader folded it, or to False if the reader unfolded it. A
-    namespace that is not in `choices` is folded if the picture has more than `CROWD` shapes and at most half
-    of all shapes are in this namespace.
+    The keys of `choices` are namespaces; the value is True if the reader folded the namespace, and False if
+    the reader unfolded it. A namespace that is not in `choices` is folded if the picture has more than
+    `CROWD` shapes and at most half of all shapes are in this namespace.
     """
     spaces = namespaces(picture)
     crowded = len(picture.shapes) > CROWD

@@ -123,7 +123,10 @@ def _rate(report: PublisherReport) -> str:
 
 
 def mismatches(kind: MessageType, connections: Connections, own: str, find: FindType) -> list[str]:
-    """Return a sentence for each node with another type than `kind`. rospy does not report such an error."""
+    """Return a sentence for each node that uses another type than `kind`.
+
+    rospy does not report this error.
+    """
     sources = {source["node"]: source for source in connections.get("sources", ())}
     return [
         *_of_publishers(kind, connections.get("publishers", ()), sources, own, find),

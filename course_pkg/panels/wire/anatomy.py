@@ -192,7 +192,7 @@ def _array(reader: Reader, field: Field, name: str) -> None:
 
 
 def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
-    """Read `count` elements without listing them.
+    """Read `count` elements without a separate piece for each element.
 
     All numbers are read in one operation, because an image has millions of numbers.
     """

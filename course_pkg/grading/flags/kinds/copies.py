@@ -42,9 +42,11 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _teams(group: Group) -> list[list[Work]]:
-    """Return the students' works in groups: works from the same submitted file form one group.
+    """Return groups of works.
 
-    Any other work is a group with one element.
+    If a team has submitted one file, the works from this file form a group.
+
+    Any other work forms a group alone.
     """
     teams: dict[str, list[Work]] = {}
     for work in group.works:

@@ -56,6 +56,6 @@ def _identity(book: Book, student: str) -> list[str]:
     if person is None:
         return [clean.cell(name_of(student)), "", "", clean.cell(name_of(student)), ""]
     number = person.id if re.fullmatch(r"\d{1,19}", person.id) else ""
-    # An id that is not a number is not a Canvas user id, but an id of the student information system (SIS).
+    # A Canvas user id is a number. Any other id is an id of the student information system (SIS).
     further = [person.more.get(SIS, "" if number else person.id), person.username, person.section]
     return [clean.cell(person.name or name_of(student)), number, *map(clean.cell, further)]
