@@ -168,7 +168,7 @@ def _start(which: Which, folder: Path) -> Graph:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             pass_fds=[listener.fileno()],
-            start_new_session=True,  # Ctrl-C in this terminal does not end a graph that others use
+            start_new_session=True,  # Ctrl-C in this terminal does not end a graph that other commands use
         )
         connection.connect(name)
     if which is Which.ALONE:

@@ -21,7 +21,7 @@ Change = tuple[int, int, str] | tuple[int, int, str, int]
 Row = Place | Change
 
 MOST = 6000  # A recording has at most this many rows, which take about 150 kB in a saved page.
-STEP = (5, 5, 10)  # The units are mm, mm and mrad; a smaller movement adds no row.
+STEP = (5, 5, 10)  # A movement that is smaller than this (mm, mm, mrad) adds no row.
 BACKGROUND: Colour = (69, 86, 255)
 UP = -1
 
@@ -55,7 +55,7 @@ class _Track:
 class TurtleRecording:
     """The rows of a recording in the order of time, with at most MOST rows.
 
-    If there are more rows, every second position of each turtle is removed.
+    If this limit is exceeded, every second position of each turtle is removed.
 
     `edition` increases when earlier rows change.
     """

@@ -30,7 +30,7 @@ from course_pkg.types.fields import integer_range
 from course_pkg.types.numbers import float32
 
 ERROR = 400  # At most this many characters of an error message are shown.
-ITEMS = 8  # The first elements of an array, up to this number, are shown separately.
+ITEMS = 8  # At most this many elements, at the beginning of an array, are shown separately.
 # Format characters of `struct` for signed integers; capital letters are for unsigned integers.
 CODES = {1: "b", 2: "h", 4: "i", 8: "q"}
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
@@ -78,7 +78,10 @@ def _frames(stream: bytes, extra: int) -> Iterator[Frame]:
 
 
 def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
-    """Return the frame at `at`; its length field comes after `extra` bytes."""
+    """Return the frame that begins at the offset `at`.
+
+    The length field of the frame comes after `extra` bytes.
+    """
     if at >= len(stream):
         return None
     if at + extra + 4 > len(stream):
@@ -88,7 +91,7 @@ def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
 
 
 def header_pieces(data: bytes) -> Pieces:
-    """Return the pieces of a connection header: its length, and a length and name=value for each field."""
+    """Return the pieces of a connection header: its length, and the length and name=value of each field."""
     reader = Reader(data)
     try:
         reader.number(LENGTH, "length of the whole header")
