@@ -1,6 +1,4 @@
-"""The data of a timeline: the events, and the number of rows of each node.
-
-Each property of the events is a list of numbers.
+"""The data of a timeline: the events, with a list of numbers for each property, and the rows of each node.
 
 A saved page contains all these data, so their size is limited. If there are more than 4,000 events, all calls
 are included first, and then messages up to this limit. A note states how many events are left out.
@@ -150,8 +148,7 @@ class _Thread:
 def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
     """Return the row and the depth of each event.
 
-    The depth of an event is the number of events in the same thread that began earlier and had not ended when
-    this event began.
+    The depth is the number of earlier events in the same thread that had not ended when the event began.
 
     All events of a thread are in one row. Several threads can use the same row, one after another.
     """
@@ -160,7 +157,7 @@ def rows_of(events: Sequence[Event]) -> tuple[list[int], list[int]]:
     for number, event in enumerate(events):
         nodes[event.node][event.thread].take(number, event)
     for threads in nodes.values():
-        free: list[float] = []  # For each row, the list contains the end of the last thread in the row.
+        free: list[float] = []  # Each row is free from this time on.
         for thread in sorted(threads.values(), key=lambda each: each.start):
             row = next((row for row, end in enumerate(free) if end < thread.start), len(free))
             free[row : row + 1] = [thread.end]
@@ -182,10 +179,7 @@ def _end(event: Event) -> float:
 
 
 def arrows(events: Sequence[Event]) -> list[list[int]]:
-    """Return [from, to] for each request, response and message.
-
-    An arrow is left out if the recording does not contain both of its events.
-    """
+    """Return [from, to] for each request, response and message with both ends in the recording."""
     parts: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
     for number, event in enumerate(events):
         parts[event.key][event.kind].append(number)

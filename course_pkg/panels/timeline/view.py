@@ -35,7 +35,7 @@ class Timeline(Panel):
 
     @property
     def text(self) -> str:
-        """Sentences such as "/a called /b and waited for /c.". The sentences are the same in every run."""
+        """Sentences about which node waited for which node. The sentences are the same in every run."""
         return timeline_text(self._recording)
 
     def __repr__(self) -> str:

@@ -100,12 +100,10 @@ def _stream(node: str, topic: str, events: list[Event], receivers: dict[str, set
 
 
 def timeline_text(recording: Recording) -> str:
-    """Return a text with one sentence per line, such as "/a called /b and waited for /c.".
+    """Return one sentence per line about which node waited for which node, without times.
 
-    The sentences contain no times.
-
-    The lines about calls come before the lines about messages, and both groups are sorted. Therefore, equal
-    events result in the same text.
+    The lines about calls come before the lines about messages, and both groups are sorted. Therefore, the
+    text is the same in every run with the same events.
     """
     return "\n".join(sentences(waits_of(recording)))
 

@@ -20,8 +20,7 @@ HOME = 5.544444561  # The first turtle starts at this x and y (m).
 SLOW = 1.1
 BRISK = 3.0  # Up to this speed (m/s), the turtle is often above the line that it draws.
 STILL = 1e-4  # A turtle is at rest if it moves less than this (m) between two observations.
-# The colour is used only after this many successive observations in which the turtle was always at rest, or
-# always in motion.
+# The colour is used only after this many successive observations at rest, or this many in motion.
 SETTLED = 2
 
 

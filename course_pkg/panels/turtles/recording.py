@@ -21,7 +21,7 @@ Change = tuple[int, int, str] | tuple[int, int, str, int]
 Row = Place | Change
 
 MOST = 6000  # A recording has at most this many rows, which take about 150 kB in a saved page.
-STEP = (5, 5, 10)  # A movement that is smaller than this (mm, mm, mrad) adds no row.
+STEP = (5, 5, 10)  # The units are mm, mm and mrad; a smaller movement adds no row.
 BACKGROUND: Colour = (69, 86, 255)
 UP = -1
 
@@ -39,10 +39,7 @@ class RecordingState(TypedDict):
 
 @dataclass
 class _Track:
-    """One turtle: its pen and its last row.
-
-    `skipped` is the latest position, if the turtle has moved too little for a new row.
-    """
+    """One turtle: its pen, its last row, and its latest position, if the movement was too small for a row."""
 
     number: int
     pen: Pen
@@ -55,7 +52,7 @@ class _Track:
 class TurtleRecording:
     """The rows of a recording in the order of time, with at most MOST rows.
 
-    If this limit is exceeded, every second position of each turtle is removed.
+    If there are more rows, every second position of each turtle is removed.
 
     `edition` increases when earlier rows change.
     """

@@ -29,7 +29,7 @@ ALONE = 300.0  # The recording stops if no page has shown the panel for this tim
 
 
 class Page(Enum):
-    """The state of the panel on the page: not on the page, out of view, or visible."""
+    """Whether a page contains the panel, and whether the reader sees the panel."""
 
     NONE = "none"
     PAUSED = "paused"  # A page contains the panel, but the reader has scrolled the panel out of view.
