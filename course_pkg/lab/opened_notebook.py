@@ -37,9 +37,9 @@ def write_workspace(folder: Path, notebook: str) -> None:
 
     The workspace has one tab for `notebook`, and no tabs of an earlier start.
 
-    If JupyterLab restored earlier tabs, it would start a kernel for each of them before the page is usable.
-    The page's address could also contain the notebook and `?reset`, but JupyterLab reads the address 0.5 s
-    later than the workspace.
+    If JupyterLab restored earlier tabs, it would start a kernel for each of them before the page is usable. A
+    page address with the notebook and `?reset` would have the same effect, but JupyterLab reads the address
+    0.5 s later than the workspace.
     """
     tab = f"notebook:{notebook}"
     dock = {"type": "tab-area", "currentIndex": 0, "widgets": [tab]}

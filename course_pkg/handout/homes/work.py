@@ -22,7 +22,7 @@ NOTEBOOKS, SOURCES = "notebooks", "workspace/src"  # These paths are relative to
 DEPTH = 12  # Folders can be nested to this depth.
 ENTRIES = 5_000  # At most this many files and folders of a workspace are examined.
 # A later modification time (ns since 1970) is replaced by this time, the beginning of the year 2100. A file
-# can have any time, and some large numbers are not valid dates.
+# can have any modification time, but some large times are not valid dates.
 LATEST = 4_102_444_800 * 10**9
 TRIES = 3  # If a file changes while it is read, this many attempts are made.
 

@@ -1,9 +1,10 @@
 """A private network: Linux namespaces, which other processes can enter through file descriptors.
 
-Programs in a private network can connect only to each other. Their ports and abstract sockets do not exist
-for other users, or for other networks of the same user. root needs only a network namespace. Other users also
-need a user namespace. In this namespace, users keep their names and file permissions, but cannot become
-another user, so `sudo` does not work. See network_namespaces(7) and user_namespaces(7).
+Programs in a private network can connect only to each other. Other users, and other networks of the same
+user, cannot use the ports and abstract sockets of these programs. The user root needs only a network
+namespace. Other users also need a user namespace. In this namespace, users keep their names and file
+permissions, but cannot become another user, so `sudo` does not work. See network_namespaces(7) and
+user_namespaces(7).
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ class Kind(str, Enum):
     NODE = "node"
     TOPIC = "topic"
     SERVICE = "service"
-    SPACE = "namespace"  # The shape of a folded namespace.
+    SPACE = "namespace"  # This shape is a folded namespace.
 
 
 PLURALS = {Kind.NODE: "nodes", Kind.TOPIC: "topics", Kind.SERVICE: "services"}
