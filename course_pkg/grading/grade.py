@@ -117,7 +117,8 @@ class Grade:
     private: tuple[str, ...] = ()  # Students see the points of these parts, but not the reports.
     handed_in: str = ""  # `handed_in` is the digest of the submission.
     flags: tuple[Flag, ...] = ()  # Only the instructor sees the flags.
-    # `absent` is True if the grade is from an earlier run and this run has no submission for it.
+    # `absent` is True if the grade is from an earlier run, and this run has no submission of the student for
+    # the chapter.
     absent: bool = False
 
     @property
@@ -140,7 +141,7 @@ class Grade:
         return replace(self, reports=tuple(map(_unreviewed, self.reports)))
 
     def for_student(self) -> Grade:
-        """Return the grade without flags, and without the data about how a private part is examined."""
+        """Return the grade without flags, and without the goals, assertions and notes of private parts."""
         shown = (
             replace(report, goal="A further check.", assertions=(), goals=(), note="", printed="")
             if report.check in self.private

@@ -18,8 +18,8 @@ from course_pkg.grading.rebuild.rebuilder import Rebuilt
 from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
-# If a sandbox worker fails, the part is run again, up to this number of runs. An answer cannot cause this
-# failure.
+# A part is run at most this many times. It is run again if a sandbox worker fails, because an answer cannot
+# cause this failure.
 LONGEST_CODE = 20_000  # LONGEST_CODE is the maximum number of characters of a part's code in the feedback.
 TRIES = 2
 
@@ -61,7 +61,7 @@ class Answers:
         return text[:LONGEST_CODE]
 
     def lacking(self, part: Part) -> list[str]:
-        """Return a sentence for each package in which files for `part` are missing."""
+        """Return a sentence for each submitted package that lacks a file that `part` needs."""
         named = {each.name for each in self.packages}
         return [
             f"The package {name} in this submission has no {' and no '.join(paths)}."
@@ -84,8 +84,8 @@ def key_of(submission: Submission, extras: Extras, validate: str, *, sandboxed: 
 def mark(submission: Submission, plan: Plan, run: Run, secret: str, key: str, *, sandboxed: bool) -> Grade:
     """Return the grade of one submission.
 
-    `secret` is the seed for the random inputs of the checks. Students do not know the seed, but each run of
-    `course grade` with the same results folder uses the same inputs.
+    `secret` is the seed for the random inputs of the checks. Students do not know this seed. Each run of
+    `course grade` with the same results folder uses the same seed.
     """
     grade = Grade(
         submission.student,
@@ -141,7 +141,7 @@ def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Repor
 
 
 def _run(job: PartJob, run: Run) -> PartResult:
-    """Run a part. Run the part again if there was no verdict, unless the answer took very long."""
+    """Run a part. If there was no verdict, run the part again, but not after an answer that ran very long."""
     for _ in range(TRIES):
         try:
             result = run(job)
@@ -173,7 +173,7 @@ def _reported(planned: PartPlan, result: PartResult) -> Report:
     if report.verdict is Verdict.PASSED:
         return report
     if report.verdict is Verdict.UNDECIDED:
-        # An answer can cause this verdict, so the part counts as failed.
+        # The part counts as failed, because an answer can prevent the check from finishing.
         note = f"No points, because the check could not finish: {report.note}"
         return Report(part.check, Verdict.FAILED, part.goal, 0, part.points, note=note, inconclusive=True)
     errors = [each.get("error", "") for each in result.messages if each.get("cell", "").startswith("answer")]

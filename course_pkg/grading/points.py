@@ -43,7 +43,10 @@ class Worth:
 
 @dataclass(frozen=True)
 class PointsTable:
-    """The points of each part by its id: the instructor's points, or else the author's points."""
+    """The points of each part; the keys are the ids of the parts.
+
+    If an instructor has not set the points of a part, the author's points are used.
+    """
 
     parts: Mapping[str, Worth] = field(default_factory=dict)
 
@@ -91,7 +94,7 @@ def read_points(path: Path | None) -> PointsTable:
 
 
 def write_points(path: Path, asked: Sequence[str] = ()) -> None:
-    """Write the author's points of the parts in the chapters `asked`, or of all parts, into a new file.
+    """Write a new file with the author's points for the chapters `asked`, or for all chapters.
 
     Raises GradingError if the file exists or cannot be written, or if there is no such chapter.
     """
@@ -139,7 +142,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _worth(part: Part, given: Any, path: Path | None) -> Worth:  # noqa: ANN401 -- any JSON value
-    """Return the points of `part` and of its goals, from the part's value in the file."""
+    """Convert the value of `part` in the file into the points of the part and of its goals."""
     if given == ALL_OR_NOTHING:
         return _all_or_nothing(part, part.points)
     if isinstance(given, dict):
@@ -194,7 +197,8 @@ def _with_points(part: Part, shares: Sequence[float]) -> tuple[Goal, ...]:
 def _points(value: Any, where: str, path: Path | None) -> float:  # noqa: ANN401 -- any JSON value
     """Return `value` as a number of points.
 
-    Raises GradingError if the value is not valid; `where` is its place in the error message.
+    Raises GradingError if the value is not valid; `where` describes the place of the value in the error
+    message.
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         form = f'"{ALL_OR_NOTHING}", or an object with the points of each goal'

@@ -1,7 +1,7 @@
 """Grades many submissions in parallel, in threads of this machine or in workers of a dask cluster.
 
-Threads and clusters use the same code: a `Task` (plain data) is submitted to an object with the interface of
-concurrent.futures.Executor, and the result is a grade as plain data.
+Threads and clusters use the same code, because both have the interface of concurrent.futures.Executor. A task
+and its result consist of plain data, which can be sent to another machine.
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ def _result(future: Future[dict[str, Any]], cluster: Cluster | None) -> Grade:
 
 @contextmanager
 def pool_of(scheduler: str, jobs: int) -> Iterator[Pool]:
-    """Yield a pool of threads in this process, or the dask cluster at the address `scheduler`.
+    """Yield a pool of threads in this process, or of workers of the dask cluster at the address `scheduler`.
 
     `jobs` is the number of threads or workers to use; for a cluster, 0 means all workers.
     """

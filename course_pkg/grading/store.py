@@ -1,4 +1,4 @@
-"""The files that a grading run stores in its folder; after a killed run, the next run can use them."""
+"""The files that a grading run stores in its folder; the next run uses them, even if this run is killed."""
 
 from __future__ import annotations
 

@@ -40,8 +40,8 @@ def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
 def table_rows(path: Path, what: str) -> list[list[str]]:
     """Return the rows of the CSV file at `path`; the separator is a comma, a semicolon or a tab.
 
-    Raises the same errors as `table_bytes`, and GradingError if the contents are not CSV in UTF-8 (or in
-    UTF-16 with a byte order mark).
+    Raises GradingError in the same cases as `table_bytes`, and if the contents are not CSV in UTF-8, or in
+    UTF-16 with a byte order mark.
     """
     content = table_bytes(path, what)
     try:

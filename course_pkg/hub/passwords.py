@@ -40,7 +40,7 @@ class Passwords:
         return issued
 
     def use(self, user: str, password: str) -> bool:
-        """Return whether this is the unused password of `user`; if so, it is never accepted again."""
+        """Return whether this is the unused password of `user`; if it is, the password becomes invalid."""
         with self._locked() as known:
             salt, _, expected = known.get(user, "").partition(":")
             given = _hash(password.strip().lower(), bytes.fromhex(salt))

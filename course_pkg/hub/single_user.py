@@ -59,7 +59,8 @@ def pull(repository: str, folder: Path) -> None:
 
     If git fails, the server starts with the notebooks that are already in the folder.
     """
-    # The repository belongs to another user. git then requires this setting outside of the repository.
+    # The repository belongs to another user. In this case, git reads this setting only from a configuration
+    # file outside of the repository.
     environment = {**os.environ, "GIT_CONFIG_SYSTEM": str(Path(repository).parent / GIT_SETTINGS)}
     command = [sys.executable, "-m", "nbgitpuller.pull", f"file://{repository}", BRANCH, str(folder)]
     try:
@@ -90,9 +91,9 @@ def _serve() -> None:
 def _without_database() -> Iterator[None]:
     """During the `with` block, replace SQLAlchemy and the hub's pages by empty modules.
 
-    A student's server uses neither SQLAlchemy nor these pages, but they need 30 MiB of memory in each server.
-    jupyterhub imports them only for names that the hub uses. For example, the log of jupyterhub has a special
-    case for one page of the hub.
+    jupyterhub imports SQLAlchemy and these pages in a student's server, too, although only the hub uses them.
+    For example, the log of jupyterhub has a special case for one page of the hub. The imports would need 30
+    MiB of memory in each server.
     """
     placeholders = {name: ModuleType(name) for name in (*ONLY_IN_HUB, *NAMES_ONLY_IN_HUB)}
     for name, defined in NAMES_ONLY_IN_HUB.items():

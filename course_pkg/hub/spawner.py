@@ -46,7 +46,11 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
         return {**env, "USER": self.user.name, "HOME": str(self.home), "SHELL": "/bin/bash"}
 
     async def start(self) -> object:
-        """Start the server; if it cannot work, raise HubError with a message for the student's page."""
+        """Start the server.
+
+        Raises HubError, with a message for the student's page, if the server cannot use the home folder or
+        its limits.
+        """
         try:
             self._refuse()
             hub = limits.group_of_hub()
@@ -64,7 +68,7 @@ class CourseSpawner(LocalProcessSpawner):  # type: ignore[misc]  # The base clas
             limits.end_group(self._group)
 
     def make_preexec_fn(self, name: str) -> Callable[[], None]:
-        """Return the function in which the new process sets its limits, and then changes to the account."""
+        """Return a function that sets the limits of the new process and changes to the student's account."""
         become = _work_in(self.home) if self.homes else super().make_preexec_fn(name)
         group, chosen, own_account = self._group, self._limits(), not self.homes
 

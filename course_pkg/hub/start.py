@@ -127,7 +127,7 @@ def renew_password(user: str, data: Path | None) -> int:
 
 
 def data_folder(places: Places, given: Path | None) -> Path:
-    """Return the folder of the hub's data. Students can read it, except for `private`.
+    """Return the folder of the hub's data. Students can read this folder, except its subfolder `private`.
 
     In a shared installation, this folder is next to the folders of the versions, so an upgrade does not
     delete it.
@@ -182,7 +182,8 @@ def _require_protection(places: Places) -> None:
 def _closed(path: Path) -> Path | None:
     """Return the folder or file that prevents other users from reading `path`, or None.
 
-    This is the first folder that other users cannot enter, or a file that they cannot read.
+    The result is the first folder that other users cannot enter, or `path` itself if it is a file that they
+    cannot read.
     """
     for each in (*reversed(path.parents), path):
         mode = each.stat().st_mode
@@ -232,8 +233,8 @@ def _student_environment(places: Places, repository: Path) -> dict[str, str]:
     """Return the variables of the course for the students' servers."""
     variables = environment.merged(places, {"PATH": os.defpath})
     variables.pop("ROS_LOG_DIR")
-    # The name is short, because it is part of the paths of the kernels' sockets, which Linux limits to 107
-    # bytes. The hub's supervisor deletes this folder.
+    # The paths of the kernels' sockets begin with this name. The name is short, because Linux limits the path
+    # of a socket to 107 bytes. The hub's supervisor deletes this folder.
     scratch = Path(tempfile.mkdtemp(prefix="course-hub-", dir="/tmp"))
     # These are the permissions of /tmp: each student can create a folder, and only its owner can delete it.
     scratch.chmod(0o1777)

@@ -1,4 +1,4 @@
-"""The students' edition that is installed: the files of this checkout, or those of a new release."""
+"""The students' edition that is installed: the files of this checkout, or the files of a new release."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def install(path: Path | None, bin_folder: Path | None) -> int:
     """Install this course in the prefix `path`, make it the current version, and return 0.
 
     Versions that no process uses are removed, except the previous version. Raises SetupError if the
-    installation fails; then the current version has not changed.
+    installation fails; in this case, the current version does not change.
     """
     source = Places.of()
     if source.conda:
@@ -66,10 +66,11 @@ def _version_id(edition: Path) -> str:
 
 
 def _make(version: Path, edition: Path) -> None:
-    """Build a version; it is complete when its record exists. After a failure, only the log remains."""
+    """Build a version; it is complete when its record exists. If the build fails, only the log is kept."""
     places = Places(version / "course", version / BUILT)
     shutil.rmtree(version, ignore_errors=True)
-    # A hard link to uv's cache would let the owner of this cache change the installation.
+    # uv has to copy files. With hard links to uv's cache, the owner of this cache could change the
+    # installation.
     os.environ["UV_LINK_MODE"] = "copy"
     try:
         for name in edition_files(edition):
@@ -94,10 +95,12 @@ def _make(version: Path, edition: Path) -> None:
 def _compile(places: Places) -> None:
     """Compile all modules.
 
-    Users cannot store compiled files in the installation, so Python would compile the modules at each start.
+    Users cannot write to the installation. Without compiled files, Python would compile the modules at each
+    start.
     """
     folders = [places.checkout / "course_pkg", places.venv / "lib", places.workspace / "devel" / "lib"]
-    # Some libraries contain files for a different version of Python, which this version cannot compile.
+    # The exit status is ignored, because some libraries contain files that this version of Python cannot
+    # compile.
     subprocess.run([places.python, "-m", "compileall", "-qq", "-j", "0", *folders], check=False)
 
 

@@ -20,8 +20,8 @@ COMPLETION = "completion.bash"
 class Prefix:
     """The folder `path`, the link in `bin`, and the link in the folder of bash-completion.
 
-    If `bin` is not given, it is the folder of the last installation or, for a first installation, the usual
-    folder.
+    If `bin_folder` is None, `bin` is the folder that the last `course install` used. For a first
+    installation, `bin` is /usr/local/bin (root) or ~/.local/bin (other users).
     """
 
     def __init__(self, path: Path | None, bin_folder: Path | None = None) -> None:
@@ -77,7 +77,10 @@ class Prefix:
             _link(link, target)
 
     def remove_unused(self, kept: set[Path]) -> list[Path]:
-        """Remove the versions that are not in `kept` and that no process uses; return those that remain."""
+        """Remove all versions that are not in `kept` and that no process uses.
+
+        Return the versions that a process still uses.
+        """
         others = [path for path in self.versions.iterdir() if path not in kept]
         busy = [path for path in others if any(users_of(path))]
         for path in set(others) - set(busy):

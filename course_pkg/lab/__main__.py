@@ -11,7 +11,7 @@ import os
 
 
 def main() -> None:
-    """Import jupyterlab with a PATH that contains no programs, restore PATH, and run jupyterlab."""
+    """Remove all programs from PATH, import jupyterlab, restore PATH, and run jupyterlab."""
     path = os.environ.get("PATH", os.defpath)
     os.environ["PATH"] = os.devnull
     from jupyterlab.labapp import main as run

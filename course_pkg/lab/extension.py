@@ -1,8 +1,7 @@
 """The course's additions to the Jupyter server: an extension, and classes for checkpoints and files.
 
-The set-up enables the extension in the course's environment. If a user starts `jupyter lab` or `jupyter
-notebook` in this environment by hand, the server therefore has the same settings as the server of `course
-lab`.
+The set-up enables the extension in the course's environment. Therefore, the server has the same settings if a
+user starts it with `jupyter lab` or `jupyter notebook`, and not with `course lab`.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ HIDDEN = (
     *("course_pkg", "deploy", "environment.yml", "launch", "package.xml", "pyproject.toml"),
     *("setup.py", "solutions", "srv", "tests"),
 )
-# The server's setting for the class that connects a page with a kernel.
+# The name of the server's setting for the class that connects a page with a kernel.
 CONNECTION_CLASS = "kernel_websocket_connection_class"
 
 
@@ -105,8 +104,8 @@ def _load_jupyter_server_extension(server: Server) -> None:
 def _prepare_ros(server: Server) -> None:
     """Set the environment of ROS, and start a master if ROS_MASTER_URI is not set.
 
-    Kernels and terminals inherit this environment. `course lab` sets the environment and starts a master
-    before it starts the server.
+    Kernels and terminals inherit this environment. `course lab` has already done both before it starts the
+    server.
     """
     if "ROS_PACKAGE_PATH" not in os.environ and not environment.apply():
         server.log.warning("The course's workspace is not built. Run `./course doctor` in a terminal.")
@@ -166,8 +165,8 @@ class CachedCheckpoints(AsyncFileCheckpoints):  # type: ignore[misc]  # The base
 
     In this folder, each checkpoint has the same path as its notebook.
 
-    Jupyter's own class can also store all checkpoints in another folder. A chapter and its solution would
-    then share one checkpoint, because their files have the same name.
+    Jupyter's own class would store the checkpoints of a chapter and of its solution in the same file, because
+    both notebooks have the same name.
     """
 
     folder = Unicode(help="the folder of the checkpoints").tag(config=True)

@@ -30,8 +30,8 @@ from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
 
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ports, and 0 means any free port
-# The server has to start within this time in s. Usually it needs 2 s, but much longer with an empty disk
-# cache.
+# The server has to start within this time in s. The server usually needs 2 s. If its files are not in the
+# disk cache, it needs much longer.
 READY = 60.0
 LOOK = 0.01  # This is the time in s between two checks whether the server answers.
 KEPT_LINES = 12  # number of lines of the server's log in an error message
@@ -139,7 +139,8 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
     After the block, the server, its kernels and its terminals are ended, even if a signal kills this process.
     """
     folders = {
-        # With these folders, the server does not read the settings and files of other Jupyter installations.
+        # The server uses only these folders, so it does not read the settings and files of other Jupyter
+        # installations.
         "JUPYTER_CONFIG_DIR": str(places.own_data / "jupyter" / "config"),
         "JUPYTER_DATA_DIR": str(places.own_data / "jupyter" / "data"),
         "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
@@ -189,10 +190,10 @@ def server_settings(root: Path, checkpoints: Path, workspaces: Path) -> dict[str
 
 
 def _short_folder() -> str | None:
-    """Return a folder for temporary files; its name is short enough for the names of a kernel's sockets.
+    """Return a folder for temporary files; its path is short enough for a kernel's sockets.
 
     The path of a socket is 80 bytes longer than the path of this folder, and Linux allows at most 107 bytes.
-    None means the usual folder.
+    The result is None if the path of the usual folder is short enough.
     """
     return None if len(os.fsencode(tempfile.gettempdir())) <= 27 else "/tmp"  # noqa: S108 -- a folder of mode 700 in it
 

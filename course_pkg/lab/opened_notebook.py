@@ -1,4 +1,4 @@
-"""The notebook that `course lab` opens: its path, and the workspace of JupyterLab that shows it."""
+"""The notebook that `course lab` opens: its path, and a workspace of JupyterLab with this notebook."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ WORKSPACE = "default-37a8.jupyterlab-workspace"
 def notebook_to_open(root: Path, asked: str | None) -> str:
     """Return the path of the notebook to open, relative to `root`, the folder with `notebooks`.
 
-    The notebook is `asked`, or the first chapter if `asked` is None. Without any chapter, the result is "".
-    Raises SetupError if `asked` is not a file in `root`.
+    The notebook is `asked`, or the first chapter if `asked` is None. If there are no chapters, the result is
+    "". Raises SetupError if `asked` is not a file in `root`.
     """
     if asked is None:
         chapters = sorted((root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
@@ -37,8 +37,9 @@ def write_workspace(folder: Path, notebook: str) -> None:
 
     The workspace has one tab for `notebook`, and no tabs of an earlier start.
 
-    JupyterLab would start a kernel for each restored tab before the page is usable. The page's address could
-    also contain the notebook and `?reset`, but JupyterLab reads the address 0.5 s later than the workspace.
+    If JupyterLab restored earlier tabs, it would start a kernel for each of them before the page is usable. A
+    page address with the notebook and `?reset` would have the same effect, but JupyterLab reads the address
+    0.5 s later than the workspace.
     """
     tab = f"notebook:{notebook}"
     dock = {"type": "tab-area", "currentIndex": 0, "widgets": [tab]}

@@ -14,8 +14,8 @@ from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.shell import SHELL
 from course_pkg.ros.process.supervised import SupervisedProcess
 
-# These plug-ins give each notebook its own master and folder, ignore pictures, and fail a notebook if a check
-# in it did not pass.
+# The first plug-in gives each notebook its own master and folder. The second plug-in ignores pictures. The
+# third plug-in makes the run fail if a check in a notebook did not pass.
 NBVAL_PLUGINS = (
     "course_pkg.authoring.private_notebook",
     "course_pkg.authoring.nbval_figures",
@@ -46,7 +46,7 @@ def run_command(command: Sequence[str], which: Which = Which.RUNNING) -> int:
 
 
 def _with_plugins(command: Sequence[str]) -> list[str]:
-    """Return `command` with the course's plug-ins of pytest, if it runs notebooks with nbval."""
+    """Return `command`; if it runs notebooks with nbval, add the course's pytest plug-ins."""
     given = list(command)
     runs_pytest = Path(given[0]).name in ("pytest", "py.test") or given[1:3] == ["-m", "pytest"]
     if not runs_pytest or not any(word.startswith("--nbval") for word in given):

@@ -13,7 +13,8 @@ from course_pkg.ros.node.proxy import BoundedProxy
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 from course_pkg.srv import geometry
 
-TIMEOUT = 5.0  # the maximum time in s for the wait for the server, and again for the wait for its response
+# the client waits at most this time in s for the service, and then at most this time for the response
+TIMEOUT = 5.0
 USAGE = "usage: client LENGTH WIDTH HEIGHT   (three numbers, in metres, such as 1.2 5.2 8.9)"
 
 

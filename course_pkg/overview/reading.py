@@ -44,7 +44,7 @@ def read_progress(chapters: Sequence[str] = ()) -> Progress:
 
 
 def _present() -> Sequence[str]:
-    """Return the chapters of this edition: the released chapters, or all chapters."""
+    """Return all chapters; in the students' edition, return only the released chapters."""
     released = released_chapters(Places.of().checkout)
     return [number for number in all_chapters() if released is None or number in released]
 

@@ -1,6 +1,6 @@
 """Interactive panels for the notebooks, such as the graph panel and the service panel.
 
-Each panel consists of a model that runs without a page, a widget, and one ES module for the page.
+Each panel consists of a widget, a model, and one ES module for the page. The model also runs without a page.
 
 A panel's module is imported when its name is first used. Therefore, a program can import a model on a machine
 without ipywidgets or ROS.

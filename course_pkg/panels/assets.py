@@ -19,7 +19,8 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|const|class)\b)", re.MU
 def module(path: Path, frame: Path | None = None) -> str:
     """Return the ES module at `path`; each relative module that it imports is inserted once.
 
-    `frame` is the path of a module with a function `framed`; the result then exports `framed(render)`.
+    `frame` is the path of a module that defines the function `framed`. If `frame` is given, the result
+    exports `framed(render)` instead of `render`.
     """
     done: set[Path] = set()
     around = f"{_EXPORT.sub('', _inlined(frame.resolve(), done))}\n" if frame else ""

@@ -102,7 +102,7 @@ class Panel(anywidget.AnyWidget):
             super().close()
 
     def _explain(self, _change: Bunch) -> None:
-        """Send the page the course's explanation of the panel's error message, if there is an explanation."""
+        """If the course can explain the panel's error message, send the explanation to the page."""
         message = self.error_message()
         meaning = explain(message) if message else None
         self.explained = meaning.as_dict() if meaning and meaning.known else {}

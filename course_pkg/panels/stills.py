@@ -1,7 +1,7 @@
 """The still picture of each panel, for pages without widgets.
 
-A picture depends only on the traits of the panel. Therefore, the picture is drawn outside the kernel when a
-notebook is saved, and the student's run takes no extra time.
+A picture depends only on the traits of the panel. Therefore, a picture can be drawn later, outside the
+kernel, when a notebook is saved. A kernel needs no time for pictures.
 """
 
 from __future__ import annotations

@@ -22,7 +22,8 @@ from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
 from course_pkg.grading.flags.tokens import cpp_statements
 from course_pkg.grading.flags.work import Answer
 
-# The set of a function's or class's statements is a feature if it has at least this many statements.
+# If a function, a class or another block contains at least this many statements, these statements together
+# are one feature.
 BLOCK = 3
 PAIRS = 400  # One name produces at most this many pairs, because a name in many lines is not characteristic.
 LONG = 12  # A characteristic string has at least this many characters.
@@ -37,9 +38,9 @@ class Fingerprint:
 
     statements: int
     code: frozenset[str] = field(default=frozenset())
-    # The set contains comments, strings, and names that the program defines.
+    # `words` contains the comments and strings of the program, and the names that the program defines.
     words: frozenset[str] = field(default=frozenset())
-    # Each tuple contains the normal form and the line number of a statement.
+    # `lines` contains, for each statement, its normal form and its line number.
     lines: tuple[tuple[str, int], ...] = ()
 
 
@@ -79,7 +80,7 @@ def _single(made: list[Statement]) -> Iterator[str]:
 
 
 def _pairs(made: list[Statement]) -> Iterator[str]:
-    """Yield the pairs of statements where one statement sets a name and the other statement uses it."""
+    """Yield each pair of statements in which one statement assigns a name and the other reads it."""
     binds: dict[Name, list[int]] = {}
     uses: dict[Name, list[int]] = {}
     for place, each in enumerate(made):
@@ -112,8 +113,8 @@ def _python_words(source: str, module: ast.Module) -> Iterator[str]:
             if token.type == tokenize.COMMENT:
                 yield from _long(token.string)
     except (tokenize.TokenError, SyntaxError, ValueError):
-        # An IPython magic or an unterminated string ends the search; the comments before it have already been
-        # found.
+        # The tokenizer stops at an IPython magic or an unterminated string. The comments before this place
+        # have already been found.
         pass
     for node in ast.walk(module):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):

@@ -40,8 +40,9 @@ Observe = Callable[[Program], Iterable[Observation]]
 def unusual(group: Group, kind: str, observe: Observe, *, whole_notebook: bool) -> Iterator[Found]:
     """Yield a flag for each observation in an answer that does not occur in the course's own code.
 
-    The course's own code is the solution of the exercise, and all cells that are not exercises. With
-    `whole_notebook`, the course's own code includes the solutions of the chapter's other exercises.
+    The course's own code is the solution of the exercise, and all cells that are not exercises. If
+    `whole_notebook` is True, the solutions of the chapter's other exercises are also part of the course's own
+    code.
     """
     shown = [tree(Answer("00", source)) for source in group.shown]
     given = imports(shown)

@@ -1,19 +1,19 @@
-"""Finds students with identical or nearly identical code, except code that many students of the class have.
+"""Finds students with identical or nearly identical code. Code that many students have is ignored.
 
 Three kinds of code are ignored: handed-out code, code that more than a tenth of the class has, and answers
 with fewer than ten statements. The rest of the code is divided into features (see fingerprints.py), and each
 feature has a weight. If s of n students have the feature, its weight is log2(n / s) bits. The similarity of
-two answers is the weight of their common features, divided by the weight of all their features.
+two answers is twice the weight of their common features, divided by the sum of the weights of both answers.
 
 Two short answers to the same exercise can be similar by chance. Therefore, a pair is flagged for one of two
 reasons:
 
-- One similar answer is enough if almost no other student has the same code, or the same comments, strings or
-  names.
-- Otherwise, the two students must have several similar answers. For each answer, p is the estimated
-  probability that two students have such a high similarity by chance. The estimate is the fraction of all
-  pairs of students with at least this similarity. The sum of log2(1 / p) must be larger than log2 of the
-  number of pairs. With this limit, chance alone flags fewer than one pair of a class on average.
+- The students have one nearly identical answer, and at most one other student has the same code, or the same
+  comments, strings or names.
+- The students have several nearly identical answers. For each of these answers, p is the fraction of all
+  pairs of students whose answers are at least as similar. This fraction is an estimate of the probability
+  that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than MARGIN above
+  log2 of the number of pairs. On average, fewer than one pair of a class is then flagged by coincidence.
 """
 
 from __future__ import annotations
@@ -31,13 +31,14 @@ from course_pkg.grading.flags.fingerprints import Fingerprint
 STATEMENTS = 10  # An answer with fewer statements is not compared.
 COMMON = 0.1  # Code is ignored if more than this fraction of the class has it.
 FEW = 3  # Even in a small class, code is compared if at most this many students have it.
-SMALL = 30  # The weights are computed for a class with at least this many students.
+SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
-# One answer is enough if the pair has this many common features that at most one other student has.
+# The pair is flagged because of one answer if at least this many features of the code are in both answers and
+# in the answer of at most one other student.
 OWN_CODE = 15
-# One answer is also enough if the pair has this many common comments, strings or names that at most one other
-# student has.
+# The pair is also flagged if at least this many comments, strings or names are in both answers and in the
+# answer of at most one other student.
 OWN_WORDS = 3
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)
@@ -46,7 +47,7 @@ Couple = tuple[int, int]
 
 @dataclass(frozen=True)
 class Pair:
-    """Two students with nearly identical answers, and the similarity of these answers by their names."""
+    """Two students with nearly identical answers. The keys of `likeness` are the names of these answers."""
 
     first: int
     second: int
@@ -56,7 +57,8 @@ class Pair:
 class Similarity:
     """Compares the answers of a class.
 
-    For each student, `students` contains a dictionary from the names of the answers to their fingerprints.
+    For each student, `students` contains a dictionary: the keys are the names of the answers, and the values
+    are the fingerprints of the answers.
     """
 
     def __init__(
@@ -137,7 +139,7 @@ class Exercise:
         )
 
     def _rare(self, features: frozenset[str]) -> int:
-        """Return the number of features in `features` that almost no student has."""
+        """Return the number of features in `features` that at most FEW students have."""
         return sum(self.counts(feature) and self.having(feature) <= FEW for feature in features)
 
     @cached_property

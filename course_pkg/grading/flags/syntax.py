@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from course_pkg.grading.flags.work import Answer
 from course_pkg.grading.rebuild.context import LONGEST, tree_of
 
-# These errors occur for a tree that is too deep, or for a huge number.
+# Python raises these errors for code that is nested too deeply, or that contains a huge number.
 UNREADABLE = (RecursionError, ValueError, MemoryError)
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 

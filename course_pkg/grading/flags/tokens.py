@@ -24,7 +24,7 @@ class _Token:
 def cpp_statements(source: str) -> list[Statement]:
     """Return the statements of a C++ program.
 
-    A statement is a line that begins with #, or code that ends with a semicolon or before a brace.
+    A line that begins with # is a statement. A semicolon or a brace ends any other statement.
     """
     every = list(_tokens(source))
     directives = {token.line for token in every if token.text.lstrip().startswith("#")}
@@ -65,7 +65,7 @@ def _neighbours(tokens: list[_Token]) -> Iterator[tuple[_Token | None, _Token, _
 
 
 def _declares(before: _Token | None, token: _Token, after: _Token | None) -> bool:
-    """Return whether a token is a name directly after a type, so that the program declares the name."""
+    """Return whether the program declares the name `token`: the name comes directly after a type."""
     if before is None or after is None or token.kind not in Name or after.text in (":", "<"):
         return False
     typed = before.kind in Keyword.Type or before.kind in Name or before.text in LEADS

@@ -26,14 +26,18 @@ class Answer:
 
     @cached_property
     def path(self) -> str:
-        """The path of the answer's file, or of the file that the answer's cell writes; otherwise ""."""
+        """The path of the file that contains the answer, or that the answer's cell writes.
+
+        The path is "" if there is no file.
+        """
         return written_path(self.source) if self.where[:1].isdigit() else self.where
 
     @property
     def name(self) -> str:
-        """The path of the file or the id of the part: a name that is the same in all students' work.
+        """The path of the answer's file, or the id of the part if there is no file.
 
-        One student can write the file with a cell, and another student can submit it in a package.
+        The name does not depend on how the file was submitted: a cell can write the file, or a package can
+        contain it.
         """
         return self.path.removeprefix("src/") or self.where
 

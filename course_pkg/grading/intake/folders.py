@@ -15,7 +15,7 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-# Nested folders are searched to this depth: up to two folders that a platform adds, and the student's folder.
+# Folders are searched to this depth, because a platform adds up to two folders around a student's folder.
 DEPTH = 3
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 
@@ -25,9 +25,9 @@ def handed_in_nothing(
 ) -> list[Submission]:
     """Return a submission with a problem for each student with an empty folder.
 
-    `source` is a folder or a zip, `files` contains the paths in it, and `outer` is the number of folders that
-    contain all students' folders. `reports` contains the paths of folders in `source` that belong to no
-    student.
+    `source` is a folder or a zip, and `files` contains the paths in it. `outer` is 1 if one folder contains
+    all students' folders, and 0 otherwise. `reports` contains the paths of folders in `source` that belong to
+    no student.
     """
     filled = {PurePosixPath(path).parts[:depth] for path in files for depth in range(1, DEPTH + 1)}
     found: dict[str, Submission] = {}
@@ -48,9 +48,10 @@ def handed_in_nothing(
 
 
 def require_other_folder(source: Path, out: Path) -> None:
-    """Raise GradingError if the folder `out` contains submissions or is inside them.
+    """Raise GradingError if `out` is the folder of the submissions, or a folder inside it that is not empty.
 
-    Otherwise, reports would be among the submissions.
+    In such a folder, the reports would be mixed with the submissions. A folder with the results of an earlier
+    run is allowed.
     """
     if not source.is_dir() or not out.is_dir() or (out / FOLDER).is_dir():
         return

@@ -43,7 +43,7 @@ class Claim:
     """A file, and the student to whom the file belongs according to its path."""
 
     student: str  # `student` is the student's name, or "" if the path does not contain it.
-    stem: str  # `stem` is the notebook's name as the student chose it; "" for any other file.
+    stem: str  # `stem` is the file name that the student gave the notebook, or "" for any other file.
     attempt: int = 0  # `attempt` is the number of the attempt, as the platform counts attempts.
     marked_late: bool = False
 
@@ -100,9 +100,7 @@ def _claim(student: str, name: str, *, late: bool = False) -> Claim:
 
 
 def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
-    """Return the number of folders that contain all students' folders.
-
-    The result is 1 if one folder contains all files, and otherwise 0.
+    """Return 1 if one outer folder contains all students' folders, and 0 otherwise.
 
     `archive` is the name of the zip without .zip, or "" for a folder.
     """

@@ -1,13 +1,15 @@
 """The submitted catkin packages.
 
-Each package is a folder next to the notebooks. SUBMISSIONS/<student>/<package>/package.xml.
+An example is SUBMISSIONS/<student>/<package>/package.xml.
 
 A package is a folder with a package.xml, at any depth below the student's folder. The folders that catkin
 writes (build, devel, install) are left out. The name of a package is the name in its package.xml, as in ROS.
-If no part needs this name, but a part needs the name of the folder, the name of the folder is used.
+However, the name of the folder is used if a part requires a package with this name and no part requires the
+name in package.xml.
 
-A link or a device is left out with a note; all other files of the package are examined. A package that is too
-large is not examined. If two packages have the same name, the newest package is used.
+A link or a device in a package is not read, and a note reports it. All other files of the package are
+examined. A package that is too large is not examined. If two packages have the same name, the newest package
+is used.
 """
 
 from __future__ import annotations
@@ -53,9 +55,9 @@ class Found:
     problem: str = ""
 
     def called(self, names: Sequence[str]) -> str:
-        """Return the name of the package, or of its folder, if it is in `names`; otherwise return "".
+        """Return the package's name or its folder's name: the first of the two that is in `names`.
 
-        `names` contains the names of the packages that parts need.
+        `names` contains the names of the packages that parts need. If neither name is in `names`, return "".
         """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
@@ -68,7 +70,7 @@ def package_roots(paths: Sequence[tuple[str, ...]]) -> set[tuple[str, ...]]:
 
 
 def is_generated(folders: Sequence[str]) -> bool:
-    """Return whether catkin created one of these nested folders, and therefore the files in it."""
+    """Return whether one of these nested folders is a folder that catkin generates, such as `build`."""
     return not GENERATED.isdisjoint(folders)
 
 
@@ -101,8 +103,8 @@ def read_package(root: tuple[str, ...], members: Sequence[Member]) -> Found:
     manifest = next((content for name, content, _ in contents if name == MANIFEST), None)
     if manifest is None:
         return replace(found, problem=f"The package {clean.line(root[-1], 60)} was not graded. {notes[0]}")
-    # Many platforms do not store permissions. If a student has run a program of the package, at least one
-    # file is executable. Therefore, if no file is executable, the platform has lost the permissions.
+    # Many platforms do not store permissions. A student has to make a program executable before the student
+    # can run it. Therefore, if no file is executable, the platform has probably lost the permissions.
     lost = not any(executable for *_, executable in contents)
     files = [
         work_file(name, content, executable=executable or (lost and content.startswith(b"#!")))
@@ -133,8 +135,9 @@ def attached(
     Return all submissions.
 
     `given` contains the submissions with notebooks, and `packages` contains the packages of each student.
-    `wanted` contains the graded chapters; an empty list means all chapters. Without a notebook, a package
-    becomes a submission only if a part of the chapter needs a file of the package.
+    `wanted` contains the graded chapters; an empty list means all chapters. If a student has not submitted a
+    notebook for a chapter, a package becomes a submission only if a part of the chapter needs a file of the
+    package.
     """
     if not packages:
         return list(given)
@@ -167,7 +170,8 @@ def _made(
 ) -> Submission | None:
     """Return the submission `given` with the packages that the chapter needs.
 
-    Without a notebook, return a submission with only the packages, or None if there are none.
+    If there is no notebook, return a submission with only the packages, or None if there are no packages
+    either.
     """
     taken, notes = [], []
     for name in asked:

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from course_pkg.errors import GradingError
 from course_pkg.types.fields import Plain
 
-# A file may contain at most this many lists and objects; reading 20 MiB of short lists would need half a GB
-# of memory.
+# A file may contain at most this many lists and objects. Without this limit, a file of 20 MiB with short
+# lists would need half a GB of memory.
 BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {
@@ -66,7 +66,7 @@ def read_cells(content: bytes) -> list[StudentCell]:
 def slimmed(cells: Sequence[StudentCell]) -> bytes:
     """Return a notebook with only the data for grading.
 
-    The outputs of all students' notebooks would fill the memory.
+    The result contains no outputs, because the outputs of all students' notebooks would fill the memory.
     """
     kept = [
         {

@@ -1,4 +1,4 @@
-"""The solutions of the course; methods find the solution to which a submission belongs."""
+"""The solutions of the course; the methods find the chapter to which a submission belongs."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ from course_pkg.authoring.cells import exercise_of
 from course_pkg.authoring.notebook_store import NotebookStore, read
 from course_pkg.grading.intake.reading import StudentCell
 
-# A notebook without an exercise id belongs to a solution if the two share at least this many cell ids.
+# A notebook without an exercise id belongs to a solution if both contain at least this many of the same cell
+# ids.
 ENOUGH = 5
 
 
 class References:
-    """All solutions of a checkout, with the ids that distinguish them."""
+    """All solutions of a checkout, and the ids of the cells in each solution."""
 
     def __init__(self, root: Path | None = None) -> None:
         self._stems: dict[str, str] = {}

@@ -47,7 +47,7 @@ SHOWN = 3  # SHOWN is the maximum number of file names in a sentence.
 
 @dataclass(frozen=True)
 class _Found:
-    """A submission, and the values for choosing one of several submissions for the same chapter."""
+    """A submission, and the data that decide which of several submissions for a chapter is graded."""
 
     submission: Submission
     attempt: int
@@ -120,7 +120,10 @@ class _File:
 
 
 def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_File]]:
-    """Return the packages of each student, and all other files; files that catkin generated are left out."""
+    """Return the packages of each student, and all files that belong to no package.
+
+    Files that catkin generated are left out.
+    """
     packages: dict[str, list[Found]] = {}
     others: list[_File] = []
     for _, group in groupby(sorted(files, key=lambda each: each.path), lambda each: each.path[:1]):

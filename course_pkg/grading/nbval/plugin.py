@@ -19,7 +19,7 @@ from course_pkg.checking.parts import chapters, parts_of
 
 RECORD = "COURSE_NBVAL_RECORD"
 WORDS = 40000  # WORDS is the maximum number of characters of a failure's text.
-PART, MISSING = "part", "missing"  # A report's user properties have these names.
+PART, MISSING = "part", "missing"  # The names of the user properties in a pytest report.
 CALL = re.compile(r"""^\s*check\(["'](\d\d\.\d+)["']\)""", re.MULTILINE)
 SEEN = pytest.StashKey[bool]()
 

@@ -33,10 +33,10 @@ TOGETHER = 2 * confinement.TOGETHER
 KERNEL = "sandboxed"
 OVERVIEW = re.compile(r"\b(progress|results)\(")  # In the first edition, the function was called `results`.
 OWN = "/student/.course"
-# The two folders have the same parent folder, as in a checkout.
+# The folders `notebooks` and `workspace` have the same parent folder, as in a checkout.
 NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"
-# Without this option, a kernel whose parent is process 1 would end: the kernel would assume that its parent
-# has ended.
+# A kernel with this variable ends if its parent is process 1, because this usually means that the parent has
+# ended. In the sandbox, the kernel's parent is always process 1.
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")
 
 
@@ -66,11 +66,10 @@ def main() -> None:
 def _run_within_limits(command: list[str], record: Path, silence: float) -> bool:
     """Run `command`.
 
-    Kill the processes of the command if they use too much memory, or if `record` does not grow for `silence`
-    s.
+    Kill the processes of the command if they use too much memory, or if nothing is written to the file
+    `record` for `silence` s.
 
-    Returns whether `record` did not grow for `silence` s. nbval itself waits for ever if the connections of a
-    kernel are damaged.
+    Returns True in the second case. nbval itself waits for ever if the connections of a kernel are damaged.
     """
     size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
@@ -85,7 +84,10 @@ def _run_within_limits(command: list[str], record: Path, silence: float) -> bool
 
 
 def _unfinished(notebook: Notebook, record: Path, cell: float) -> str:
-    """Return the record line for the first cell without a result."""
+    """Return a line of JSON: a failed result for the first cell that has no result.
+
+    Return "" if all cells have a result.
+    """
     recorded = {json.loads(line)["cell"] for line in record.read_text("utf-8").splitlines()}
     left = (each["id"] for each in code_cells(notebook) if each["source"] and each["id"] not in recorded)
     if not (first := next(left, "")):
@@ -193,7 +195,7 @@ def _run_check(sock: socket.socket) -> None:
     from course_pkg.checking.channel import Channel
     from course_pkg.checking.processes.runner import run_check
 
-    # This limit is needed because the submission decides how many bytes the check receives.
+    # The memory is limited, because student code can send the check any number of bytes.
     namespaces.limit(AS=confinement.CHECK_RUNNER)
     run_check(Channel(sock))
 

@@ -16,8 +16,8 @@ from course_pkg.grading.nbval.findings import finding
 from course_pkg.grading.plan import Plan
 from course_pkg.sandbox.linux.bubblewrap import sandbox_command
 
-# On an idle machine, a cell may run for this time in s. With this limit, a blocked kernel costs less than 60
-# s.
+# On an idle machine, a cell may run for this time in s. With this limit, nbval waits less than 60 s for a
+# blocked kernel.
 CELL = 40
 LIMIT = 600.0  # A notebook may run for this time in s; the longest chapter takes 100 s.
 LINE = 100  # LINE is the maximum number of characters of the first line of a cell.

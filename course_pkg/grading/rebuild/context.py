@@ -1,8 +1,9 @@
 """Finds the cells that an answer needs, by the names that these cells define.
 
 An answer is run only with the cells that its check needs (see checking/fixtures.py). However, an answer may
-use other names, such as an import in a cell above or a function of an earlier answer. Therefore, the cells
-that define these names also run, and so do the cells that these cells need.
+also use names that these cells do not define, such as an import in a cell above or a function of an earlier
+answer. Therefore, the cells that define these names also run. If such a cell uses names of further cells, the
+further cells run, too.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ LONGEST = 20_000
 # A cell with magics may have at most this many lines, because IPython's time grows with the square of the
 # number of lines.
 MAGICAL = 300
-# Names that are assigned inside these nodes are not names of the cell.
+# These nodes have a separate scope: names that are assigned in them are not names of the cell.
 SCOPES = (
     *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),
     *(ast.ListComp, ast.SetComp, ast.DictComp, ast.GeneratorExp),
@@ -38,7 +39,7 @@ class _Cell:
 def needed(answer: str, before: str, above: Sequence[str]) -> tuple[str, ...]:
     """Return the sources in `above` that `answer` needs, in their order.
 
-    The code in `before` always runs, so the names that it defines need no other cell.
+    The code in `before` always runs, so no other cell is needed for the names that this code defines.
     """
     given = KNOWN | _read(before).gives
     cells = [_read(source) for source in above]

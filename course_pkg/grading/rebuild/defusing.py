@@ -1,7 +1,8 @@
 """Removes nbval's markers and cell magics from a student's source, because both change how the cell runs.
 
-nbval obeys a comment such as `# NBVAL_SKIP` in any line, and IPython passes the whole cell to the magic in
-its first line. With such a comment or magic, an answer could avoid its check.
+If any line contains a comment such as `# NBVAL_SKIP`, nbval treats the cell differently. If the first line is
+a cell magic, IPython passes the whole cell to this magic. With such a comment or magic, an answer could avoid
+its check.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Finds the cells of a student's notebook that answer an exercise, even if they were moved or copied.
 
-The cell of an exercise is found by its id or by its metadata, because a copied cell has the same metadata.
-Otherwise, the cell is found by the names that it defines, or by the file that it writes. If there are several
-such cells, the last non-blank cell is used. If the student has split the answer into several cells, the cells
-directly below belong to the answer.
+The cell of an exercise is found by its id. A copied cell has a new id, so the cell is also found by its
+metadata. If no cell has the right id or metadata, the cell is found by the names that it defines, or by the
+file that it writes. If there are several such cells, the last non-blank cell is used. If the student has
+split the answer into several cells, the cells directly below belong to the answer.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class Matching:
         )
 
     def lent(self, taken: frozenset[int]) -> set[str]:
-        """Return the names that unused cells define, but the reference does not define."""
+        """Return the names that are defined in cells that belong to no answer, but not in the reference."""
         names: set[str] = set()
         for place, cell in enumerate(self._cells):
             if place not in taken and cell.kind == "code" and not self._owners[place]:

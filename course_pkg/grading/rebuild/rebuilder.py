@@ -26,7 +26,7 @@ class Rebuilt:
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
     # `answers` contains, for each part, the source that runs; this can be the unchanged blank cell.
     answers: Mapping[str, str]
-    # The keys are the parts without an answer, and the values tell the student the reason.
+    # The keys are the parts without an answer, and the values are the reasons for the student.
     missing: Mapping[str, str] = field(default_factory=dict)
     untouched: frozenset[str] = frozenset()  # The student did not change the cells of these parts.
     notes: tuple[str, ...] = ()  # The notes tell the student about everything unusual in the notebook.
@@ -89,7 +89,7 @@ class Rebuilder:
 def _placed(reference: Notebook, sources: Mapping[str, str]) -> Notebook:
     """Return a copy of the reference with these sources in its exercise cells.
 
-    nbval does not compare the outputs of a cell without an execution count.
+    The exercise cells have no execution count, so nbval does not compare their outputs.
     """
     notebook = copy.copy(reference)
     notebook["cells"] = [copy.copy(cell) for cell in reference["cells"]]

@@ -1,7 +1,7 @@
 """Finds the names and files of an exercise in the reference, and the names that a source defines.
 
-A student's source is searched line by line, but not parsed. Therefore, a source that would overload a parser
-does no harm.
+A student's source is searched line by line. It is not parsed, because some sources would make a parser very
+slow, or crash it.
 """
 
 from __future__ import annotations

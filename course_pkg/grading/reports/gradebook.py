@@ -72,7 +72,7 @@ class Book:
         return round(sum(grade.earned for grade in self.of(student)), 2)
 
     def counted(self, student: str) -> list[str]:
-        """Return the chapters that count for a student, even for a student without a submission.
+        """Return the chapters that count for a student, who may have no submission.
 
         The chapters that were assigned count; see Asked.
         """
@@ -157,7 +157,7 @@ def not_handed_in(book: Book, student: str) -> str:
 
 
 def notes(book: Book, student: str) -> list[str]:
-    """Return the notes about a student's notebooks that do not require an action of the instructor."""
+    """Return the notes about a student's notebooks, except the notes that attention() reports."""
     known = (ABSENT, NO_TIME)  # attention() has a sentence about each of these notes.
     found = (note for grade in book.of(student) for note in grade.notes if note not in known)
     return list(dict.fromkeys(clean.line(note) for note in found))

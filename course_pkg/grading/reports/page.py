@@ -57,7 +57,7 @@ def paragraph(value: object, kind: str = "") -> str:
 
 
 def banner(title: str, sentences: Sequence[str]) -> str:
-    """Return sentences in a conspicuous box, or "" if there are no sentences."""
+    """Return a highlighted box with these sentences, or "" if there are no sentences."""
     shown = [sentence for value in sentences if (sentence := text(value, 1000))]
     if not shown:
         return ""
@@ -69,8 +69,7 @@ def banner(title: str, sentences: Sequence[str]) -> str:
 def table(caption: str, head: Sequence[str], rows: Iterable[Sequence[str]], numbers: int) -> str:
     """Return an HTML table.
 
-    The first cell of each row is a header. `numbers` is the number of columns, from the right, that contain
-    numbers.
+    The first cell of each row is a header. The last `numbers` columns contain numbers.
 
     The cells in `rows` are HTML; `caption` and `head` can be any text.
     """

@@ -15,7 +15,7 @@ RESULTS = "results"
 
 
 def record_path(out: Path, student: str, chapter: str, origin: str = "") -> Path:
-    """Return the path of a grade's record; `origin` distinguishes grades without a chapter."""
+    """Return the path of a grade's record; without a chapter, the file name depends on `origin`."""
     name = clean.file_name(chapter) if chapter else f"none-{hashlib.sha256(origin.encode()).hexdigest()[:10]}"
     return out / RESULTS / clean.file_name(student or "nobody") / f"{name}.json"
 

@@ -15,10 +15,10 @@ from course_pkg.grading.reports.gradebook import Book
 from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
-# These reports also contain students with an empty folder, or with earlier results but no new submission. All
-# other reports leave these students out, so a platform keeps its own points for them.
+# Only the reports in this tuple contain students with an empty folder, and students who have earlier results
+# but no new submission. A platform keeps the points of a student who is not in a report.
 WITH_ABSENT = ("class_page", "feedback", "records", "table")
-# A platform stores only one score for each report, so a report contains only the chapters of this run.
+# A platform stores one score for each of these reports, so the reports contain only the chapters of this run.
 OF_ASSIGNMENT = ("gradescope", "gradescope_table", "moodle_worksheet")
 
 

@@ -16,7 +16,7 @@ SHOWN = 10  # A line lists at most this many names.
 
 
 def answer_of(grade: Grade, part: str) -> str:
-    """Return a short text that identifies the student's answer; each answer has a different text.
+    """Return a short text that identifies the student's answer; different answers have different texts.
 
     The text begins with a letter, so a spreadsheet does not read it as a number.
     """

@@ -73,7 +73,7 @@ def items_of(grades: Sequence[Grade]) -> list[Item]:
 def is_unfinished(item: Item, overrides: Overrides) -> bool:
     """Return whether an instructor has to examine an answer.
 
-    An answer is unfinished if its check gave no result and no instructor reviewed it, or if the answer
+    There are two cases: the check gave no result and no instructor has reviewed the answer, or the answer has
     changed after the review.
     """
     if row := overrides.rows.get(item.key):
@@ -83,7 +83,7 @@ def is_unfinished(item: Item, overrides: Overrides) -> bool:
 
 
 def identical(item: Item, items: Sequence[Item]) -> list[Item]:
-    """Return the other students' answers to the same part that have the same code; [] for an empty answer."""
+    """Return the other students' answers with the same code to the same part; [] for an empty answer."""
     if not item.code.strip():
         return []
     return [
@@ -96,7 +96,8 @@ def identical(item: Item, items: Sequence[Item]) -> list[Item]:
 def marked_lines(item: Item) -> Iterator[tuple[str, str]]:
     """Yield the lines of the answer as (kind, line), compared with the cell that students get.
 
-    The kinds are "same", "added" and "removed". A package has no such cell, so all its lines are "same".
+    The kinds are "same", "added" and "removed". For an answer in a package, students get no cell, so all
+    lines are "same".
     """
     lines = item.code.strip("\n").split("\n")[:LINES]
     given = _handed_out(item.grade.chapter).get(exercise_of(item.report.check), "")
@@ -128,9 +129,11 @@ def _handed_out(chapter: str) -> dict[str, str]:
 
 
 def _flags_by_part(grade: Grade) -> dict[str, list[Flag]]:
-    """Return the flags of each part: flags about its answer or about a file of its answer.
+    """Return the flags of each part.
 
-    The first part gets the flags about other files.
+    A flag belongs to a part if it is about the part's cell or about one of the part's files.
+
+    A flag that belongs to no part is added to the first part.
     """
     found: dict[str, list[Flag]] = {}
     checks = [report.check for report in grade.reports]

@@ -1,8 +1,9 @@
 """overrides.csv: the points and comments of an instructor. The page and a spreadsheet can edit the file.
 
-The columns are student, chapter, part, points, comment and answer. Other columns and empty lines do not
-change. A part is written as "Part 05.10", because a spreadsheet would change 05.10 to 5.1. `answer`
-identifies the reviewed answer; the cell is empty in a row that was typed in a spreadsheet.
+The columns are student, chapter, part, points, comment and answer. When the course writes the file, other
+columns and empty lines do not change. A part is written as "Part 05.10", because a spreadsheet would change
+05.10 to 5.1. `answer` identifies the reviewed answer; the cell is empty in a row that was typed in a
+spreadsheet.
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ class Overrides:
     rows: Mapping[Key, Override] = field(default_factory=dict)
     head: tuple[str, ...] = COLUMNS
     lines: tuple[tuple[str, ...], ...] = ()  # The tuple contains the cells of all lines after the first line.
-    # The values are the indices of the rows in `lines`.
+    # For each key, the value is the index of its row in `lines`.
     places: Mapping[Key, int] = field(default_factory=dict)
     delimiter: str = ","
     digest: str = ""  # `digest` is a digest of the file's bytes.
@@ -91,7 +92,7 @@ class Overrides:
                 )
 
     def changed(self, changes: Mapping[Key, Override | None]) -> bytes:
-        """Return the file with new rows for the keys in `changes`; None removes a row."""
+        """Return the file with the rows in `changes`; if the value of a key is None, its row is removed."""
         lines: list[tuple[str, ...] | None] = list(self.lines)
         for key, row in changes.items():
             place = self.places.get(key)
@@ -226,7 +227,7 @@ def _name(cell: str) -> str:
 
 
 def _protected(text: str) -> str:
-    """Return a cell that a spreadsheet does not read as a formula; `_plain` reverses the change."""
+    """Add a quote before a text that a spreadsheet would read as a formula; `_plain` removes the quote."""
     return f"'{text}" if text.lstrip("'").startswith(tuple(clean.FORMULA)) else text
 
 

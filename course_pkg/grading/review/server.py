@@ -90,7 +90,7 @@ class Handler(PageHandler):
 
 
 class Unknown(Handler):
-    """Answers requests for any other address."""
+    """Answers requests for an address that does not exist."""
 
     def get(self) -> None:
         """Send 404."""
@@ -151,7 +151,7 @@ class Rows(Handler):
     async def get(self) -> None:
         """Send all rows if another program has changed the rows since the last request of the page.
 
-        Otherwise, send an empty object.
+        If no other program has changed them, send an empty object.
         """
         session = self.session
         await self.attempt(lambda: {"rows": session.rows(), "reloaded": True} if session.refresh() else {})

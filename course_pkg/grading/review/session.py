@@ -115,7 +115,7 @@ class Session:
     def undo(self) -> dict[str, Plain]:
         """Undo the last change, and return the restored rows.
 
-        In the result, `shown` is the number of one of the restored answers.
+        In the result, `shown` is the number of a restored answer.
 
         Raises ValueError if there is nothing to undo, or if another program has changed a row since then.
         """

@@ -28,8 +28,8 @@ class ClassList:
 
     people: Mapping[str, Person] = field(default_factory=dict)  # The keys are the students' names.
     roster: tuple[Person, ...] | None = None
-    found: int = 0  # `found` is the number of students of the roster with a submission.
-    missing: tuple[Person, ...] = ()  # These students of the roster have no submission.
+    found: int = 0  # `found` is the number of students on the roster who have a submission.
+    missing: tuple[Person, ...] = ()  # These students are on the roster, but have no submission.
     strangers: tuple[str, ...] = ()  # These students have a submission, but are not on the roster.
     # The values are the reasons why a student was not found.
     unclear: Mapping[str, str] = field(default_factory=dict)
@@ -187,7 +187,7 @@ def origins_of(handed_in: Iterable[Submission | Grade]) -> dict[str, list[str]]:
 
 
 def _platform(origins: Origins, source: Path | None, nameless: str) -> dict[str, Person]:
-    """Return the data about students that platforms write into the names of files and folders.
+    """Return the data about each student in file names, folder names and metadata of a platform.
 
     `nameless` is the word that Moodle writes instead of a name if submissions are anonymous.
     """

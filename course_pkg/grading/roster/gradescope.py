@@ -1,4 +1,4 @@
-"""The students in an export from Gradescope, with the data about them in the metadata."""
+"""Reads the data about the students from the metadata of an export from Gradescope."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds the row of a list that belongs to a student, from the data in a submission.
+"""Finds a student's row in a list, from the data in a submission.
 
 For each known field (a number, an address or a name), the rows with the same value are found. A field is
 ignored if no row has the same value. A row belongs to the student only if it is the only row that matches all
@@ -17,11 +17,11 @@ from course_pkg.grading.roster.people import IDENTITY, Person
 
 @dataclass(frozen=True)
 class Match:
-    """The row that belongs to a student. If several rows are possible, `problem` says why."""
+    """The result of a search for a student's row. If several rows are possible, `problem` says why."""
 
     person: Person | None = None
     problem: str = ""
-    # If several rows are possible, these are the numbers of their lines.
+    # The line numbers of the possible rows, if several rows are possible.
     possible: frozenset[int] = frozenset()
 
 
@@ -88,7 +88,7 @@ def _keys(person: Person) -> Iterator[tuple[str, str]]:
 
 
 def orders(name: str) -> set[str]:
-    """Return the letters of a name, once for each order of first and last names that platforms use.
+    """Return the letters of a name in each order of first and last names that a platform can use.
 
     For Jane Maria Doe, Canvas writes "doejanemaria", and a spreadsheet can contain "Doe, Jane Maria".
     """
@@ -97,7 +97,10 @@ def orders(name: str) -> set[str]:
 
 
 def _agree(one: str, other: str) -> bool:
-    """Return whether two names can belong to one student; Moodle may write a group's name before a name."""
+    """Return whether two names can belong to one student.
+
+    Moodle may write the name of a group before a student's name, so `one` only has to end with `other`.
+    """
     return not one or not other or any(folded(one).endswith(order) for order in orders(other))
 
 

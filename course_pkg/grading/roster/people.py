@@ -1,10 +1,10 @@
 """The roster: the students of a class, from a CSV file.
 
-The first line contains the names of the columns, in any order: name, id, email, username, section. One of the
-first four columns is enough. The course also understands the columns of Canvas (Student, ID, SIS Login ID,
-Section), Gradescope (First Name, Last Name, SID, Email, Sections) and Moodle (First name, Last name, Email
-address, ID number, Username). Therefore, an export from one of these platforms is a roster. The values of
-other columns are stored under the columns' names.
+The first line contains the names of the columns, in any order: name, id, email, username, section. At least
+one of the columns name, id, email and username is required. The course also understands the columns of Canvas
+(Student, ID, SIS Login ID, Section), Gradescope (First Name, Last Name, SID, Email, Sections) and Moodle
+(First name, Last name, Email address, ID number, Username). Therefore, an export from one of these platforms
+is a roster. The values of other columns are stored under the columns' names.
 """
 
 from __future__ import annotations

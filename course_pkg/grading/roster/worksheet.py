@@ -1,13 +1,13 @@
 """Reads Moodle's offline grading worksheet, and writes a copy with new grades and feedback comments.
 
-An instructor downloads the worksheet from an assignment ("Download grading worksheet"; for this, the feedback
-type "Offline grading worksheet" has to be on), and uploads the copy there ("Upload grading worksheet").
+An instructor switches on the feedback type "Offline grading worksheet" of an assignment, and downloads the
+worksheet ("Download grading worksheet"). Later, the instructor uploads the copy ("Upload grading worksheet").
 
-Layout, from Moodle's source: mod/assign/gradingtable.php writes the columns Identifier ("Participant 12345"),
-Full name, further fields such as Email address or ID number, Status, Group, Marker, Grade, Maximum grade (or
-Scale), Marking workflow state, Grade can be changed, Last modified (submission), Online text, Last modified
-(grade), Feedback comments. Most of these columns are optional; if submissions are anonymous, the name is
-missing. The names of the columns and the word "Participant" are in the user's language.
+The layout is from Moodle's source. mod/assign/gradingtable.php writes the columns Identifier ("Participant
+12345"), Full name, further fields such as Email address or ID number, Status, Group, Marker, Grade, Maximum
+grade (or Scale), Marking workflow state, Grade can be changed, Last modified (submission), Online text, Last
+modified (grade), Feedback comments. Most of these columns are optional; if submissions are anonymous, the
+name is missing. The names of the columns and the word "Participant" are in the user's language.
 mod/assign/feedback/offline/importgradeslib.php finds the columns by exactly these names, takes the number
 from the end of the identifier, and refuses a file without one of its columns. locallib.php in the same folder
 ignores a grade that is empty, above the maximum, or locked.
@@ -81,7 +81,7 @@ class Participant:
     place: int  # `place` is the index of the row in the file's records.
     person: Person
     locked: bool  # `locked` is True if Moodle ignores a new grade for this participant.
-    # `maximum` is the maximum number of points, or None if the worksheet does not contain it.
+    # `maximum` is the maximum number of points, or None if the worksheet contains no maximum.
     maximum: float | None
 
 
@@ -119,7 +119,7 @@ class Worksheet:
 
     @property
     def about_points(self) -> str:
-        """The end of a sentence that says whether the points are scaled to the maximum grade."""
+        """A clause for the end of a sentence: whether the points are scaled to the maximum grade."""
         if MAXIMUM not in self._columns:
             return "; it contains no maximum grade, so the points are not scaled"
         maxima = sorted({f"{each.maximum:g}" for each in self.participants if each.maximum})
@@ -194,7 +194,7 @@ def read_worksheet(path: Path) -> Worksheet:
             f"The {WHAT} {path.name} is not in UTF-8, but Moodle writes this file in UTF-8. {AGAIN}"
         ) from error
     separator = delimiter_of(text)
-    # The byte order mark is still before the name of the first column.
+    # The name of the first column still begins with the byte order mark.
     found = list(records(text, separator))
     head = [clean.line(found[0].value(place)) for place in range(len(found[0].cells))] if found else []
     if found and text.startswith("\ufeff"):

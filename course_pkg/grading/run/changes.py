@@ -17,7 +17,7 @@ SHOWN = 40  # At most this many lines are printed; changes.csv contains all chan
 
 @dataclass(frozen=True)
 class Change:
-    """Points that differ from the last run; `part` is "total" if only the lateness has changed."""
+    """Points that have changed since the last run; `part` is "total" if only the lateness has changed."""
 
     student: str
     chapter: str
@@ -31,7 +31,10 @@ class Change:
 
 
 def changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[Change]:
-    """Return the changed points of grades that exist in both runs, sorted by student and part."""
+    """Return the points that have changed between two runs, sorted by student and part.
+
+    A grade that exists in only one run is ignored.
+    """
     known = {(grade.student, grade.chapter): grade for grade in before if grade.chapter}
     found = []
     for grade in sorted(after, key=lambda each: (each.student, each.chapter)):
@@ -56,7 +59,7 @@ def _between(before: Grade, after: Grade) -> Iterator[Change]:
 
 
 def worth_changes(before: Sequence[Grade], after: Sequence[Grade]) -> list[str]:
-    """Return a line for each part with a change in its possible points, or in the points of its goals."""
+    """Return a line for each part if its possible points, or the points of its goals, have changed."""
     old, new = (
         {report.check: report for grade in grades for report in grade.reports} for grades in (before, after)
     )

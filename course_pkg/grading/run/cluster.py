@@ -43,7 +43,7 @@ class Cluster:
 
     @property
     def failures(self) -> tuple[type[BaseException], ...]:
-        """The exceptions of a cluster that could not run a task.
+        """The exceptions that dask raises if the cluster cannot run a task.
 
         `explained` returns an error message for such an exception.
         """

@@ -37,9 +37,9 @@ class Earlier:
 
         The earlier grades have the points of the checks.
 
-        A selected earlier grade is marked as absent, because this run had no submission for it. If everything
-        was selected and no student submitted a chapter, the chapter belongs to another assignment, and its
-        grades are not marked.
+        An earlier grade is marked as absent if this run selects the student and the chapter, but has no
+        submission. There is one exception: if a run without a selection contains no submission for a chapter,
+        the chapter probably belongs to another assignment, and its grades are not marked.
         """
         chapters = {grade.chapter for grade in graded}
         now = {(grade.student, grade.chapter) for grade in graded if grade.chapter}

@@ -21,7 +21,7 @@ class Regrade:
 
     @property
     def again(self) -> bool:
-        """Whether the selected notebooks are graded again even if grades are stored."""
+        """Whether the selected notebooks are graded again even if their grades are already stored."""
         return self.fresh or self.selected.again
 
     def parts(self, submission: Submission) -> tuple[str, ...]:
@@ -39,11 +39,11 @@ class Regrade:
         return merged(base, grade) if parts and base else grade
 
     def keep(self, store: Store, graded: Grade, parts: tuple[str, ...], alike: Sequence[Submission]) -> None:
-        """Store a new grade for later runs; the grade does not contain a student yet.
+        """Store a new grade for later runs; at this time, the grade contains no student's name.
 
         The submissions in `alike` get this grade. If only `parts` were graded, their reports replace the
-        reports in the stored grade. If an earlier grade was computed with other options or another version of
-        the checks, it is removed. Otherwise, the next complete run would use the old points of this grade.
+        reports in the stored grade. A stored grade that was computed with other options or another version of
+        the checks is removed. If it were kept, a later run of the whole notebook could use its old points.
         """
         if not parts:
             store.keep(graded)

@@ -106,7 +106,10 @@ def merged(base: Grade, again: Grade) -> Grade:
 
 
 def _student(name: str, known: Sequence[str]) -> str:
-    """Return the student with this name; `name` may lack the number that a platform adds."""
+    """Return the student with this name.
+
+    `name` may be without the number that a platform adds.
+    """
     identity = clean.identity(name)
     if identity in known:
         return identity

@@ -1,4 +1,7 @@
-"""Runs git in a folder. The user's hooks and the variables of a calling git command have no effect."""
+"""Runs git in a folder.
+
+The user's hooks do not run. The variables that another git command has set for a hook are removed.
+"""
 
 from __future__ import annotations
 
@@ -22,8 +25,8 @@ NO_IDENTITY = {"user.name": "course release", "user.email": "course@localhost"}
 def git(folder: Path, *arguments: str, given: str = "", identity: bool = False) -> str:
     """Run git in `folder` with the text `given` as its input, and return its output.
 
-    With `identity`, a commit gets a default name and address if the user has not configured them. Raises
-    HandoutError if git fails or is not installed.
+    If `identity` is True, a commit gets a default name and address unless the user has configured them.
+    Raises HandoutError if git fails or is not installed.
     """
     settings = {**SETTINGS, **(_missing_identity(folder) if identity else {})}
     options = [word for name, value in settings.items() for word in ("-c", f"{name}={value}")]

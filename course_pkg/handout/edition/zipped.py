@@ -33,7 +33,8 @@ def zip_path(folder: Path) -> Path:
 def write_zip(path: Path, folder: str, files: Mapping[str, File]) -> None:
     """Write `files` to the zip at `path`.
 
-    In the zip, the paths of the files begin with the name `folder`, if it is not empty.
+    In the zip, the files are in a folder with the name `folder`; if `folder` is "", the files are not in a
+    folder.
     """
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:

@@ -1,9 +1,9 @@
 """Reads a student's work in a child process that has only the rights of this student.
 
 If root runs `course collect`, the child gives up all rights of root before it reads the home folder. The
-child can read only files that the student can read. Therefore, a link, or a folder that changes during the
-reading, cannot lead to a file that the student may not read. If another user runs `course collect`, the child
-has the rights of that user.
+child can read only files that the student can read. Therefore, even if a student creates a link, or replaces
+a folder during the reading, the child cannot read other users' private files. If another user runs `course
+collect`, the child has the rights of that user.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from course_pkg.handout.homes.listing import Home, groups_of
 from course_pkg.handout.homes.work import Problem, WorkFile, work_in
 from course_pkg.waiting import Deadline
 
-# Reading one home may take this many s, so a network folder without a response cannot stop the whole
-# collection.
+# Reading one home may take this many s. Without this limit, a network folder that does not respond would stop
+# the whole collection.
 TIMEOUT = 60.0
 ALTOGETHER = 200 << 20  # ALTOGETHER is the maximum number of bytes of one student's work.
 HEADER = 64 << 10  # Each header of the child's data has at most this many bytes.
@@ -38,8 +38,8 @@ def read_home(
 
     The second result contains a sentence about each file or folder that could not be collected.
 
-    `notebooks` maps the name of each notebook's file to its chapter; `asked` contains the names of the
-    packages that parts require. The child process ends after at most `timeout` s.
+    The keys of `notebooks` are the file names of the notebooks, and the values are the chapters. `asked`
+    contains the names of the packages that parts require. The child process ends after at most `timeout` s.
     """
     reader, writer = os.pipe()
     pid = os.fork()

@@ -21,8 +21,8 @@ from course_pkg.workspace.fault import manifest_tags
 NOTEBOOKS, SOURCES = "notebooks", "workspace/src"  # These paths are relative to the course's folder.
 DEPTH = 12  # Folders can be nested to this depth.
 ENTRIES = 5_000  # At most this many files and folders of a workspace are examined.
-# This time in ns is in the year 2100. A file's time can be any number, but larger numbers are not valid
-# dates.
+# A later modification time (ns since 1970) is replaced by this time, the beginning of the year 2100. A file
+# can have any modification time, but some large times are not valid dates.
 LATEST = 4_102_444_800 * 10**9
 TRIES = 3  # If a file changes while it is read, this many attempts are made.
 
@@ -31,8 +31,7 @@ TRIES = 3  # If a file changes while it is read, this many attempts are made.
 class WorkFile:
     """A file of a student: a notebook, or a file of a package.
 
-    `package` is the name of the package's folder. `asked` is the name under which the parts require the
-    package.
+    `package` is the name of the package's folder. `asked` is the name that the parts use for the package.
     """
 
     path: str  # `path` is NN_topic.ipynb, or the path inside the package.
@@ -77,8 +76,8 @@ def work_in(
 
     The files are read with the rights of this process.
 
-    `notebooks` maps the name of each notebook's file to its chapter; `asked` contains the names of the
-    packages.
+    The keys of `notebooks` are the file names of the notebooks, and the values are the chapters. `asked`
+    contains the names of the packages.
     """
     try:
         with _opened(home) as top, _opened(folder, top) as course:

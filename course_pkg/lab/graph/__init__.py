@@ -2,6 +2,6 @@
 
 Each command uses `graph.py`. It starts `holder.py`, a process that owns the network and the master until the
 last command has left the graph. `network.py` creates the private network, `outgoing.py` connects this network
-with other computers, and `kernels.py` starts the kernels of JupyterLab in this network. `notes.py` tells the
-user what is missing.
+with other computers, and `kernels.py` starts the kernels of JupyterLab in this network. `notes.py` returns a
+message about the limits of the graph.
 """

@@ -36,8 +36,8 @@ class Graph:
     """A graph that this command uses until leave() is called.
 
     `uri` is the address of the master. `files` are the file descriptors of the private network's namespaces.
-    If `files` is empty, the graph uses the network of this machine. In this case, `reason` says why; it is
-    empty if the user asked for the network of this machine. After wait_for_master(), `outgoing` is true if
+    If `files` is empty, the graph uses the network of this machine. In this case, `reason` is the reason, or
+    "" if the user asked for the network of this machine. After wait_for_master(), `outgoing` is true if
     programs in the private network can connect to other computers.
     """
 
@@ -82,7 +82,8 @@ class Graph:
             # The holder continues to run for other commands, so this process does not wait for it.
             self._holder.returncode = 0
         if not received.endswith(LAST) and (left := _connected(self._path)):
-            # The holder still runs. If it had been killed, _connected() would have removed its socket.
+            # The holder still runs. If the holder has been killed, _connected() removes its socket and
+            # returns None.
             left.close()
         for file in self.files:
             os.close(file)
@@ -93,8 +94,8 @@ class Graph:
 def graph_of_this_command(which: Which) -> Iterator[Graph | None]:
     """Run the `with` block on a graph; ROS_MASTER_URI contains the address of its master.
 
-    If ROS_MASTER_URI is set and `which` is RUNNING, the block gets None, and uses the master at this address
-    in the network of this process. Raises GraphError if the graph cannot be started.
+    If `which` is RUNNING and ROS_MASTER_URI is already set, no graph is used: the block gets None, and
+    ROS_MASTER_URI does not change. Raises GraphError if the graph cannot be started.
     """
     if os.environ.get("ROS_MASTER_URI") and which is Which.RUNNING:
         yield None
@@ -167,7 +168,7 @@ def _start(which: Which, folder: Path) -> Graph:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             pass_fds=[listener.fileno()],
-            start_new_session=True,  # Ctrl-C in this terminal does not end a graph that others use
+            start_new_session=True,  # Ctrl-C in this terminal does not end a graph that other commands use
         )
         connection.connect(name)
     if which is Which.ALONE:

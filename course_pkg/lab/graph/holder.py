@@ -3,10 +3,11 @@
 usage: holder.py LISTENER SOCKET KIND
 
 LISTENER is the descriptor of a listening Unix socket, SOCKET is its path, and KIND is "private" or "shared".
-`graph.py` runs this file as a script. Each command that uses the graph has a connection to the socket, until
-the command leaves the graph or ends, even by SIGKILL. When the last connection is closed, the holder ends the
-graph. The holder does not have to check process ids: the operating system closes the connections of a process
-that has ended, and it refuses new connections to a holder that has ended.
+`graph.py` runs this file as a script. Each command that uses the graph has a connection to the socket. The
+connection is closed when the command leaves the graph or ends, even by SIGKILL. When the last connection is
+closed, the holder ends the graph. The holder does not have to check process ids, because the operating system
+closes the connections of a process that has ended. If the holder has ended, the operating system refuses new
+connections to its socket.
 
 To each command, the holder sends a line of JSON together with the file descriptors of the namespaces. The
 holder sends a second line when the master answers, or when the master cannot be started. When a command
@@ -75,7 +76,7 @@ class Holder:
         # The connection to the last command is closed when this process ends.
 
     def _enter_network(self) -> str:
-        """Enter a new private network; return the reason if this machine does not allow one."""
+        """Enter a new private network; if this machine does not allow private networks, return the reason."""
         from course_pkg.lab.graph import network, outgoing
 
         try:
@@ -95,7 +96,7 @@ class Holder:
     def _serve(self, first: socket.socket) -> socket.socket:
         """Accept commands, and close the connection of each command that leaves.
 
-        The connection of the last command is not closed but returned.
+        The connection of the last command is not closed; the method returns this connection.
         """
         with selectors.DefaultSelector() as selector:
             selector.register(self._listener, selectors.EVENT_READ)

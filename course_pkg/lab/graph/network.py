@@ -1,9 +1,10 @@
 """A private network: Linux namespaces, which other processes can enter through file descriptors.
 
-Programs in a private network can connect only to each other. Their ports and abstract sockets do not exist
-for other users, or for other networks of the same user. root needs only a network namespace. Other users also
-need a user namespace. In this namespace, users keep their names and file permissions, but cannot become
-another user, so `sudo` does not work. See network_namespaces(7) and user_namespaces(7).
+Programs in a private network can connect only to each other. Other users, and other networks of the same
+user, cannot use the ports and abstract sockets of these programs. The user root needs only a network
+namespace. Other users also need a user namespace. In this namespace, users keep their names and file
+permissions, but cannot become another user, so `sudo` does not work. See network_namespaces(7) and
+user_namespaces(7).
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from typing import NoReturn
 from course_pkg.sandbox.linux import namespaces
 
 ENTER = "nsenter"  # a program of util-linux
-# The keys are the possible numbers of file descriptors, and the values are the kinds of their namespaces.
+# A graph has 0, 1 or 2 file descriptors. For each of these numbers, the value contains the kind of each
+# namespace.
 KINDS = {0: (), 1: (namespaces.NETWORK,), 2: (namespaces.USER, namespaces.NETWORK)}
 
 
@@ -33,8 +35,7 @@ def create() -> list[int]:
         try:
             return _create(namespaces.NETWORK)
         except OSError:
-            # In a container, root may not be allowed to create a network namespace alone, but may be allowed
-            # to create it together with a user namespace.
+            # In some containers, root can create a network namespace only together with a user namespace.
             pass
     return _create(namespaces.USER | namespaces.NETWORK)
 
@@ -43,13 +44,13 @@ def enter(files: Sequence[int]) -> None:
     """Enter the namespaces with these file descriptors; the calling process must have only one thread."""
     for file, kind in zip(files, KINDS[len(files)], strict=True):
         namespaces.enter(file, kind)
-    # A change of the user namespace makes a process unreadable, but other programs of the course read
-    # /proc/PID.
+    # After a change of the user namespace, other processes of the user cannot read this process in /proc.
+    # Other programs of the course need to read /proc/PID.
     namespaces.be_readable()
 
 
 def entering(files: Sequence[int]) -> list[str]:
-    """Return a command prefix, which runs a command in the namespaces with these file descriptors.
+    """Return a prefix for a command line; it runs the command in the namespaces with these file descriptors.
 
     The prefix works as long as this process has the file descriptors open.
     """

@@ -1,9 +1,9 @@
 """Connections from a private network to other computers, through slirp4netns.
 
 slirp4netns forwards each connection from the private network as an ordinary connection of the user.
-slirp4netns accepts no connection from outside, and does not forward to the loopback addresses of this
-computer, on which other users' servers listen. The program pasta could also be used, but pasta of Debian 12
-cannot open a namespace by a descriptor in /proc.
+slirp4netns accepts no connection from outside. It does not forward to the loopback addresses of this
+computer, because servers of other users listen there. The program pasta could also be used, but pasta of
+Debian 12 cannot open a namespace by a descriptor in /proc.
 """
 
 from __future__ import annotations
@@ -26,7 +26,10 @@ class Outgoing:
 
     @classmethod
     def start(cls, files: Sequence[int]) -> Outgoing | None:
-        """Connect the network namespace in `files` to other computers; return None without slirp4netns."""
+        """Connect a private network to other computers; return None if slirp4netns is not installed.
+
+        `files` are the file descriptors of the network's namespaces.
+        """
         if not shutil.which(FORWARDER):
             return None
         *user, network = (f"/proc/{os.getpid()}/fd/{file}" for file in files)

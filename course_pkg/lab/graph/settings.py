@@ -14,9 +14,10 @@ def settings_for(graph: Graph | None) -> dict[str, object]:
 
     The keys are the names of Jupyter's traits.
 
-    The server stays outside of a private network, so it reaches a kernel by sockets that are files (transport
-    "ipc"). In the network of this computer, such sockets are used for another reason: another program could
-    take a TCP port before the kernel opens the port.
+    The server and a kernel communicate through sockets that are files (transport "ipc"). If the graph has a
+    private network, the server is outside this network, so the server cannot use the kernel's TCP ports.
+    Without a private network, the reason is different: another program could take a TCP port before the
+    kernel opens the port.
     """
     if not graph or not graph.files:
         return {"KernelManager.transport": "ipc"}

@@ -88,7 +88,7 @@ def _case(number: int, fault: Fault, everything: Iterable[Fault]) -> Case:
 
 
 def _could_be(fault: Fault, other: Fault) -> bool:
-    """Return whether `other` has a similar symptom, and a diagnosis that is wrong for `fault`."""
+    """Return whether the diagnosis of `other` can be a wrong option for `fault`: the symptoms are similar."""
     same = other.name == fault.name or other.name in fault.unlike or fault.name in other.unlike
     return other.look.split()[0] == fault.look.split()[0] and not same
 

@@ -42,9 +42,12 @@ class BreakIt(Panel):
         self.publish(**self._model.overview())
 
     def record(self, cases: Mapping[str, Iterable[str]]) -> None:
-        """Run cases with tools for a page without a kernel; the page shows the last case.
+        """Run the tools of some cases, and store the outputs for a page without a kernel.
 
-        `cases` maps names of faults to names of tools: {"stale": ["services", "ping"]}.
+        The page shows the last case.
+
+        The keys of `cases` are names of faults, and the values are names of tools: {"stale": ["services",
+        "ping"]}.
         """
         for name, tools in cases.items():
             self._model.play(name, tools)

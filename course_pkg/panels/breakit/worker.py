@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 
 class Worker:
-    """Runs jobs one after the other on a thread; the thread ends when no job is left.
+    """Runs jobs one after another on a thread; the thread ends when the queue is empty.
 
     If a job raises an error, the thread calls `failed` with this error.
     """

@@ -34,7 +34,9 @@ class Verdict:
 
 @dataclass(frozen=True)
 class ChoiceRecord:
-    """The choices for one table of cases. `chosen` and `first` map the text of a case to the chosen option.
+    """The choices for one table of cases.
+
+    In `chosen` and `first`, the keys are the texts of the cases, and the values are the chosen options.
 
     `compared` is the time (ISO 8601 in UTC) when the reasons were first shown; it is "" before that time.
     `first` contains the choices at the time `compared`; later choices do not count. `fit` is the number of
@@ -52,7 +54,10 @@ class ChoiceRecord:
 
     @property
     def standing(self) -> str:
-        """One sentence: the number of choices, or how many of the first choices were the expected options."""
+        """A sentence with the number of choices.
+
+        After the comparison, the sentence contains the number of first choices that were expected options.
+        """
         if not self.compared:
             return f"{len(self.chosen)} of {self.cases} cases have an answer."
         return f"{self.fit} of {len(self.first)} of your first choices fit."

@@ -19,7 +19,7 @@ HERE = Path(__file__).parent
 class _First(TypedDict, total=False):
     """The first choices.
 
-    `of` is the number of first choices, and `fit` is the number of those that were the expected options.
+    `of` is the number of first choices, and `fit` is the number of first choices that were expected options.
 
     `now` is True if the current choices are the first choices.
     """

@@ -9,7 +9,8 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-CONTROLS = 16  # An array with more elements than this has one line of text instead of separate input fields.
+# An array with more elements than this is shown as one line of text, without separate input fields.
+CONTROLS = 16
 LIMIT = 200  # A table has at most this many rows.
 ELEMENTS = 32  # A table shows at most this many elements of an array.
 _NANO = 10**9
@@ -29,7 +30,7 @@ class Check(TypedDict, total=False):
     refused: int
     shell: str  # The equivalent terminal commands for a service call.
     python: str
-    once: str  # The equivalent command publishes one message.
+    once: str  # The terminal command that publishes one message.
     often: str
 
 
@@ -54,7 +55,10 @@ class MessageForm:
         self._commands = commands
 
     def errors(self, draft: Draft) -> dict[str, str]:
-        """Return the error messages by field path, with at most one message for each top-level field."""
+        """Return the error messages; the keys are field paths.
+
+        Each top-level field has at most one message.
+        """
         wrong: dict[str, str] = {}
         given = {**self.blank, **draft}
         for name in self.blank:

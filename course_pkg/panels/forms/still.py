@@ -1,4 +1,4 @@
-"""Drawing functions that several still pictures use: for a form, a table of values, and commands."""
+"""Functions that draw a form, a table of values or commands into a still picture."""
 
 from __future__ import annotations
 

@@ -70,8 +70,8 @@ class RateMeter:
     def read(self, at: float, messages: int) -> None:
         """Add a count: the number of messages from the beginning until the time `at` (s)."""
         if self._counts and messages < self._counts[-1][1]:
-            # A smaller count means that the publisher was restarted, and that its new connection has the same
-            # id.
+            # The count is smaller than the previous count: the publisher was restarted, and its new
+            # connection has the same id.
             self._counts.clear()
         self._counts.append((at, messages))
         while at - self._counts[0][0] > LONG:
@@ -108,7 +108,7 @@ class RateMeter:
 
 
 def plainest(rate: float, tolerance: float) -> float:
-    """Return the number with the fewest digits that differs from the rate by at most `tolerance`."""
+    """Round the rate to 1, 2 or 3 digits: the fewest digits with an error of at most `tolerance`."""
     if rate <= 0:
         return 0.0
     for digits in range(3):
@@ -149,7 +149,7 @@ def _key(carried: Traffic) -> Key:
 
 
 class _Ends:
-    """The publishers and subscribers of each topic of a picture, by the key of the topic."""
+    """The publishers and the subscribers of each topic of a picture; the keys are the keys of the topics."""
 
     def __init__(self, picture: Picture) -> None:
         self.publishers: dict[str, list[str]] = defaultdict(list)
@@ -160,7 +160,7 @@ class _Ends:
 
 
 class GraphActivity:
-    """Computes the activity that the page shows from repeated counts."""
+    """Computes the activity for the page from repeated counts of messages and calls."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None
@@ -179,8 +179,8 @@ class GraphActivity:
         """Return the activity for the page.
 
         `alive` contains the names of all nodes on the graph, including nodes that the panel does not show.
-        `box` maps the key of a shape to the key of the visible shape: a folded namespace replaces the shapes
-        in it.
+        `box` returns the key of the visible shape for the key of any shape: a folded namespace replaces the
+        shapes in it.
         """
         ends = _Ends(picture)
         topics = {each.key: self._topic(each, ends) for each in picture.shapes if each.kind is Kind.TOPIC}

@@ -28,7 +28,7 @@ def svg(
     notes: Mapping[str, str] | None = None,
     still: bool = False,
 ) -> str:
-    """Return the drawing as SVG; `notes` maps the keys of topics to the texts below their names.
+    """Return the drawing as SVG; `notes` contains the text below the name of each topic.
 
     In a page, each shape is a button with an accessible name; its attribute `data-key` is the key of the
     shape. If `still` is True, the result is a complete file with a style sheet and a text alternative.
@@ -113,7 +113,7 @@ class _Drawing:
 def _named(kind: str, label: str, name: str) -> str:
     """Return the accessible name of a button.
 
-    Speech input needs the visible label in the accessible name.
+    The accessible name contains the visible label, because a user of speech input says this label.
     """
     return f"{kind} {name}" if label == name else f"{kind} {name}: {label}"
 

@@ -98,7 +98,7 @@ class History:
         return next(same, None) or _Sized(scene, _size(scene))
 
     def _scenes(self) -> list[_Sized]:
-        """Return each different scene once, in the order of the recording."""
+        """Return the scenes without duplicates, in the order of the recording."""
         return list({id(each.sized): each.sized for each in self._moments}.values())
 
     def _weight(self) -> int:

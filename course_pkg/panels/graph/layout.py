@@ -13,7 +13,7 @@ from course_pkg.errors import DrawingFailed
 from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
 
 CHARACTER = 7.3  # A letter of the fixed-width font (12 px) is this many px wide.
-# The heights (px) are sufficient for one or two lines of text in a shape.
+# The heights (px) of the shapes: a shape has one or two lines of text.
 HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}
 # A shape is wider than its name by this many px.
 ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}
@@ -86,9 +86,9 @@ class Layout:
 def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
     """Return the layout that graphviz computes for a picture.
 
-    The arrows point from left to right. If this layout is too wide for a page and a layout from top to bottom
-    is clearly easier to read, the arrows point from top to bottom. Raises DrawingFailed if graphviz is
-    missing, fails, or takes longer than `timeout` s.
+    The arrows point from left to right. If this layout is too wide for a page, the arrows may point from top
+    to bottom. The second layout is used only if its letters are at least 10 % larger. Raises DrawingFailed if
+    graphviz is missing, fails, or takes longer than `timeout` s.
     """
     if not picture.shapes:
         return Layout()

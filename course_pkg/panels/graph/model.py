@@ -65,7 +65,7 @@ class Scene(TypedDict):
 
 
 def facts(picture: Picture, describe: Describe) -> list[Fact]:
-    """Return the details of each shape and of each namespace, as if no namespace were folded."""
+    """Return the details of each shape and of each namespace; shapes in folded namespaces are included."""
     spaces = [space(name, picture, members) for name, members in namespaces(picture).items()]
     known: dict[Pair, list[Pair]] = {}
     return [_entry(each, _fields(each, describe, known)) for each in (*picture.shapes, *spaces)]
@@ -221,7 +221,7 @@ class GraphModel:
         return self._counts.state(self._whole, alive, self._box)
 
     def _box(self, key: str) -> str:
-        """Return the key of the visible shape for `key`: a folded namespace replaces the shapes in it."""
+        """Return the key of the visible shape: this shape, or the folded namespace that contains it."""
         boxes = [each for each in (self._shown or Picture()).shapes if each.kind is Kind.SPACE]
         name = key.split(" ", 1)[1]
         return next((each.key for each in boxes if name.startswith(each.name)), key)

@@ -22,7 +22,7 @@ class Kind(str, Enum):
     NODE = "node"
     TOPIC = "topic"
     SERVICE = "service"
-    SPACE = "namespace"  # The shape of a folded namespace.
+    SPACE = "namespace"  # This shape is a folded namespace.
 
 
 PLURALS = {Kind.NODE: "nodes", Kind.TOPIC: "topics", Kind.SERVICE: "services"}
@@ -72,7 +72,7 @@ class Frame:
 class Picture:
     """All shapes, lines and frames.
 
-    The shapes, lines and frames are sorted by name only, and an outer frame comes before its inner frames.
+    The shapes, the lines and the frames are sorted by name, so an outer frame comes before its inner frames.
     """
 
     shapes: tuple[Shape, ...] = ()
@@ -180,9 +180,9 @@ def _ends(lines: Iterable[Line]) -> set[str]:
 def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
     """Return the picture with some namespaces as folded boxes, and with frames around all other namespaces.
 
-    `choices` maps a namespace to True if the reader folded it, or to False if the reader unfolded it. A
-    namespace that is not in `choices` is folded if the picture has more than `CROWD` shapes, and if the
-    namespace contains at most half of them.
+    The keys of `choices` are namespaces; the value is True if the reader folded the namespace, and False if
+    the reader unfolded it. A namespace that is not in `choices` is folded if the picture has more than
+    `CROWD` shapes and at most half of all shapes are in this namespace.
     """
     spaces = namespaces(picture)
     crowded = len(picture.shapes) > CROWD

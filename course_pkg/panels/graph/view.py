@@ -23,7 +23,7 @@ PAUSE = 2.0  # PAUSE is the time in s between two readings of the nodes' counter
 class GraphPanel(Panel):
     """A picture of the graph: the nodes, their topics, and their services.
 
-    The panel updates the picture while a page shows the panel; with `live=False`, the panel keeps the first
+    The panel updates the picture while a page shows the panel. If `live` is False, the panel keeps the first
     picture. The picture shows the rates of topics and the latest callers of services. If `noise` is True, the
     picture also shows /rosout and the logger services of every node. `node` is the kernel's own node; the
     reader can hide this node. By default, `node` is the node of join(). The panel records all pictures, so

@@ -141,7 +141,7 @@ class Predictions(_PredictionPanel):
 def predict(key: str, question: str, choices: Sequence[str] = ()) -> Question:
     """Return a panel with a question before the run. Without choices, the student may type any text.
 
-    `key` is `chapter.name`.
+    `key` consists of a chapter and a name, such as "05.reply_none".
     """
     return Question(key, question, choices)
 

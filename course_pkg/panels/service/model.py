@@ -1,4 +1,4 @@
-"""The state of a service panel, without a page, a kernel or ROS.
+"""The state of a service panel; this module uses no page, no kernel and no ROS.
 
 `connect` is a function that returns a Caller.
 """

@@ -1,4 +1,4 @@
-"""The state of a topic panel, without a page or ROS.
+"""The state of a topic panel; this module uses neither a page nor ROS.
 
 The panel's topic process receives commands and sends reports.
 """
@@ -95,10 +95,7 @@ class TopicModel:
             self._changed(about=self._about(), settings=asdict(self.settings))
 
     def process_began(self) -> None:
-        """Send the type and the plotted field to a new topic process.
-
-        A new process does not know the type and the field yet.
-        """
+        """Send the type and the plotted field to a new topic process."""
         with self._turn:
             self._own, self._log, self._subscription = "", MessageLog(), {"count": 0, "statistics": {}}
             self.see({**self._connections, "sources": []})
@@ -160,7 +157,10 @@ class TopicModel:
             self._changed(check=self._checked())
 
     def act(self, action: str, draft: Draft, settings: Settings) -> None:
-        """Publish once, in a burst, or at a rate; do nothing if the form has an error."""
+        """Publish the message in the form once, in a burst, or at a rate.
+
+        Do nothing if the form has an error.
+        """
         with self._turn:
             if not self._form or action not in ACTIONS:
                 return
@@ -215,7 +215,7 @@ class TopicModel:
         }
 
     def _type_on_the_graph(self) -> str:
-        """Return the type of a publisher. Without a publisher, return the type that the master knows."""
+        """Return the type of a publisher. If there is no publisher, return the type that the master knows."""
         types = [each["type"] for each in self._connections.get("publishers", ())]
         known = (*types, self._connections.get("type", ""))
         return next((each for each in known if each and each != ANY), "")

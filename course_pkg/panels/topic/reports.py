@@ -27,7 +27,7 @@ class PublisherState(PublisherReport, total=False):
 
 
 class SubscriptionState(TypedDict):
-    """The number of received messages, and statistics about the times between them."""
+    """The number of received messages, and statistics about the times between two messages."""
 
     count: int
     statistics: Figures
@@ -44,7 +44,7 @@ class ShownMessage(TypedDict):
 
 
 class MessageLog:
-    """The latest messages of a topic in one line each, and the last message as a table."""
+    """The latest messages of a topic, each in one line, and the last message as a table."""
 
     def __init__(self) -> None:
         self._entries: deque[ShownMessage] = deque(maxlen=KEPT)
@@ -123,7 +123,10 @@ def _rate(report: PublisherReport) -> str:
 
 
 def mismatches(kind: MessageType, connections: Connections, own: str, find: FindType) -> list[str]:
-    """Return a sentence for each node with another type than `kind`. rospy does not report such an error."""
+    """Return a sentence for each node that uses another type than `kind`.
+
+    rospy does not report this error.
+    """
     sources = {source["node"]: source for source in connections.get("sources", ())}
     return [
         *_of_publishers(kind, connections.get("publishers", ()), sources, own, find),

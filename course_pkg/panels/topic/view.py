@@ -23,7 +23,7 @@ HERE = Path(__file__).parent
 class TopicPanel(Panel):
     """A form for publishing on a topic, once or at a rate, and a view of the received messages.
 
-    `kind` is the type, such as "std_msgs/Float64". Without `kind`, the panel uses the type of the first
+    `kind` is the type, such as "std_msgs/Float64". If `kind` is None, the panel uses the type of the first
     publisher. While a page shows the panel, the panel has a separate node. Raises UnknownType if there is no
     such type, and NotATopic if `topic` is not a valid name.
     """

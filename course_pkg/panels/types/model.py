@@ -95,7 +95,7 @@ class PackageTypes(TypedDict):
     msg: list[str]
 
 
-# A use is a service or topic with its name and, for each role, the names of the nodes.
+# A use of a type is a service or a topic: its name, and the names of the nodes in each role.
 Use = dict[str, str | list[str]]
 Offers = dict[DefinitionKind, dict[str, list[Use]]]
 
@@ -204,8 +204,8 @@ class TypeModel:
     def open(self, name: str, half: DefinitionKind | None = None) -> None:
         """Show a type.
 
-        `half` is "srv" or "msg". Without it, a service type has priority over a message type with the same
-        name.
+        `half` is "srv" or "msg". If `half` is None, a service type has priority over a message type with the
+        same name.
         """
         with self._turn:
             self._open = (name, half or self._half(name))

@@ -15,7 +15,8 @@ from course_pkg.ros import Snapshot, look
 
 HERE = Path(__file__).parent
 PAUSE = 3.0  # PAUSE is the time in s between two checks of the files.
-# Reading all packages is slow on a large machine, so it uses at most 1 / SHARE of the time.
+# Reading all packages is slow on a machine with many packages. Therefore, at most 1 / SHARE of the time is
+# used for reading.
 SHARE = 50
 
 # The tuple contains the types and the time (ns) when the file of the open type was written.

@@ -1,4 +1,4 @@
-"""Splits a stream of TCPROS bytes into frames, and a header, a request or a reply into pieces.
+"""Splits a stream of TCPROS bytes into frames (a header, requests or replies), and each frame into pieces.
 
 Sources: http://wiki.ros.org/ROS/TCPROS (the framing, the ok byte),
 http://wiki.ros.org/ROS/Connection%20Header (the fields), and http://wiki.ros.org/msg (the order of a
@@ -30,7 +30,7 @@ from course_pkg.types.fields import integer_range
 from course_pkg.types.numbers import float32
 
 ERROR = 400  # At most this many characters of an error message are shown.
-ITEMS = 8  # The first elements of an array, up to this number, are shown separately.
+ITEMS = 8  # At most this many elements, at the beginning of an array, are shown separately.
 # Format characters of `struct` for signed integers; capital letters are for unsigned integers.
 CODES = {1: "b", 2: "h", 4: "i", 8: "q"}
 FLOATS = {"float32": ("<f", 4), "float64": ("<d", 8)}
@@ -78,7 +78,10 @@ def _frames(stream: bytes, extra: int) -> Iterator[Frame]:
 
 
 def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
-    """Return the frame at `at`; its length field comes after `extra` bytes."""
+    """Return the frame that begins at the offset `at`.
+
+    The length field of the frame comes after `extra` bytes.
+    """
     if at >= len(stream):
         return None
     if at + extra + 4 > len(stream):
@@ -88,7 +91,7 @@ def _frame(stream: bytes, at: int, extra: int) -> Frame | None:
 
 
 def header_pieces(data: bytes) -> Pieces:
-    """Return the pieces of a connection header: its length, and a length and name=value for each field."""
+    """Return the pieces of a connection header: its length, and the length and name=value of each field."""
     reader = Reader(data)
     try:
         reader.number(LENGTH, "length of the whole header")
@@ -192,7 +195,7 @@ def _array(reader: Reader, field: Field, name: str) -> None:
 
 
 def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
-    """Read `count` elements without listing them.
+    """Read `count` elements without a separate piece for each element.
 
     All numbers are read in one operation, because an image has millions of numbers.
     """
@@ -201,7 +204,8 @@ def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
             before = reader.at
             _field(reader, item, name)
             if reader.at == before:
-                # Elements without fields take no bytes, so a wrong count could cause a very long loop.
+                # An element without fields has no bytes. Without this line, a wrong number of elements in the
+                # data could cause a very long loop.
                 return
     else:
         reader.take(count * _format(item)[1], RAW, name)

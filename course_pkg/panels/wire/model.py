@@ -38,7 +38,8 @@ class WireState(TypedDict):
 def state(wire: Wire, find: FindType = service_type) -> WireState:
     """Return the data of a recording for the page.
 
-    `find` returns the type for a name; it is needed if only the connection headers contain the type.
+    `find` returns the type with a given name. It is called if the type is known only from the connection
+    headers.
     """
     start = min((each.opened for each in _all(wire)), default=0.0)
     steps = list(_look_up(wire, start))

@@ -1,4 +1,4 @@
-"""The pieces of a message, each with its offset, name and value, and a reader that splits the bytes.
+"""A reader that splits the bytes of a message into pieces; each piece has an offset, a name and a value.
 
 For a long piece, a page shows only the beginning and the length.
 """
@@ -100,7 +100,10 @@ class Reader:
         return int(number)
 
     def say(self, at: int, value: str, most: int = TEXT) -> None:
-        """Set the value of the piece at the offset `at`; do nothing if it is not the last stored piece."""
+        """Set the value of the last stored piece.
+
+        Do nothing if this piece does not begin at the offset `at`.
+        """
         if self.pieces and self.pieces[-1].at == at and not self._silent:
             self.pieces[-1] = replace(self.pieces[-1], value=shortened(value, most))
 

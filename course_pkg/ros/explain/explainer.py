@@ -9,7 +9,7 @@ from course_pkg.errors import CourseError
 from course_pkg.ros.explain.explanation import Explanation, known
 from course_pkg.workspace import explain as explain_build
 
-# Only this number of characters, at the end of a longer text, is searched.
+# If a text is longer than this number of characters, only its end is searched.
 LONGEST = 50_000
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _TRACEBACK = "Traceback (most recent call last)"
@@ -69,7 +69,7 @@ def _string(thing: object) -> str:
 
 
 def _chain(error: BaseException) -> Iterator[BaseException]:
-    """Yield the exception and its causes, each only once."""
+    """Yield the exception and its causes; each exception is yielded only once."""
     seen: set[int] = set()
     each: BaseException | None = error
     while each is not None and id(each) not in seen:
@@ -91,7 +91,8 @@ def _of_text(text: str) -> Explanation | None:
 def _candidates(text: str) -> Iterator[str]:
     """Yield possible error messages.
 
-    Possible messages are the error lines of each traceback, the last traceback first, and the whole text.
+    Possible messages are the error lines of each traceback, from the last traceback to the first, and then
+    the whole text.
     """
     if _TRACEBACK in text:
         for part in reversed(text.split(_TRACEBACK)[1:]):

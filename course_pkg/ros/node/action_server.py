@@ -28,8 +28,8 @@ class ActionServer:
     `server` is an actionlib.SimpleActionServer: `execute` uses this object to send feedback and the result,
     and to check whether the goal was cancelled.
 
-    An ActionServer ends when stop() is called, or when no variable refers to it any more, for example because
-    its cell runs again.
+    An ActionServer ends when stop() is called, or when no variable refers to it any more. The second case
+    occurs, for example, when its cell runs again.
     """
 
     def __init__(self, name: str, kind: type, execute: Execute) -> None:
@@ -37,7 +37,7 @@ class ActionServer:
         self._stopped, self._goal_came = threading.Event(), threading.Event()
         self._server = actionlib.SimpleActionServer(name, kind, auto_start=False)
         self._server.register_goal_callback(self._goal_came.set)
-        # If the thread had a reference to self, this object would never be deleted.
+        # The thread gets no reference to self, because this object would then never be deleted.
         work = (self._server, execute, self._goal_came, self._stopped)
         self._thread = threading.Thread(target=_work, args=work, daemon=True)
         self._thread.start()

@@ -196,8 +196,8 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            # All registrations have been removed. If `master_uri` still contained the master's address, rospy
-            # would unregister again, without a time limit.
+            # All registrations have been removed. `master_uri` is set to None, because rospy would otherwise
+            # unregister again, without a time limit.
             manager.master_uri = None
         if self._private is not None:
             self._private.stop()
@@ -254,9 +254,10 @@ def _apply_environment() -> None:
 
 
 def _free_name(full: str, master: MasterClient) -> None:
-    """Make sure that no running node uses this name.
+    """Wait until no running node uses this name.
 
-    If a node with this name has ended, its registrations are removed.
+    If a node with this name has ended, its registrations are removed. Raises NodeNameTaken after NAME_TIMEOUT
+    seconds.
     """
     deadline = time.monotonic() + NAME_TIMEOUT
     while (uri := master.lookup_node(full)) is not None:

@@ -118,7 +118,7 @@ class Node:
 
     def close(self, *, with_master: bool = True) -> None:
         """End everything that this node has started; if `with_master` is true, unregister the node."""
-        # All processes are interrupted at the same time, so they have one common deadline.
+        # All processes receive SIGINT at the same time, so all of them have the same deadline.
         deadline = time.monotonic() + GRACE
         for process in self._processes.values():
             process.interrupt()
@@ -147,8 +147,8 @@ class Node:
 
     def _proxy(self, name: str, kind: ServiceKind) -> BoundedProxy:
         cls = service_class(kind)
-        # The stored proxy has a reference to the class, so the class is not deleted, and no other class can
-        # get the same id.
+        # An id belongs to only one class as long as the class exists. The class exists as long as its proxy
+        # is stored, because the proxy has a reference to the class.
         key = (str(rospy.resolve_name(name)), id(cls))
         if key not in self._proxies:
             self._require()

@@ -40,8 +40,8 @@ from course_pkg.ros.trace.topic_hooks import hook_topics
 HEADER_TIMEOUT = 10.0  # A header has to arrive within this time in s.
 AT_ONCE = 2  # If a header takes longer than this time in ms, a separate thread waits for it.
 LONGEST = 65536  # A connection with a longer header (in bytes) is closed.
-# This many connections may wait to be accepted. With rospy's limit of 5, when many clients connect at once,
-# some clients wait 1 s for a TCP retransmission.
+# The maximum number of connections that wait until the node accepts them. rospy's limit is 5: if many clients
+# connect at once, some of them wait 1 s for a TCP retransmission.
 BACKLOG = 128
 STATISTICS = "getBusStats"
 UNSUPPORTED = "the callers of its services, because this rospy reports its statistics in a different way"
@@ -54,9 +54,9 @@ Serve = Callable[[socket.socket, Any], None]
 def prepare_node() -> None:
     """Prepare this process's node, directly after rospy.init_node().
 
-    In a prepared node, idle connections do not block other connections, calls and messages are recorded, and
-    a shutdown is fast. Call this function before you create a service, publisher or proxy. A second call has
-    no effect.
+    In a prepared node, idle connections do not block other connections. The node records calls and messages,
+    and shuts down faster. Call this function before you create a service, publisher or proxy. A second call
+    has no effect.
     """
     guard_against_idle_connections()
     hasten_shutdown()
@@ -89,7 +89,7 @@ def guard_against_idle_connections() -> bool:
 
 
 def hasten_shutdown() -> None:
-    """Make a shutdown wake up rospy's registration thread at once.
+    """Wake up rospy's registration thread as soon as a shutdown begins.
 
     A shutdown then takes up to 0.5 s less.
     """

@@ -45,9 +45,11 @@ def find(group: Group) -> Iterator[Found]:
 
 
 def _teams(group: Group) -> list[list[Work]]:
-    """Return the students' works in groups: works from the same submitted file form one group.
+    """Return groups of works.
 
-    Any other work is a group with one element.
+    If a team has submitted one file, the works from this file form a group.
+
+    Any other work forms a group alone.
     """
     teams: dict[str, list[Work]] = {}
     for work in group.works:
@@ -63,9 +65,9 @@ def blank_fingerprints(group: Group) -> dict[str, Fingerprint]:
 
 
 def _rarest_line(exercise: Exercise, answer: Answer, one: Fingerprint, other: Fingerprint) -> int:
-    """Of the statements that both answers contain, find the one that the fewest students have.
+    """Find the rarest statement that both answers contain.
 
-    Return its line number in `answer`, or 0 if the two answers have no statement in common.
+    Return the statement's line number in `answer`, or 0 if the two answers have no statement in common.
     """
     theirs = {form for form, _ in other.lines}
     shared = [

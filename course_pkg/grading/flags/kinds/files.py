@@ -79,7 +79,7 @@ PATH_METHODS = frozenset(
     ]
 )
 PATHS = frozenset(["pathlib.Path", "pathlib.PosixPath"])
-# These names are methods of get_ipython().
+# The methods of get_ipython() that run commands of the shell or of IPython.
 SHELL = frozenset(["system", "getoutput", "run_line_magic", "run_cell_magic"])
 PLACES = re.compile(
     r"(^|[/.])solutions?([/.]|$)|/proc\b|/etc/|/home/|/root/|\.ipynb\b|site-packages|\.grading\b|grades/"
@@ -88,7 +88,10 @@ PLACES = re.compile(
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each file access or started program that does not occur in the course's own code."""
+    """Yield a flag for each call that uses files or other programs.
+
+    Calls that also occur in the course's own code are not flagged.
+    """
     yield from unusual(group, "files", _observe, whole_notebook=False)
 
 

@@ -87,7 +87,7 @@ MODULE = re.compile(r"course_pkg(\.[a-z_]+)+")
 
 
 def find(group: Group) -> Iterator[Found]:
-    """Yield a flag for each way in which an answer inspects other code."""
+    """Yield a flag for each place where an answer uses internal code of the course or inspects other code."""
     for work, answer in group.answers():
         if is_python(answer) and is_too_long(answer):
             words = "The code is too long, so it was not searched for suspicious lines."

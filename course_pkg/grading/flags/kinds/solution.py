@@ -24,10 +24,10 @@ CHANGED = (
 def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each answer that is identical or nearly identical to the course's solution.
 
-    For a short exercise, many students write the same code as the solution. Therefore, a student's identical
-    answers are reported only if all of them together have at least ten statements that are not in the blank
-    cells. A nearly identical answer is reported only if the solution of this exercise has at least ten such
-    statements.
+    The solution of a short exercise is not evidence, because many students write the same code. Therefore,
+    only statements that are not in the blank cells are counted. The answers that are identical to the
+    solution are reported only if they have at least ten of these statements in total. A nearly identical
+    answer is reported only if the solution of this exercise has at least ten of these statements.
     """
     blanks = blank_fingerprints(group)
     own = {name: fingerprint(answer) for name, answer in group.solution.items()}

@@ -1,13 +1,13 @@
 """canvas.csv and canvas/NN.csv, which the gradebook of Canvas imports (Grades, Import).
 
-Layout, from Canvas's source: lib/gradebook_exporter.rb writes the columns Student, ID, SIS User ID, SIS
-Login ID and Section, one column for each assignment, and the row "    Points Possible".
-lib/gradebook_importer.rb finds a student by the ID (the Canvas user id), otherwise by the SIS User ID,
-the SIS Login ID or the name. The importer finds an assignment by the assignment's name, with or without the
-number in parentheses. If Canvas does not know the name, the importer offers to create the assignment. The
-row "    Points Possible" sets the points of the assignment. An empty cell removes the student's grade.
-Without a row for the student, the grade does not change. Therefore, canvas.csv has no row for a student
-without a grade, and canvas/NN.csv has rows only for students who submitted the chapter.
+The layout is from Canvas's source. lib/gradebook_exporter.rb writes the columns Student, ID, SIS User ID, SIS
+Login ID and Section. It also writes one column for each assignment, and the row "    Points Possible".
+lib/gradebook_importer.rb finds a student by the ID (the Canvas user id). If there is no ID, the importer uses
+the SIS User ID, the SIS Login ID or the name. The importer finds an assignment by the assignment's name, with
+or without the number in parentheses. If Canvas does not know the name, the importer offers to create the
+assignment. The row "    Points Possible" sets the points of the assignment. An empty cell removes the
+student's grade. Without a row for the student, the grade does not change. Therefore, canvas.csv has no row
+for a student without a grade, and canvas/NN.csv has rows only for students who submitted the chapter.
 """
 
 from __future__ import annotations
@@ -56,6 +56,6 @@ def _identity(book: Book, student: str) -> list[str]:
     if person is None:
         return [clean.cell(name_of(student)), "", "", clean.cell(name_of(student)), ""]
     number = person.id if re.fullmatch(r"\d{1,19}", person.id) else ""
-    # An id that is not a number is not a Canvas user id, but an id of the student information system (SIS).
+    # A Canvas user id is a number. Any other id is an id of the student information system (SIS).
     further = [person.more.get(SIS, "" if number else person.id), person.username, person.section]
     return [clean.cell(person.name or name_of(student)), number, *map(clean.cell, further)]

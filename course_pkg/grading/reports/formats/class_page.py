@@ -189,7 +189,10 @@ def _listed(reasons: Sequence[str]) -> str:
 
 
 def _link(student: str) -> str:
-    """Return a link to the feedback page; the name of the page needs no escapes."""
+    """Return a link to the feedback page.
+
+    The file name of the page contains no HTML characters, so it is not escaped.
+    """
     return f'<a href="feedback/{clean.file_name(student or "nobody")}.html">{text(name_of(student))}</a>'
 
 

@@ -3,11 +3,11 @@
 During the import, Moodle asks for the meaning of each column.
 
 Map the column `username` or `email` to the student: Moodle cannot find a student by a full name or by a
-participant number. For submissions from Moodle, both columns come from a roster or from Moodle's worksheet.
-Map each chapter to its grade item, and its feedback to "Feedback for". Always map both columns of a chapter.
-Moodle deletes the grade of an item if only its feedback is imported
-(https://docs.moodle.org/en/Grade_import). For the grades of only one assignment, use the copy of Moodle's
-worksheet, which is simpler (moodle_worksheet.py).
+participant number. For submissions from Moodle, `username` and `email` come from a roster or from Moodle's
+worksheet. Map each chapter to its grade item, and its feedback to "Feedback for". Always map both the grade
+column and the feedback column of a chapter. Moodle deletes the grade of an item if only its feedback is
+imported (https://docs.moodle.org/en/Grade_import). For the grades of only one assignment, use the copy of
+Moodle's worksheet, which is simpler (moodle_worksheet.py).
 """
 
 from __future__ import annotations
