@@ -159,7 +159,7 @@ def _confine(work: Callable[[], None], isolation: Isolation, uid: int, *, may_wr
     folder = os.getcwd()
 
     def run() -> None:
-        os.chdir(folder)  # In a sandbox, another mount is now visible at this path.
+        os.chdir(folder)  # In a sandbox, a new folder is mounted at this path, so enter the path again.
         work()
 
     if isolation.namespaces:
@@ -195,8 +195,9 @@ def _watch(student: int, folder: str, isolation: Isolation) -> int:
 def too_much_memory_below(ancestor: int, limit: int) -> bool:
     """Return whether the descendants of `ancestor` together use more than `limit` bytes of memory.
 
-    Forked processes share most of their memory, so the quick sum may be several times too large. The exact
-    sum takes longer, so it is computed only if the quick sum is above the limit.
+    Forked processes share most of their memory. A sum that counts shared memory for each process is fast to
+    compute, but it may be several times too large. The exact sum takes longer, so it is computed only if the
+    fast sum is above the limit.
     """
     processes = descendants(ancestor)
     if sum(_memory(pid, "status", QUICK) for pid in processes) <= limit:

@@ -113,7 +113,9 @@ class Session:
                 network, port, listener = self._placed(stack)
                 record, ending = self._checked(network, port, listener, commands)
             except TimeoutError:
-                raise  # The next message of the fork server may belong to this job or to the next job.
+                # The worker must not be used again: a later message of the fork server may belong to this job
+                # or to the next job.
+                raise
             except (EOFError, OSError) as error:
                 ending = f"{ending} ({error})" if str(error) else ending
             self._end_supervisor()

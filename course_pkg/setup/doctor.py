@@ -19,7 +19,7 @@ from course_pkg.waiting import wait_until
 
 ENDING = 5.0  # The child processes of a killed process end within this time in s.
 NEEDED = 1 << 30  # A complete set-up needs a little less than this number of bytes of disk space.
-# An installation for students needs only the packages for the first command.
+# A shared installation needs only the packages for `course lab`.
 NEEDED_BY = (("course", "course lab"), ("grade", "course grade"), ("test", "course test"))
 
 

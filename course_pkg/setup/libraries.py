@@ -64,7 +64,8 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
         journal.run(
             [uv, "venv", "--clear", "--system-site-packages", "--python", base_python(), places.venv], env=env
         )
-    # The lock lists all necessary libraries, and some dependencies are omitted on purpose (see lock.py).
+    # uv must not install further dependencies: the lock file lists all necessary libraries, and it omits some
+    # dependencies on purpose (see lock.py).
     options: list[str | Path] = ["--no-deps", "--require-hashes", "-r", lock_file(extra)]
     if env.get("UV_NO_INDEX"):  # for this setting, uv has only an option, no variable
         options.append("--no-index")

@@ -35,9 +35,10 @@ class Step(NamedTuple):
 def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool = False) -> None:
     """Set up what is missing.
 
-    If nothing is missing, this function takes a few milliseconds and prints nothing. A shared installation is
-    complete, except for the libraries of the hub, which the first `course hub` of an administrator adds.
-    Raises SetupError if a step fails; the error message contains the next step for the user.
+    If nothing is missing, this function takes a few milliseconds and prints nothing. In a shared
+    installation, only the libraries of the hub may be missing; they are installed when an administrator runs
+    `course hub` for the first time. Raises SetupError if a step fails; the error message contains the next
+    step for the user.
     """
     stages = steps_of(places, grade=grade, hub=hub, test=test)
     if all(step.is_done() for stage in stages for step in stage):
@@ -104,7 +105,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        # With this stamp, the next start does not call dpkg.
+        # The stamp is written here so that the next start does not have to call dpkg.
         with suppress(OSError):
             stamps.write(name, state)
         return True

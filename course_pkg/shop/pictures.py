@@ -80,8 +80,8 @@ def frame_points(customers: int) -> bytes:
 def sees_customer(frame: Frame) -> bool:
     """Return whether a frame shows a customer: at least a tenth of its pixels are dark.
 
-    Raises ValueError for a malformed frame: its encoding is not mono8, it has no pixels, its rows are longer
-    than its step, or its data do not have `height * step` bytes.
+    Raises ValueError for an invalid frame. In a valid frame, the encoding is mono8, there is at least one
+    pixel, a row is not longer than `step`, and the data have `height * step` bytes.
     """
     if frame.encoding != "mono8":
         raise ValueError(f"the encoding is {frame.encoding!r}, and not mono8")

@@ -38,7 +38,7 @@ PANEL_CLASS = 'class="panel"'
 class PageSource(NamedTuple):
     """A chapter for which the site has a page.
 
-    `trouble` says why the page does not show the latest run, and is "" if the page shows it.
+    `trouble` is the reason why the page does not show the latest run, or "" if the page shows the latest run.
     """
 
     chapter: Chapter
@@ -153,8 +153,8 @@ class Settings(NamedTuple):
 class Folder:
     """The folder of a site during writing; it is a context manager.
 
-    If the block ends without an exception, all files of the earlier site that were not written again are
-    removed.
+    If the block ends without an exception, the files of an earlier site are removed, except those that the
+    block has written again.
     """
 
     def __init__(self, path: Path) -> None:

@@ -73,7 +73,7 @@ class Runs:
 
         If there is no run with the current code, return None.
 
-        The package may have changed after the last run.
+        This run may have used an older version of the package.
         """
         notebook = read(path)
         shown = self._kept(path, "code", _code(notebook))

@@ -2,7 +2,7 @@
 
 With a queue, rospy starts a thread for each subscriber of a topic. This thread wakes up for each message, and
 1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
-directly, and a subscriber that does not read blocks the publisher.
+directly. The publisher then has to wait if a subscriber does not read.
 
 A turtle therefore writes a message directly if the connection's buffer has space. If the buffer has no space,
 the turtle drops the message.

@@ -13,7 +13,7 @@ from itertools import count
 from course_pkg.turtlesim.canvas import SIDE, Canvas, Colour, Point
 
 TICK = 0.016  # A tick has this length in s.
-# A metre has this number of pixels; in turtlesim of ROS, the picture of a turtle has this height.
+# A metre has this number of pixels. The number is the height of a turtle's picture in ROS's own turtlesim.
 PIXELS = 45.0
 WIDTH = (SIDE - 1) / PIXELS  # The world has this width and height in m.
 HOME = WIDTH / 2  # The middle of the world has this x and y in m.

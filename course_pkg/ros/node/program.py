@@ -34,8 +34,8 @@ def start_node(name: str) -> bool:
         wait_for_master(rospy.logwarn)
     except KeyboardInterrupt:
         return False
-    # Ctrl-C is delayed, because rospy's start and its shutdown use the same locks. A signal mask works here
-    # although rospy installs its own signal handlers.
+    # rospy's start and rospy's shutdown use the same locks, so Ctrl-C is delayed until the start has ended.
+    # The signals are masked, because rospy replaces the signal handlers during its start.
     signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
     try:
         rospy.init_node(name)
@@ -62,7 +62,7 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 def undisturbed() -> Iterator[None]:
     """Delay Ctrl-C until the end of the block.
 
-    A shutdown needs a lock, and a call to the master holds this lock.
+    While rospy calls the master, it holds a lock that its shutdown also needs.
     """
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}

@@ -60,7 +60,7 @@ class Watchdog:
                 self._changed.wait(max(self._wake - time.monotonic(), 0))
 
     def _may_end(self) -> bool:
-        """Return whether this thread may end; the next arm() then starts a new thread."""
+        """Return whether this thread may end. If it ends, the next arm() starts a new thread."""
         with self._changed:
             self._thread = None
             # Another thread armed an action while this thread was about to end, so this thread continues.

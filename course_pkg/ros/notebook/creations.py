@@ -1,4 +1,4 @@
-"""Record in `Cells` which objects of rospy and actionlib a cell creates, and end these objects.
+"""Record in `Cells` which objects of rospy and actionlib a cell creates, and shut these objects down.
 
 rospy has no list of its Publisher and Subscriber objects. This module therefore replaces the methods that
 create these objects with methods that also record the objects. A method with unexpected parameters is not
@@ -63,7 +63,7 @@ def note_creations(cells: Cells) -> None:
 
 
 def close_all(closes: list[Close]) -> None:
-    """End the objects of a run, from newest to oldest.
+    """Shut down the objects of a run, from newest to oldest.
 
     Action servers end before all other objects, because an ending action server publishes results.
     """
@@ -83,7 +83,7 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """If the master does not answer, prevent rospy from unregistering, because rospy would wait for ever."""
+    """If the master does not answer, rospy does not unregister during the block, and so does not hang."""
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:
@@ -143,7 +143,7 @@ def _registering(cells: Cells) -> Callable[[Method], Method]:
 
 
 def _make_room(run: CellRun, before: ServiceImpl) -> bool:
-    """Return whether a new service may replace an old service; if necessary, shut the old service down first.
+    """Return whether a new service may replace the service `before`; if necessary, shut `before` down.
 
     During a check, the service of a cell must continue. A check may create a second object of a student's
     class, and the `__init__` of this class may create a service. The service of the first object must still

@@ -1,4 +1,4 @@
-"""Start a command that ends, with all its descendants, when its owner process ends.
+"""Start a command; the command and all its descendants end when the owner process ends.
 
 The command is a child of `supervisor.py`, a small process that observes the owner. When the owner has ended,
 even after SIGKILL, the supervisor ends the command and cleans up.
@@ -27,8 +27,9 @@ class SupervisedProcess:
 
     When the command ends, its background processes also get SIGTERM, and SIGKILL after 2 s. The command runs
     in the folder `cwd` and inherits the file descriptors in `inherit`. At the end, the supervisor deletes the
-    folder `remove`, and unregisters the node `withdraw` (the master's URI, the node's name, the node's URI).
-    If `command` is empty, the supervisor does nothing except this clean-up after this process has ended.
+    folder `remove`. It also unregisters the node in `withdraw`, a tuple of the master's URI, the node's name
+    and the node's URI. If `command` is empty, the supervisor only waits until this process has ended, and
+    then cleans up.
 
     If `foreground` is true, the command uses the standard input and the terminal of this process, and it
     receives Ctrl-C. If `output` is None, the command also prints to the terminal. Raises GraphError if the

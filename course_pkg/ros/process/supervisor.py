@@ -107,9 +107,9 @@ class Supervisor:
     def _end_descendants(self) -> frozenset[int]:
         """End all descendants with SIGTERM, or with SIGKILL after GRACE s.
 
-        Orphaned descendants become children of this process. Supervisors among them are killed GRACE s later
-        than the others, because a supervisor cleans up after its owner has been killed. The returned set
-        contains the listening ports of the killed processes.
+        Orphaned descendants become children of this process. If a descendant is a supervisor, it is killed
+        GRACE s later, because it has to clean up after its owner has been killed. The returned set contains
+        the listening ports of the killed processes.
         """
         ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.urgent else GRACE)

@@ -75,7 +75,7 @@ class Deliveries(rospy.SubscribeListener):
         self.update()
 
     def _all(self) -> tuple[Delivery, ...]:
-        """Return one Delivery for each subscriber; the last one has the totals of all closed connections."""
+        """Return one Delivery for each connected subscriber, and then the sum of all closed connections."""
         self.update()
         with self._lock:
             return (*map(_delivery, self._connections), self._disconnected)

@@ -78,10 +78,10 @@ def require_sandbox() -> None:
 
 
 def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) -> list[str]:
-    """Return the command that runs `command` in a sandbox; start it with an empty environment.
+    """Return the command that runs `command` in a sandbox.
 
-    Inside the sandbox, only the course (without solutions and tests), ROS, and the paths in `readable` are
-    visible, and all of them are read-only.
+    Start the returned command with an empty environment. Inside the sandbox, only the course (without
+    solutions and tests), ROS, and the paths in `readable` are visible, and all of them are read-only.
     """
     root = os.geteuid() == 0
     prepared = ["sh", "-c", AS_ROOT.format(NOBODY)] if root else []

@@ -80,7 +80,7 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 
 def _mount_memory_folders() -> None:
-    """Mount folders in memory for this sandbox; they contain only the visible paths of the outer sandbox."""
+    """Mount new folders in memory, and make the paths in shadowed_paths() visible in them again."""
     shadows = {path: f"{SHADOW}/{number}" for number, path in enumerate(shadowed_paths())}
     for path, place in shadows.items():
         if os.path.isdir(path):

@@ -38,7 +38,7 @@ WATCH = """
 
 
 def live_main() -> None:
-    """Print the median, the 95th percentile and the maximum: 60 senders, 10 results per second."""
+    """Print the median, the 95th percentile and the maximum time for 60 senders and 10 results per second."""
     choice = random.Random(60)  # noqa: S311 -- a class, not secrets
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         data, port = Path(folder, "data"), free_port()
