@@ -208,7 +208,8 @@ def too_much_memory_below(ancestor: int, limit: int) -> bool:
 def _exact_memory(pid: int) -> int:
     try:
         return _memory(pid, "smaps_rollup", EXACT)
-    except PermissionError:  # A process that is protected from other processes is counted in full.
+    except PermissionError:
+        # The exact memory of a process cannot be read if the process is protected from other processes.
         return _memory(pid, "status", QUICK)
 
 

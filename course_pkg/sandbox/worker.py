@@ -37,7 +37,7 @@ LIMITS = {
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
-# If a supervisor ends all processes because of a limit, the check runner may write one of these verdicts.
+# If a supervisor ends all processes because of a limit, a check may still end with one of these verdicts.
 STOPPED = (Verdict.FAILED, Verdict.UNDECIDED)
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",
@@ -184,7 +184,7 @@ class Session:
         from course_pkg.sandbox.check_process import check_part
 
         namespaces.die_with_parent()
-        # A submission may send any amount of data, so the memory has a limit.
+        # The memory of the check runner is limited, because a submission may send any amount of data.
         namespaces.limit(AS=confinement.CHECK_RUNNER)
         check_part(self._job, network, port, client, commands, out, isolation=self._isolation)
 

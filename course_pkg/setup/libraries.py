@@ -18,7 +18,7 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
 LOCKS = Path(__file__).with_name("locks")
-# This file delays every start of Python by 30 ms, also in nodes and kernels.
+# This file from a library would delay every start of Python by 30 ms, so the set-up deletes it.
 SLOW_STARTER = "a1_coverage.pth"
 PIP_TO_UV = {
     "index-url": "UV_DEFAULT_INDEX",
@@ -34,7 +34,7 @@ UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
     "UV_SYSTEM_CERTS": "1",
-    # pip uses the same strategy; this strategy is safe because the lock file contains hashes.
+    # pip uses the same strategy. It is safe here, because the lock file contains hashes.
     "UV_INDEX_STRATEGY": "unsafe-best-match",
 }
 

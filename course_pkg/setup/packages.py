@@ -26,7 +26,7 @@ APT_OPTIONS = (
     "-o",
     "Dpkg::Use-Pty=0",
     "-o",
-    # With this option, an installation is faster; this is safe because a failed set-up is repeated.
+    # With this option, dpkg is faster. The option is safe, because a failed set-up is repeated.
     "Dpkg::Options::=--force-unsafe-io",
     "-o",
     "Dpkg::Options::=--force-confold",

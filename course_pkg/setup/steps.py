@@ -16,7 +16,8 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.progress import Progress
 from course_pkg.setup.stamps import Stamps, digest, locked
 
-# Each key is the name of a lock file, and its value is added to the title of the step that installs it.
+# Each key is the name of a lock file. The value is a part of the title of the step that installs the
+# libraries.
 EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
 
 
@@ -118,7 +119,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
-        # Each lock file also contains all libraries of the lock files before it.
+        # Each lock file contains all libraries of the earlier lock files, so a later stamp is sufficient.
         sufficient = list(EXTRAS)[list(EXTRAS).index(extra) :]
         made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in sufficient)
         return libraries.environment_works(places) and any(made)

@@ -244,7 +244,7 @@ class _Call:
         self.error = self.error or error
         sock = self.transport.socket if self.transport else None
         if sock is not None:
-            # If the socket is not connected yet, shutdown() fails; the watchdog then repeats this method.
+            # If the socket is not connected yet, shutdown() fails, and the watchdog runs this method again.
             with suppress(OSError):
                 sock.shutdown(socket.SHUT_RDWR)
 

@@ -112,7 +112,7 @@ class NodeProcess:
     def stop(self, grace: float = GRACE, *, unregister: bool = True) -> None:
         """End the process with SIGINT, or with SIGKILL after `grace` s.
 
-        If `unregister` is true, the process then has no registrations at the master.
+        If `unregister` is true, also remove the registrations that the process has left at the master.
         """
         if not self.running:
             return

@@ -51,7 +51,7 @@ class Supervisor:
         for number in FROM_TERMINAL if foreground else ():
             # The terminal also sends this signal to the command, so the supervisor ignores the signal.
             signal.signal(number, signal.SIG_IGN)
-        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # The owner may have blocked some signals.
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # Unblock the signals that the owner may have blocked.
         os.set_inheritable(report, False)
         self.child = self._start(command, report) if command else None
         os.close(report)
@@ -181,7 +181,7 @@ def descendants(root: int) -> list[int]:
         if entry.isdigit():
             try:
                 with open(f"/proc/{entry}/stat", "rb") as stat:
-                    # The name of the process may contain brackets.
+                    # The name of the process may contain brackets, so search for the last bracket.
                     parent = int(stat.read().rpartition(b")")[2].split()[1])
             except OSError:
                 continue

@@ -1,8 +1,9 @@
 """Read many topics on one thread, many messages at a time, for a panel that draws the messages.
 
 A subscriber of rospy wakes up for each message. For hundreds of messages per second, it uses too much CPU
-time. The reader therefore uses TCPROS itself (http://wiki.ros.org/ROS/TCPROS), and reads all new messages
-every 50 ms. The reader does not register as a subscriber, because a panel should not change the graph.
+time. The reader therefore uses TCPROS (http://wiki.ros.org/ROS/TCPROS) without rospy, and reads all new
+messages every 50 ms. The reader does not register as a subscriber, because a panel should not change the
+graph.
 """
 
 from __future__ import annotations

@@ -187,7 +187,7 @@ def _event(
 
 
 def _note(data: SpanData, ended: bool) -> str:
-    """Return the note on a span; a span that has not ended has no result yet."""
+    """Return the note on a span, such as an error message; a span that has not ended may have no note yet."""
     if data["kind"] != PUBLISH:
         return data["note"] if ended else ""
     if not ended:

@@ -127,7 +127,7 @@ class CallSpan:
         self.start = time.monotonic()
 
     def begin(self, kind: str) -> CallPart:
-        """Record that a phase begins, and return its CallPart; the caller has to set its `end` later."""
+        """Record that a phase begins, and return its CallPart; the caller of this method sets `end` later."""
         part = CallPart(kind)
         self.parts.append(part)
         return part

@@ -157,8 +157,8 @@ def _course() -> Iterator[Path]:
 def clean_environment() -> dict[str, str]:
     """Return the course's environment, without variables of the user who grades.
 
-    With more than one arena, glibc reserves about 64 MiB of address space for each thread. A student's code
-    could then start only about ten threads within the limit MEMORY.
+    If glibc uses more than one memory arena, it reserves about 64 MiB of address space for each thread. A
+    student's code could then start only about ten threads within the limit MEMORY.
     """
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")

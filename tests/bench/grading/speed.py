@@ -29,9 +29,9 @@ from tests.grading.submitted import WRONG, hand_in
 # students (default 30) hand in the notebook of chapter 05. Every third student has one wrong answer. Three
 # commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and `nbgrader
 # autograde` with a notebook that has the same cells. The ratio of two commands is computed from their
-# durations per notebook. With `plain`, only the first command runs. With `many`, `course grade` also grades
-# 1,000 (or COUNT) submissions, and the benchmark measures the memory. nbgrader is installed into a folder of
-# the cache.
+# durations per notebook. If `plain` is given, only the first command runs. If `many` is given, `course grade`
+# also grades 1,000 (or COUNT) submissions, and the benchmark measures the memory. nbgrader is installed into
+# a folder of the cache.
 
 NBGRADER = "nbgrader==0.9.6"
 CHAPTER = "05"
