@@ -50,8 +50,8 @@ def supervise(
 ) -> NoReturn:
     """Start the master, the command runner and the student's process; wait until the student's process ends.
 
-    After SIGTERM, the supervisor does not wait any longer. All processes of the part end together with this
-    process.
+    After SIGTERM, the supervisor stops waiting and ends all processes. All processes of the part end together
+    with this process.
     """
     namespaces.die_with_parent()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
@@ -178,7 +178,7 @@ def _close_all_but(descriptor: int) -> None:
 def _watch(student: int, folder: str, isolation: Isolation) -> int:
     """Wait until the student's process ends, the memory or disk limit is exceeded, or SIGTERM arrives.
 
-    Return the exit status.
+    Return the exit status of the supervisor.
     """
     while True:
         came = signal.sigtimedwait(SIGNALS, MEMORY_INTERVAL)

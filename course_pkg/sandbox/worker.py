@@ -104,7 +104,8 @@ class Session:
     def run(self) -> PartResult:
         """Run the job, and end all processes of the job.
 
-        Raises TimeoutError if the fork server does not respond; then the worker cannot be used any more.
+        Raises TimeoutError if the fork server does not respond; after this error, do not use the worker
+        again.
         """
         with ExitStack() as stack:
             messages, commands = self._begin(stack)

@@ -60,7 +60,7 @@ class Platform(NamedTuple):
 def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
     """Return the platform for the distribution in `os_release`, or for its base distribution.
 
-    Raises SetupError on all other systems; its message contains the commands for conda.
+    Raises SetupError on any other system; the error message contains the commands for conda.
     """
     data = json.loads(DATA.read_text())
     release = _read_release(os_release)

@@ -51,7 +51,7 @@ class PageSource(NamedTuple):
 def write_site(settings: Settings, store: NotebookStore | None = None, runs: Runs | None = None) -> list[str]:
     """Write the site, and return a message for each chapter with a failed run.
 
-    The pages of these chapters show the stored outputs.
+    If the run of a chapter has failed, its page shows the stored outputs.
     """
     exporter = Exporter()
     books = list(_books(settings, store or NotebookStore(), runs or Runs(), exporter))

@@ -73,7 +73,7 @@ class Runs:
 
         If there is no run with the current code, return None.
 
-        This run may have used an older version of the package.
+        The last run may have used an older version of the package.
         """
         notebook = read(path)
         shown = self._kept(path, "code", _code(notebook))

@@ -195,7 +195,7 @@ def normalized(angle: float) -> float:
 def _near_canvas(point: Point) -> Point:
     """If `point` is far from the canvas, return a nearer point; otherwise, return `point`.
 
-    This limits the drawing time.
+    A nearer point limits the time for drawing a line.
     """
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

@@ -94,7 +94,7 @@ class Cells:
     def paused(self) -> Iterator[None]:
         """Do not record the objects that are created in the block.
 
-        These objects are kept when the cell runs again.
+        Objects that are created in the block are not shut down when the cell runs again.
         """
         self._paused += 1
         try:

@@ -201,7 +201,7 @@ def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
 def _end_with_process(server: actionlib.SimpleActionServer) -> None:
     """End an action server's thread when the main thread ends.
 
-    Without this function, Python would wait for ever for this thread.
+    Without this function, Python would wait for ever for the end of the action server's thread.
     """
     main = threading.main_thread()
     while main.is_alive() and not server.need_to_terminate:

@@ -140,7 +140,8 @@ def _program(
     report: int, remove: Path | None, withdraw: tuple[str, str, str] | None, foreground: bool
 ) -> list[str]:
     cleaning = [str(remove or ""), *(withdraw or ("", "", ""))]
-    # With -I and -S, the supervisor starts in 20 ms and ignores modules on the student's import path.
+    # With Python's options -I and -S, the supervisor starts in 20 ms and ignores modules on the student's
+    # import path.
     start = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), str(report)]
     return [*start, "foreground" if foreground else "", *cleaning]
 

@@ -152,7 +152,7 @@ def _counts(probe: Probe) -> list[_Count] | None:
             for number, *_, messages, _ in connections
         ]
     except INVALID:
-        # After 2 GiB on a connection, rospy returns an error, because the byte count is too large for
+        # After a connection has sent 2 GiB, rospy returns an error, because the byte count is too large for
         # XML-RPC.
         return None
 

@@ -163,7 +163,7 @@ def _copy(
 ) -> None:
     """Forward the bytes from `source` to `sink`; after the last byte, end the stream to `sink`."""
     kept = 0
-    # A reset connection, or a connection that close() ended, is not an error.
+    # It is not an error if the connection was reset, or if close() ended the connection.
     with suppress(OSError):
         while data := source.recv(CHUNK):
             kept += len(data)

@@ -103,8 +103,8 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 def _root_capabilities() -> Iterator[str]:
     """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
 
-    bwrap mounts a new /proc, and covers some folders of this /proc. The kernel then does not allow the inner
-    sandboxes to mount their own /proc.
+    If bwrap mounted the new /proc itself, it would cover some folders of this /proc. The kernel would then
+    not allow the inner sandboxes to mount their own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):

@@ -65,7 +65,7 @@ def become(uid: int) -> None:
     os.setresuid(uid, uid, uid)
     namespaces.give_up_privileges()
     namespaces.be_unreadable()
-    # The change of the user has cancelled the earlier call of die_with_parent().
+    # The change of the user has cancelled the earlier call of die_with_parent(), so repeat the call.
     namespaces.die_with_parent()
 
 

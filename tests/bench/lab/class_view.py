@@ -24,8 +24,8 @@ RATE = 10  # results per second
 SECONDS = 30
 PARTS = ("05.1", "05.2", "05.3", "05.4")
 VERDICTS = ("passed", "not yet", "not yet")
-# Records the time, in ms since 1970, of the first frame that the browser draws after each new version of the
-# page.
+# After each new version of the page, this script records the time (ms since 1970) of the first frame that the
+# browser draws.
 WATCH = """
 () => {
   window.shown = [];

@@ -54,7 +54,8 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
         assert urlsplit(address).port == port
         family = eventually(partial(complete_family, process), timeout=60)
         if pattern:
-            # The supervisor has the same command line as its child process and comes first in the list.
+            # The supervisor has the same command line as its child process and comes first, so take the last
+            # process.
             os.kill(having(pattern, family)[-1], signal.SIGKILL)
             family += below(process)
             process.send_signal(signal.SIGINT)
@@ -79,7 +80,7 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
 def files_in(folder: str) -> set[str]:
     """Return all files, sockets and folders in a folder.
 
-    Another process may remove some of them during the search.
+    Another process may remove some of the files during the search.
     """
     return {os.path.join(root, name) for root, folders, files in os.walk(folder) for name in folders + files}
 
