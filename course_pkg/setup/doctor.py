@@ -151,7 +151,7 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 def _leftovers(places: Places) -> Iterator[Finding]:
     """Find processes of this checkout that are still running although their parent has ended.
 
-    If an owner was killed with SIGKILL, its supervisor normally ends the owned process within seconds.
+    If a process is killed with SIGKILL, the supervisor of a child normally ends this child within seconds.
     """
     orphans = _orphans(places)
     wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)

@@ -40,7 +40,7 @@ UV_SETTINGS = {
 
 
 def lock_file(extra: str) -> Path:
-    """Return the pinned requirements of `extra`: "course", "hub", "test" or "uv"."""
+    """Return the path of a lock file; `extra` is "course", "hub", "test" or "uv"."""
     return LOCKS / f"{extra}.txt"
 
 
@@ -96,7 +96,7 @@ def installed_uv(places: Places, journal: Journal) -> Path:
             lock_file("uv"),
         ]
         journal.run(command, env=_clean_environment())
-        with suppress(OSError):  # The set-up of another checkout may have installed uv.
+        with suppress(OSError):  # The set-up of another checkout may have installed uv in the meantime.
             fresh.rename(folder)
     return uv
 

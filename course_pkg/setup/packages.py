@@ -128,7 +128,8 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
     except SetupError:
         if not updated:
             raise
-        run(APT, "update", "-q")  # The package lists may refer to files that the server has replaced.
+        # Get new package lists, because the old lists may refer to files that the server has replaced.
+        run(APT, "update", "-q")
         run(APT, "install", *APT_OPTIONS, *names)
 
 
@@ -146,7 +147,7 @@ def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callabl
 
 
 def become_root(names: Sequence[str]) -> list[str]:
-    """Return a prefix that runs a command as root, such as sudo; raises SetupError if there is none."""
+    """Return a command prefix such as sudo; raises SetupError if the user cannot run commands as root."""
     advice = "As an administrator, type\n  apt-get update && apt-get install --no-install-recommends " + (
         " ".join(names)
     )

@@ -24,7 +24,7 @@ class Outbox:
         self.folder = folder or state_folder() / FOLDER
 
     def put(self, report: Mapping[str, object]) -> str:
-        """Add the result of a check; return an error message if the disk cannot be written, else "".
+        """Add the result of a check; return an error message if the file cannot be written, else "".
 
         The result contains the part, the verdict, the time and the hint. The result does not contain the
         student's code or the values that the code computed.

@@ -26,7 +26,7 @@ HEAD, SHOULDERS = 0.14, 0.2
 
 
 def shop_picture(width: int, height: int, customers: int) -> bytes:
-    """Return the picture in the encoding rgb8: `height` rows of `width` pixels, from the top left.
+    """Return the picture in the encoding rgb8, with `height` rows of `width` pixels, from the top left.
 
     Each pixel has three bytes. The picture shows at most MOST customers.
     """

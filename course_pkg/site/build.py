@@ -111,7 +111,7 @@ def _pages(renderer: Renderer, books: Sequence[PageSource], settings: Settings) 
 
 
 def _links(each: PageSource, settings: Settings) -> list[tuple[str, str, bool]]:
-    """Return the links to the notebook: (label, address, whether the file belongs to the site)."""
+    """Return the links to the notebook as tuples (label, address, whether the file belongs to the site)."""
     links = [("Download this chapter", f"notebooks/{each.source.name}", True)]
     if settings.binder:
         place = quote(f"notebooks/{each.source.name}", safe="")

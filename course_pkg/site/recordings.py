@@ -48,7 +48,7 @@ class Panel(Protocol):
         """Send the requests to the service, and record the responses."""
 
     def shown(self) -> None:
-        """Start the work that the panel does only while a page shows it."""
+        """Start the work that the panel does only while a page shows the panel."""
 
     def hidden(self) -> None:
         """Stop the work that `shown` started."""

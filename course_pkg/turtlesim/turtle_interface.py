@@ -137,7 +137,7 @@ class _Writer:
     def __call__(self, data: bytes) -> bool:
         """Write `data`; if the send buffer has no space, drop `data`.
 
-        Raises the error of a broken connection.
+        Raises rospy's error if the connection is broken.
         """
         if self._room.poll(0):
             return self._write(data)

@@ -1,4 +1,4 @@
-"""The paths of the numbers in a message: `data`, `pose.position.x`, `position[0]`."""
+"""The paths of the numbers in a message, such as `data`, `pose.position.x` and `position[0]`."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 If a publisher has a queue_size, rospy puts each message into one queue per subscriber. A thread sends the
 messages of a queue. When a queue is full, rospy drops the oldest message without an error message. This
-module replaces the queue with a queue that counts.
+module replaces the queue with a queue that counts the messages.
 
 A message counts as sent when it is written to the connection. A slow subscriber may drop the message later;
 the publisher cannot detect this.
