@@ -53,7 +53,7 @@ def report(notebook: NotebookKernel, part: str = "05.1") -> str:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """A class that creates its service in __init__ passes, and the student's own object still responds."""
+    """A class that creates its service in __init__ passes; after the check, the student's object responds."""
     notebook.run(SWITCH, "class")
     notebook.run("switch = Switch()", "object")
     for _ in range(2):

@@ -16,7 +16,7 @@ AT_FIRST = 2.0  # The first rate is in messages per second.
 # At the end, the check sets this rate (messages per second); the next message then comes after 1000 s.
 TINY = 0.001
 OTHER_RATE = (
-    "The program published at another rate than the rate that the client had set. Calculate the pause from "
+    "The program did not publish at the rate that the client had set. Calculate the pause from "
     "the number in the request, and do not change this number."
 )
 TURNS_BACK = (
