@@ -31,7 +31,7 @@ class SupervisedProcess:
     and the node's URI. If `command` is empty, the supervisor only waits until this process has ended, and
     then cleans up.
 
-    If `foreground` is true, the command uses the standard input and the terminal of this process, and it
+    If `foreground` is true, the command uses the standard input and the terminal of this process, and
     receives Ctrl-C. If `output` is None, the command also prints to the terminal. Raises GraphError if the
     command cannot be started.
     """

@@ -197,7 +197,7 @@ def descendants(root: int) -> list[int]:
 def _import_libraries() -> None:
     """Add the folders of the course and of its libraries to the import path.
 
-    The interpreter's options -I and -S keep these folders out of the import path.
+    The interpreter's options -I and -S exclude the folders of libraries from the import path.
     """
     import site
 

@@ -38,7 +38,7 @@ class RelayedConnection:
 
     opened: float  # The connection was opened at this value of time.monotonic().
     chunks: list[Chunk] = field(default_factory=list)
-    # The value is "client" or "server" (the side that closed the connection first), or "" while it is open.
+    # The side that closed the connection first ("client" or "server"), or "" while the connection is open.
     closed_by: str = ""
     refused: str = ""  # This is the error message if the server could not be reached.
     lost: int = 0  # This number of bytes was forwarded but not stored.
