@@ -55,7 +55,7 @@ NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
 RATE = 5  # Each topic has this rate in Hz.
 
-# This program is a node that publishes and subscribes to the topics in its arguments.
+# This program is a node. It publishes on the topics in its arguments and subscribes to them.
 SPEAKER = """
 import sys
 import rospy

@@ -244,7 +244,7 @@ def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bo
 
 
 def still_there(pids: list[int]) -> list[int]:
-    """Wait at most 10 s for the processes `pids` to end, and return those that still run."""
+    """Wait at most 10 s for the end of the processes `pids`, and return the processes that still run."""
     deadline = time.monotonic() + 10.0
     while time.monotonic() < deadline:
         pids = [pid for pid in pids if alive(pid)]
