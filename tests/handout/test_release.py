@@ -178,7 +178,7 @@ def test_some_chapters(tmp_path: Path) -> None:
     names = [path.name for path in sorted((edition / "notebooks").iterdir())]
     assert names == ["05_write_a_server.ipynb", "06_write_a_client.ipynb"]
     text = (edition / "README.md").read_text("utf-8")
-    assert "It has chapters 05 and 06." in text
+    assert "This edition has chapters 05 and 06." in text
     assert re.findall(r"^\| (\d\d) \|", text, re.MULTILINE) == ["05", "06"]
     linked = {name for path in (edition / "notebooks").iterdir() for name in links(read(path))}
     assert linked <= set(names)
