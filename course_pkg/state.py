@@ -1,7 +1,7 @@
 """The folder for a student's results and own packages.
 
-Each checkout has its own folder outside the checkout. With a shared installation, the folder is in the user's
-own folder, so that an upgrade does not change it.
+Each checkout has its own folder outside the checkout. In a shared installation, the folder is in the user's
+own folder, so that an upgrade of the installation does not change the results.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ LOCK = 5.0
 def state_folder() -> Path:
     """Return the folder of this user's state: COURSE_STATE, or a folder below XDG_STATE_HOME.
 
-    With a shared installation, it is a folder in the user's own folder.
+    In a shared installation, the state is in the user's own folder.
     """
     if given := os.environ.get("COURSE_STATE"):
         return Path(given)

@@ -69,8 +69,8 @@ def wait_until(
 def at_this_load(seconds: float) -> float:
     """Return a time limit in s for work that takes at most `seconds` s on an idle machine.
 
-    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. Without a
-    longer limit, a program that waits for a CPU would look like a program that never ends.
+    The limit grows with the load average of the last minute per core, up to MOST times `seconds`. With a
+    fixed limit, a program that only waits for a CPU would be stopped as if it never ended.
     """
     load: float = os.getloadavg()[0] / (os.cpu_count() or 1)
     return seconds * min(max(load, 1.0), MOST)
@@ -81,8 +81,8 @@ def interrupt_after(seconds: float, error: type[BaseException], repeat: float = 
     """Raise `error` in the block when the block has run for `seconds` s.
 
     If `repeat` is not 0, the error is raised again every `repeat` s, for code that may catch the first error.
-    This function uses an alarm signal (SIGALRM), so the block has to run in the main thread, and such blocks
-    may not be nested. In any other thread, it raises ValueError.
+    This function uses an alarm signal (SIGALRM). The block therefore has to run in the main thread, and must
+    not contain another such block. In any other thread, the function raises ValueError.
     """
 
     def alarm(*_: object) -> None:

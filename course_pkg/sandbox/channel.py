@@ -1,4 +1,4 @@
-"""Messages between the trusted processes of a sandbox worker: JSON texts with optional open files."""
+"""Messages (JSON texts with optional open files) between the trusted processes of a sandbox worker."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Run the commands of a check during grading, because the student's kernel must not change their results.
+"""During grading, run the commands of a check in a process that the student's kernel cannot change.
 
 When a student runs a check, the student's kernel runs these commands. During grading, a student's kernel
 could report a false result, for example that a failed build succeeded. A process in another sandbox therefore

@@ -28,12 +28,13 @@ def serve_forks(sock: socket.socket, private: str, *, isolation: Isolation) -> N
         send(sock, {"ready": True})
         while True:
             _, (job_file, messages, commands) = receive(sock)
-            # Only the supervisor reads the job, because later forks could read the memory of this process.
+            # This process does not read the job, because processes of later parts could find the job in its
+            # memory.
             pid = fork(lambda: supervise(job_file, shell, sock, messages, commands, isolation=isolation))  # noqa: B023
             for descriptor in (job_file, messages, commands):
                 os.close(descriptor)
             status = os.waitpid(pid, 0)[1]
-            end_all_below(CLEAR_TIMEOUT)  # In a sandbox, no other process is running now.
+            end_all_below(CLEAR_TIMEOUT)  # In a sandbox, only processes of the ended job can be left.
             if isolation.users:
                 users.clear(isolation.users)
             send(sock, {"over": status})

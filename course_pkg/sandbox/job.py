@@ -11,7 +11,7 @@ from course_pkg.checking.report import Report, report_from
 from course_pkg.types.fields import Plain
 from course_pkg.waiting import at_this_load
 
-# The cells before and after the answer, which may start nodes, have this time limit in s.
+# Each cell before or after the answer has this time limit in s, because such a cell may start nodes.
 SETUP_TIMEOUT = 25.0
 ANSWER_TIMEOUT = 20.0  # A student's cell has this time limit in s.
 
@@ -35,7 +35,7 @@ class WorkFile:
         return base64.b64decode(self.content)
 
     def below(self, folder: str) -> WorkFile:
-        """Return a copy of this object with a path below `folder`."""
+        """Return a copy of this object whose path begins with `folder`."""
         return replace(self, path=f"{folder}/{self.path}")
 
     def write(self, folder: Path) -> None:

@@ -32,7 +32,7 @@ class CellTooSlow(BaseException):
 def prepare() -> InteractiveShell:
     """Import the modules that submissions use, and return the shell that runs submissions.
 
-    Forked processes then need no imports.
+    Processes that are forked later need no imports.
     """
     import rosmaster.master  # noqa: F401
     import rospy  # noqa: F401
@@ -56,7 +56,7 @@ def prepare() -> InteractiveShell:
 def run_part(job: PartJob, shell: InteractiveShell, send: Send) -> None:
     """Run the cells of `job`, and then its check.
 
-    After an error in a cell, a message is sent, and the next cell still runs.
+    If a cell raises an error, send a message, and run the next cell.
     """
     random.seed()  # Without this line, every forked process would use the same random numbers.
     _run(shell, "before", job.before, job.setup_timeout, send)

@@ -50,8 +50,8 @@ def supervise(
 ) -> NoReturn:
     """Start the master, the command runner and the student's process; wait until the student's process ends.
 
-    After SIGTERM, the supervisor does not wait any longer. All processes of the part end together with this
-    process.
+    After SIGTERM, the supervisor stops waiting and ends all processes. All processes of the part end together
+    with this process.
     """
     namespaces.die_with_parent()
     signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
@@ -159,7 +159,7 @@ def _confine(work: Callable[[], None], isolation: Isolation, uid: int, *, may_wr
     folder = os.getcwd()
 
     def run() -> None:
-        os.chdir(folder)  # In a sandbox, another mount is now visible at this path.
+        os.chdir(folder)  # In a sandbox, a new folder is mounted at this path, so enter the path again.
         work()
 
     if isolation.namespaces:
@@ -178,7 +178,7 @@ def _close_all_but(descriptor: int) -> None:
 def _watch(student: int, folder: str, isolation: Isolation) -> int:
     """Wait until the student's process ends, the memory or disk limit is exceeded, or SIGTERM arrives.
 
-    Return the exit status.
+    Return the exit status of the supervisor.
     """
     while True:
         came = signal.sigtimedwait(SIGNALS, MEMORY_INTERVAL)
@@ -195,8 +195,9 @@ def _watch(student: int, folder: str, isolation: Isolation) -> int:
 def too_much_memory_below(ancestor: int, limit: int) -> bool:
     """Return whether the descendants of `ancestor` together use more than `limit` bytes of memory.
 
-    Forked processes share most of their memory, so the quick sum may be several times too large. The exact
-    sum takes longer, so it is computed only if the quick sum is above the limit.
+    Forked processes share most of their memory. A sum that counts shared memory for each process is fast to
+    compute, but it may be several times too large. The exact sum takes longer, so it is computed only if the
+    fast sum is above the limit.
     """
     processes = descendants(ancestor)
     if sum(_memory(pid, "status", QUICK) for pid in processes) <= limit:
@@ -207,7 +208,8 @@ def too_much_memory_below(ancestor: int, limit: int) -> bool:
 def _exact_memory(pid: int) -> int:
     try:
         return _memory(pid, "smaps_rollup", EXACT)
-    except PermissionError:  # A process that is protected from other processes is counted in full.
+    except PermissionError:
+        # The exact memory of a process cannot be read if the process is protected from other processes.
         return _memory(pid, "status", QUICK)
 
 

@@ -37,7 +37,7 @@ LIMITS = {
     supervisor.TOO_MUCH_MEMORY: "the answer used more memory than allowed",
     supervisor.TOO_MUCH_DISK: "the answer wrote more files than allowed",
 }
-# If a supervisor ends all processes because of a limit, the check runner may write one of these verdicts.
+# If a supervisor ends all processes because of a limit, a check may still end with one of these verdicts.
 STOPPED = (Verdict.FAILED, Verdict.UNDECIDED)
 ENDINGS = {
     supervisor.STUDENT_ENDED: "the process that ran the answer ended before the check was finished",
@@ -104,7 +104,8 @@ class Session:
     def run(self) -> PartResult:
         """Run the job, and end all processes of the job.
 
-        Raises TimeoutError if the fork server does not respond; then the worker cannot be used any more.
+        Raises TimeoutError if the fork server does not respond; after this error, do not use the worker
+        again.
         """
         with ExitStack() as stack:
             messages, commands = self._begin(stack)
@@ -113,7 +114,9 @@ class Session:
                 network, port, listener = self._placed(stack)
                 record, ending = self._checked(network, port, listener, commands)
             except TimeoutError:
-                raise  # The next message of the fork server may belong to this job or to the next job.
+                # The worker must not be used again: a later message of the fork server may belong to this job
+                # or to the next job.
+                raise
             except (EOFError, OSError) as error:
                 ending = f"{ending} ({error})" if str(error) else ending
             self._end_supervisor()
@@ -182,7 +185,7 @@ class Session:
         from course_pkg.sandbox.check_process import check_part
 
         namespaces.die_with_parent()
-        # A submission may send any amount of data, so the memory has a limit.
+        # The memory of the check runner is limited, because a submission may send any amount of data.
         namespaces.limit(AS=confinement.CHECK_RUNNER)
         check_part(self._job, network, port, client, commands, out, isolation=self._isolation)
 

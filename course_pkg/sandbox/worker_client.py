@@ -19,8 +19,8 @@ from course_pkg.setup import Places, environment
 from course_pkg.waiting import Deadline
 
 START_TIMEOUT = 90.0  # The worker has to start within this time in s; without load, the start takes 2 s.
-# After a part's own limit and this additional time in s, a missing result means that the worker itself has
-# failed.
+# Each part has its own time limit. If the result is still missing this many s after the limit, the worker
+# itself has failed.
 SLACK = 45.0
 
 
@@ -29,8 +29,8 @@ class SandboxWorker:
 
     After a WorkerFailed error, the next call of `run` starts the worker again.
 
-    When the thread that first called `run` ends, the processes in the sandbox end, too. `private` is the
-    folder with an instructor's private exercises; no submission can read this folder. If `sandboxed` is
+    The processes in the sandbox end together with the thread that made the first call of `run`. `private` is
+    the folder with an instructor's private exercises; no submission can read this folder. If `sandboxed` is
     false, there is no sandbox. If `users` is true, the sandbox consists of other users of the machine (see
     users.py).
     """

@@ -62,7 +62,7 @@ def _linked_packages(places: Places) -> Iterator[tuple[str, Path]]:
 
 
 def _link(package: Path, folder: Path) -> None:
-    """Create links to the files of the catkin package in `folder`.
+    """Create the catkin package `package` from links to the files in `folder`.
 
     rosrun searches a package's whole folder for a program, and follows links. With a link to the whole
     checkout, rosrun would also find the programs in the student's own packages.
@@ -101,7 +101,7 @@ def _build_environment(places: Places) -> dict[str, str]:
 
 
 def _write_path_file(places: Places) -> None:
-    """Write a file with which programs such as editors find the package and its types."""
+    """Write a .pth file, so that other programs, such as editors, find the package and its types."""
     for packages in places.venv.glob("lib/python3*/site-packages"):
         paths = environment.python_path(places)
         write_atomically(packages / "course_pkg.pth", "".join(f"{path}\n" for path in paths))

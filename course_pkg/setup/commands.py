@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-UNSAFE = "--unsafe-no-sandbox"  # With this option, `course grade` needs no packages for grading.
+UNSAFE = "--unsafe-no-sandbox"  # With this option, `course grade` needs no packages for a sandbox.
 
 
 class Command(NamedTuple):
     """A subcommand.
 
-    The object exists before the set-up, so only `run` may import other modules. `needs` lists what the set-up
-    must provide first, for example "course" and "grade". A command that imports libraries needs "libraries"
-    and runs with the interpreter of the virtual environment. In the students' edition, a command that needs
-    "solutions" ends with an error message. If `rest` is not empty, all arguments are passed to another
-    program, and `rest` describes them in the usage.
+    The object is created before the set-up, when libraries may be missing. Only `run` may therefore import
+    other modules. `needs` lists what the set-up must provide first, for example "course" and "grade". A
+    command that imports libraries needs "libraries" and runs with the interpreter of the virtual environment.
+    In the students' edition, a command that needs "solutions" ends with an error message. If `rest` is not
+    empty, all arguments are passed to another program, and `rest` describes them in the usage.
     """
 
     summary: str

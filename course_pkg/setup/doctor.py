@@ -19,7 +19,7 @@ from course_pkg.waiting import wait_until
 
 ENDING = 5.0  # The child processes of a killed process end within this time in s.
 NEEDED = 1 << 30  # A complete set-up needs a little less than this number of bytes of disk space.
-# An installation for students needs only the packages for the first command.
+# A shared installation needs only the packages for `course lab`.
 NEEDED_BY = (("course", "course lab"), ("grade", "course grade"), ("test", "course test"))
 
 
@@ -151,7 +151,7 @@ def _answering(uri: str, host: str, port: int) -> Finding:
 def _leftovers(places: Places) -> Iterator[Finding]:
     """Find processes of this checkout that are still running although their parent has ended.
 
-    If an owner was killed with SIGKILL, its supervisor normally ends the owned process within seconds.
+    If a process is killed with SIGKILL, the supervisor of a child normally ends this child within seconds.
     """
     orphans = _orphans(places)
     wait_until(lambda: not orphans & _orphans(places), ENDING, 0.1)

@@ -1,6 +1,6 @@
 """The environment variables of ROS.
 
-The set-up reads these variables once from the workspace's setup.bash and stores them in a file.
+The set-up reads the variables once from the workspace's setup.bash, and stores the variables in a file.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.stamps import digest
 
 LOCKS = Path(__file__).with_name("locks")
-# This file delays every start of Python by 30 ms, also in nodes and kernels.
+# This file from a library would delay every start of Python by 30 ms, so the set-up deletes it.
 SLOW_STARTER = "a1_coverage.pth"
 PIP_TO_UV = {
     "index-url": "UV_DEFAULT_INDEX",
@@ -34,13 +34,13 @@ UV_SETTINGS = {
     "UV_NO_CONFIG": "1",
     "UV_PYTHON_DOWNLOADS": "never",
     "UV_SYSTEM_CERTS": "1",
-    # pip uses the same strategy; this strategy is safe because the lock file contains hashes.
+    # pip uses the same strategy. It is safe here, because the lock file contains hashes.
     "UV_INDEX_STRATEGY": "unsafe-best-match",
 }
 
 
 def lock_file(extra: str) -> Path:
-    """Return the pinned requirements of `extra`: "course", "hub", "test" or "uv"."""
+    """Return the path of a lock file; `extra` is "course", "hub", "test" or "uv"."""
     return LOCKS / f"{extra}.txt"
 
 
@@ -64,7 +64,8 @@ def make_environment(places: Places, extra: str, journal: Journal) -> None:
         journal.run(
             [uv, "venv", "--clear", "--system-site-packages", "--python", base_python(), places.venv], env=env
         )
-    # The lock lists all necessary libraries, and some dependencies are omitted on purpose (see lock.py).
+    # uv must not install further dependencies: the lock file lists all necessary libraries, and it omits some
+    # dependencies on purpose (see lock.py).
     options: list[str | Path] = ["--no-deps", "--require-hashes", "-r", lock_file(extra)]
     if env.get("UV_NO_INDEX"):  # for this setting, uv has only an option, no variable
         options.append("--no-index")
@@ -95,7 +96,7 @@ def installed_uv(places: Places, journal: Journal) -> Path:
             lock_file("uv"),
         ]
         journal.run(command, env=_clean_environment())
-        with suppress(OSError):  # The set-up of another checkout may have installed uv.
+        with suppress(OSError):  # The set-up of another checkout may have installed uv in the meantime.
             fresh.rename(folder)
     return uv
 

@@ -26,7 +26,7 @@ APT_OPTIONS = (
     "-o",
     "Dpkg::Use-Pty=0",
     "-o",
-    # With this option, an installation is faster; this is safe because a failed set-up is repeated.
+    # With this option, dpkg is faster. The option is safe, because a failed set-up is repeated.
     "Dpkg::Options::=--force-unsafe-io",
     "-o",
     "Dpkg::Options::=--force-confold",
@@ -60,7 +60,7 @@ class Platform(NamedTuple):
 def read_platform(checkout: Path, os_release: Path = OS_RELEASE) -> Platform:
     """Return the platform for the distribution in `os_release`, or for its base distribution.
 
-    Raises SetupError on all other systems; its message contains the commands for conda.
+    Raises SetupError on any other system; the error message contains the commands for conda.
     """
     data = json.loads(DATA.read_text())
     release = _read_release(os_release)
@@ -128,7 +128,8 @@ def install_packages(names: Sequence[str], journal: Journal, report: Callable[[s
     except SetupError:
         if not updated:
             raise
-        run(APT, "update", "-q")  # The package lists may refer to files that the server has replaced.
+        # Get new package lists, because the old lists may refer to files that the server has replaced.
+        run(APT, "update", "-q")
         run(APT, "install", *APT_OPTIONS, *names)
 
 
@@ -146,7 +147,7 @@ def _run_when_unlocked(journal: Journal, command: Sequence[str], report: Callabl
 
 
 def become_root(names: Sequence[str]) -> list[str]:
-    """Return a prefix that runs a command as root, such as sudo; raises SetupError if there is none."""
+    """Return a command prefix such as sudo; raises SetupError if the user cannot run commands as root."""
     advice = "As an administrator, type\n  apt-get update && apt-get install --no-install-recommends " + (
         " ".join(names)
     )

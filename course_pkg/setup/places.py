@@ -98,7 +98,8 @@ class Places(NamedTuple):
     def make_cache(self) -> None:
         """Create the cache folder.
 
-        Raises SetupError if this is impossible; the error message contains the next step for the user.
+        Raises SetupError if the folder cannot be created; the error message contains the next step for the
+        user.
         """
         if any(letter.isspace() for letter in str(self.cache)):
             raise SetupError(

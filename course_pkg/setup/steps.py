@@ -16,7 +16,8 @@ from course_pkg.setup.places import Places
 from course_pkg.setup.progress import Progress
 from course_pkg.setup.stamps import Stamps, digest, locked
 
-# Each key is the name of a lock file, and its value is added to the title of the step that installs it.
+# Each key is the name of a lock file. The value is a part of the title of the step that installs the
+# libraries.
 EXTRAS = {"course": "", "hub": " of the hub", "test": " of the tests"}
 
 
@@ -35,9 +36,10 @@ class Step(NamedTuple):
 def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool = False) -> None:
     """Set up what is missing.
 
-    If nothing is missing, this function takes a few milliseconds and prints nothing. A shared installation is
-    complete, except for the libraries of the hub, which the first `course hub` of an administrator adds.
-    Raises SetupError if a step fails; the error message contains the next step for the user.
+    If nothing is missing, this function takes a few milliseconds and prints nothing. In a shared
+    installation, only the libraries of the hub may be missing; they are installed when an administrator runs
+    `course hub` for the first time. Raises SetupError if a step fails; the error message contains the next
+    step for the user.
     """
     stages = steps_of(places, grade=grade, hub=hub, test=test)
     if all(step.is_done() for stage in stages for step in stage):
@@ -102,7 +104,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
             return True
         if packages.missing_packages(wanted):
             return False
-        # With this stamp, the next start does not call dpkg.
+        # The stamp is written here so that the next start does not have to call dpkg.
         with suppress(OSError):
             stamps.write(name, state)
         return True
@@ -115,7 +117,7 @@ def _package_step(title: str, wanted: Sequence[str], stamps: Stamps) -> Step:
 
 def _library_step(places: Places, stamps: Stamps, extra: str) -> Step:
     def is_done() -> bool:
-        # Each lock file also contains all libraries of the lock files before it.
+        # Each lock file contains all libraries of the earlier lock files, so a later stamp is sufficient.
         sufficient = list(EXTRAS)[list(EXTRAS).index(extra) :]
         made = (stamps.read(f"python-{name}") == libraries.libraries_key(name) for name in sufficient)
         return libraries.environment_works(places) and any(made)

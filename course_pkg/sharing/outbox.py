@@ -24,7 +24,7 @@ class Outbox:
         self.folder = folder or state_folder() / FOLDER
 
     def put(self, report: Mapping[str, object]) -> str:
-        """Add the result of a check; return an error message if the disk cannot be written, else "".
+        """Add the result of a check; return an error message if the file cannot be written, else "".
 
         The result contains the part, the verdict, the time and the hint. The result does not contain the
         student's code or the values that the code computed.
@@ -50,7 +50,7 @@ class Outbox:
     def first(self, most: int) -> list[dict[str, object]]:
         """Return the oldest results; `most` is their maximum number.
 
-        Delete files that `put` has not written, or that are too old.
+        Also delete files that are too old or contain no result.
 
         Raises OSError if the folder cannot be read.
         """

@@ -72,7 +72,7 @@ class Sender:
     def send(self) -> None:
         """Send all results that are in the outbox.
 
-        Raises NotAccepted, OSError, HTTPException or ValueError if the service cannot store them.
+        Raises NotAccepted, OSError, HTTPException or ValueError if the service cannot store the results.
         """
         if not self._knows_service:
             keep_about(self._outbox.folder.parent, self._url, self._ask("GET", "/about"))

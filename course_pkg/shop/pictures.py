@@ -21,12 +21,12 @@ DARK = 96  # A pixel with a lower brightness is dark.
 SHARE = 10  # If at least 1/SHARE of the pixels are dark, the frame shows a customer.
 BRIGHT, DARK_COAT = 208, 40  # These are the minimum brightness of the wall and of a coat.
 SHADE = 12  # Pixels of the wall and of a coat vary in brightness by less than this value.
-# Half the width of a customer's head and shoulders is this fraction of the frame's height.
+# The values are half the width of a head and of the shoulders, as fractions of the frame's height.
 HEAD, SHOULDERS = 0.14, 0.2
 
 
 def shop_picture(width: int, height: int, customers: int) -> bytes:
-    """Return the picture in the encoding rgb8: `height` rows of `width` pixels, from the top left.
+    """Return the picture in the encoding rgb8, with `height` rows of `width` pixels, from the top left.
 
     Each pixel has three bytes. The picture shows at most MOST customers.
     """
@@ -40,7 +40,7 @@ def _picture_row(y: float, width: int, height: int, customers: int) -> bytes:
     if y >= 0.72:
         return bytes(TOP if y < 0.76 else COUNTER) * width
     row = bytearray(bytes(WALL if y < 0.6 else FLOOR) * width)
-    # If there are many customers, each is drawn narrower, with a gap between them.
+    # If there are many customers, each customer is drawn narrower, so that there are gaps between them.
     squeeze = min(height, 0.44 / HALF_BREADTH * width / (customers + 1))
     for number, coat in enumerate(islice(cycle(COATS), customers), 1):
         half, colour = _figure_at(y, coat)
@@ -80,8 +80,8 @@ def frame_points(customers: int) -> bytes:
 def sees_customer(frame: Frame) -> bool:
     """Return whether a frame shows a customer: at least a tenth of its pixels are dark.
 
-    Raises ValueError for a malformed frame: its encoding is not mono8, it has no pixels, its rows are longer
-    than its step, or its data do not have `height * step` bytes.
+    Raises ValueError for an invalid frame. In a valid frame, the encoding is mono8, there is at least one
+    pixel, a row is not longer than `step`, and the data have `height * step` bytes.
     """
     if frame.encoding != "mono8":
         raise ValueError(f"the encoding is {frame.encoding!r}, and not mono8")

@@ -16,7 +16,7 @@ from course_pkg.errors import CameraSilent
 if TYPE_CHECKING:
     import genpy
 
-# A waiting thread checks the time of the camera's last message after each interval of this length in s.
+# While a thread waits, it checks at least once in this time (s) when the camera sent its last message.
 POLL = 0.25
 # If an Eye receives no valid frame for this many s, the state of the counter is unknown.
 FRAME_TIMEOUT = 1.0
@@ -99,7 +99,7 @@ class Watch:
 class Eye(Generic[Frame]):
     """Reads frames, and stores whether the newest valid frame shows a customer.
 
-    `sees` returns whether a frame shows a customer, and raises ValueError for a malformed frame. Each valid
+    `sees` returns whether a frame shows a customer, and raises ValueError for an invalid frame. Each valid
     frame notifies the threads that wait for the condition `changed`.
     """
 
@@ -110,7 +110,7 @@ class Eye(Generic[Frame]):
         self._last = -float("inf")  # The newest valid frame arrived at this value of time.monotonic().
 
     def hear(self, frame: Frame) -> None:
-        """Process a frame, but ignore a malformed frame; this method is the callback of a subscriber."""
+        """Process a frame, but ignore an invalid frame; this method is the callback of a subscriber."""
         try:
             seen = self._sees(frame)
         except ValueError:

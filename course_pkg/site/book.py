@@ -29,7 +29,8 @@ OPTIONS = (
     "--no-first-run",
     "--no-pdf-header-footer",
     "--generate-pdf-document-outline",
-    "--virtual-time-budget=20000",  # The drawing of all panels takes less than this virtual time in ms.
+    # This limit, in ms of the page's clock, is long enough to draw all panels.
+    "--virtual-time-budget=20000",
 )
 LINK = re.compile(r'href="(?P<number>\d\d)_\w+\.html(?:#(?P<anchor>[^"]*))?"')
 

@@ -38,7 +38,7 @@ PANEL_CLASS = 'class="panel"'
 class PageSource(NamedTuple):
     """A chapter for which the site has a page.
 
-    `trouble` says why the page does not show the latest run, and is "" if the page shows it.
+    `trouble` is the reason why the page does not show the latest run, or "" if the page shows the latest run.
     """
 
     chapter: Chapter
@@ -51,7 +51,7 @@ class PageSource(NamedTuple):
 def write_site(settings: Settings, store: NotebookStore | None = None, runs: Runs | None = None) -> list[str]:
     """Write the site, and return a message for each chapter with a failed run.
 
-    The pages of these chapters show the stored outputs.
+    If the run of a chapter has failed, its page shows the stored outputs.
     """
     exporter = Exporter()
     books = list(_books(settings, store or NotebookStore(), runs or Runs(), exporter))
@@ -111,7 +111,7 @@ def _pages(renderer: Renderer, books: Sequence[PageSource], settings: Settings) 
 
 
 def _links(each: PageSource, settings: Settings) -> list[tuple[str, str, bool]]:
-    """Return the links to the notebook: (label, address, whether the file belongs to the site)."""
+    """Return the links to the notebook as tuples (label, address, whether the file belongs to the site)."""
     links = [("Download this chapter", f"notebooks/{each.source.name}", True)]
     if settings.binder:
         place = quote(f"notebooks/{each.source.name}", safe="")
@@ -153,8 +153,8 @@ class Settings(NamedTuple):
 class Folder:
     """The folder of a site during writing; it is a context manager.
 
-    If the block ends without an exception, all files of the earlier site that were not written again are
-    removed.
+    If the block ends without an exception, the files of an earlier site are removed, except those that the
+    block has written again.
     """
 
     def __init__(self, path: Path) -> None:

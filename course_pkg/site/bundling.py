@@ -1,8 +1,8 @@
 """Builds the scripts, fonts and licences that every page loads: `python -m course_pkg.site.bundling`.
 
-The build downloads packages from the npm registry and needs Node. Only a maintainer who changes these files
-needs Node, because the built files are stored in `assets/`. A test builds the files again, and compares them
-with the stored files.
+The build downloads packages from the npm registry and needs Node. Only a maintainer who changes the scripts,
+fonts or licences needs Node, because the built files are stored in `assets/`. A test builds the files again,
+and compares them with the stored files.
 """
 
 from __future__ import annotations

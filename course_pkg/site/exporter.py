@@ -131,7 +131,7 @@ class Exporter(HTMLExporter):
 def _showable(notebook: Notebook) -> nbformat.NotebookNode:
     """Return a copy of `notebook` without the outputs that a page cannot show.
 
-    nbconvert would warn about these outputs.
+    nbconvert would print a warning for each output that a page cannot show.
     """
     node: nbformat.NotebookNode = nbformat.from_dict(notebook)
     for cell in (cell for cell in node["cells"] if cell["cell_type"] == "code"):
@@ -155,7 +155,7 @@ def packed(states: Sequence[Mapping[str, Plain]]) -> str:
 def picture(data: str, kind: str, metadata: Mapping[str, Mapping[str, str]]) -> str:
     """Return a picture as an <img> element that contains the picture's data.
 
-    A script in an SVG cannot run in such an element.
+    A script in an SVG cannot run inside an <img> element.
     """
     code = base64.b64encode(data.encode()).decode() if kind == "image/svg+xml" else data.replace("\n", "")
     about = metadata.get(kind, {})

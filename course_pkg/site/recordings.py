@@ -3,8 +3,8 @@
 A chapter's file `recordings.json` contains plans for some cells; each key is the id of a cell. A plan has
 these keys:
 
-- `record`: the requests that a service panel sends, or the cases of BreakIt with their tools. The
-  page answers with the recorded responses.
+- `record`: for a service panel, the requests to send; for BreakIt, the names of faults, each with the tools
+  to run. The page answers with the recorded responses.
 - `pick`: the name of the service, if the code of the cell does not name a service.
 - `watch`: the time in s during which the panel works as if it were visible on a page.
 - `calls`: the calls that the notebook's own node makes during these seconds. Each call has the name of a
@@ -48,7 +48,7 @@ class Panel(Protocol):
         """Send the requests to the service, and record the responses."""
 
     def shown(self) -> None:
-        """Start the work that the panel does only while a page shows it."""
+        """Start the work that the panel does only while a page shows the panel."""
 
     def hidden(self) -> None:
         """Stop the work that `shown` started."""

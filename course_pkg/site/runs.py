@@ -73,7 +73,7 @@ class Runs:
 
         If there is no run with the current code, return None.
 
-        The package may have changed after the last run.
+        The last run may have used an older version of the package.
         """
         notebook = read(path)
         shown = self._kept(path, "code", _code(notebook))
@@ -98,7 +98,8 @@ class Runs:
     def _package(self) -> Iterator[str | bytes]:
         """Yield the contents of all files that a notebook can run, read or import.
 
-        The checks of the chapters are left out: `_key` adds only the checks of the notebook's own chapter.
+        The checks of the chapters are omitted, because `_key` adds only the checks of the notebook's own
+        chapter.
         """
         root = self._places.checkout
         yield sys.version

@@ -1,4 +1,4 @@
-"""The node `draw_square`: drives turtle1 along a square by feedback from its pose."""
+"""The node `draw_square`: drives turtle1 along a square, and corrects the velocity after each pose."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ CORNER = math.pi / 2  # The turtle turns by this angle in rad at each corner.
 SPEED = 1.0  # This is the maximum velocity in m/s.
 TURN = 0.8  # This is the maximum angular velocity in rad/s.
 TOLERANCE = 0.01  # A side or corner may end with this error in m or rad.
-# The maximum velocity is this factor (in 1/s) times the remaining m or rad, so the turtle slows down before
-# the end of a side or corner.
+# The velocity is at most SLOW (in 1/s) times the remaining distance or angle. The turtle therefore slows down
+# before the end of a side or corner.
 SLOW = 4.0
 
 
@@ -45,7 +45,8 @@ class Walker:
     def after(self, x: float, y: float) -> Walker:
         """Return the walker for the next side or corner, which begins at (x, y)."""
         if self.turning:
-            # The planned angle is used, because small errors of the real angle would add up.
+            # The next side starts from the planned angle, because small errors of the turtle's real angle
+            # would add up.
             return Walker(x, y, self.theta + CORNER)
         return replace(self, turning=True)
 

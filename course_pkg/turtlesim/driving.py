@@ -59,6 +59,6 @@ def keep_driving(driver: Driver, publish: Publish, over: Callable[[], bool]) -> 
         now, period = time.monotonic(), 1.0 / driver.rate
         if now - last >= period:
             publish(to_twist(driver.velocity()))
-            # After a delay, the driver skips the velocities that are late.
+            # If this thread was delayed, it does not publish the late velocities.
             last = max(last + period, now - SLICE)
         time.sleep(min(max(last + period - time.monotonic(), 0.0), SLICE))

@@ -35,7 +35,7 @@ class Refused(rospy.ServiceException):
 def refuse_like_roscpp() -> None:
     """Make this process refuse connections with roscpp's error messages.
 
-    Init_node() must be called before.
+    Call init_node() before this function.
     """
     tcpros_base.start_tcpros_server()
     server = tcpros_base._tcpros_server

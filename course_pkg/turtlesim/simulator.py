@@ -25,7 +25,8 @@ from course_pkg.turtlesim.world import BACKGROUND, TICK, NameTaken, Turtle, Unkn
 FIRST = "turtle1"  # This turtle exists after a reset.
 # Requests take at most this time in s in one tick. So even many requests delay a pose by at most this time.
 BUDGET = 0.008
-MAX_DELAY = 0.25  # Ticks with a longer delay (s) are skipped, for example after the machine was suspended.
+# Ticks that are more than this time in s late are skipped, for example after the machine was suspended.
+MAX_DELAY = 0.25
 DEFAULTS = dict(zip(("background_r", "background_g", "background_b"), BACKGROUND, strict=True))
 
 Result = TypeVar("Result")

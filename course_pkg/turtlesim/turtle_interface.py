@@ -2,7 +2,7 @@
 
 With a queue, rospy starts a thread for each subscriber of a topic. This thread wakes up for each message, and
 1,500 messages per second would take most of the CPU time. Without a queue, rospy writes each message
-directly, and a subscriber that does not read blocks the publisher.
+directly. The publisher then has to wait if a subscriber does not read.
 
 A turtle therefore writes a message directly if the connection's buffer has space. If the buffer has no space,
 the turtle drops the message.
@@ -137,7 +137,7 @@ class _Writer:
     def __call__(self, data: bytes) -> bool:
         """Write `data`; if the send buffer has no space, drop `data`.
 
-        Raises the error of a broken connection.
+        Raises rospy's error if the connection is broken.
         """
         if self._room.poll(0):
             return self._write(data)

@@ -13,7 +13,7 @@ from itertools import count
 from course_pkg.turtlesim.canvas import SIDE, Canvas, Colour, Point
 
 TICK = 0.016  # A tick has this length in s.
-# A metre has this number of pixels; in turtlesim of ROS, the picture of a turtle has this height.
+# A metre has this number of pixels. The number is the height of a turtle's picture in ROS's own turtlesim.
 PIXELS = 45.0
 WIDTH = (SIDE - 1) / PIXELS  # The world has this width and height in m.
 HOME = WIDTH / 2  # The middle of the world has this x and y in m.
@@ -195,7 +195,7 @@ def normalized(angle: float) -> float:
 def _near_canvas(point: Point) -> Point:
     """If `point` is far from the canvas, return a nearer point; otherwise, return `point`.
 
-    This limits the drawing time.
+    A nearer point limits the time for drawing a line.
     """
     x, y = (min(max(each, -2.0 * SIDE), 3.0 * SIDE) for each in point)
     return x, y

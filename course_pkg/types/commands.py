@@ -196,7 +196,7 @@ def _python_block(text: str) -> str:
 def _arguments(fields: tuple[Field, ...], values: Mapping[str, Plain]) -> list[str]:
     """If all fields are scalars, return one argument for each field.
 
-    Otherwise, return one YAML dict with all fields.
+    If a field is not a scalar, return one YAML dict with all fields.
     """
     if all(field.kind.is_scalar for field in fields):
         return [_yaml(field, values[field.name]) for field in fields]

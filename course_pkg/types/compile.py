@@ -134,7 +134,7 @@ class _Generation:
     def _code(self, spec: MsgSpec) -> str:
         """Return genpy's code for a message.
 
-        Imports, and texts that genpy does not escape, are removed.
+        The method removes import statements, and strings that genpy does not escape.
         """
         with _GENERATOR:
             pieces = list(msg_generator(self.context, spec, {}))

@@ -81,7 +81,7 @@ class Constant:
 
 @dataclass(frozen=True)
 class Field:
-    """A field of a message, or (with an empty name) an element of an array.
+    """A field of a message, or an element of an array; the name of an element is empty.
 
     `low` and `high` are the limits of a number. `length` is the length of an array, or None if it may vary;
     `item` describes an array's element. `fields` are the fields of a message, or `secs` and `nsecs` of a time

@@ -23,12 +23,12 @@ def float32(number: float) -> float:
         return math.nan
     packed = _FLOAT32.pack(number)
     exact: float = _FLOAT32.unpack(packed)[0]
-    # The format with 6 digits also finds every shorter number, so the search begins at 6 digits. For
-    # subnormal numbers, one digit can be enough.
+    # The format omits zeros at the end, so a search that begins at 6 digits also finds shorter numbers. For
+    # subnormal numbers, the search begins at one digit, because their precision is lower.
     fewest = 6 if abs(exact) >= _SMALLEST_NORMAL_FLOAT32 else 1
     for digits in range(fewest, 9):
         short = float(f"{exact:.{digits}g}")
-        # Near the largest float32, the number with fewer digits can be out of range.
+        # Near the largest float32, a number that is rounded to fewer digits can be out of range.
         if math.isfinite(short) and _fits(short) and _FLOAT32.pack(short) == packed:
             return short
     return float(f"{exact:.9g}")
@@ -45,7 +45,7 @@ def _fits(number: float) -> bool:
 def parse_float(text: str) -> float:
     """Return the number in a string; `inf` and `nan` are also numbers. Raises ValueError."""
     if _NAN.fullmatch(text):
-        # Lists or dicts with the same nan object are equal, so the function always returns the same object.
+        # Two lists with nan are equal only if both contain the same nan object, so always return this object.
         return math.nan
     if infinite := _INFINITE.fullmatch(text):
         return float(f"{infinite[1]}inf")

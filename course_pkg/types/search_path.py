@@ -63,7 +63,7 @@ def definition_file(name: str, kind: DefinitionKind, finder: rospkg.RosPack | No
     """Return the .srv or .msg file of a type, or None if it is not on ROS_PACKAGE_PATH."""
     package, short = split_type_name(name)
     for _, folder in _each_folder(kind, [package], finder):
-        # Some file systems ignore the case of names, so the names in the folder are compared.
+        # Some file systems ignore the case of letters, so compare the name with each file name in the folder.
         for file in folder.iterdir():
             if file.name == f"{short}.{kind}":
                 return file

@@ -88,7 +88,7 @@ class MessageType:
     def built(self) -> bool:
         """Whether Python can import the class from its package.
 
-        If not, the class was generated from the definition.
+        If the value is False, the class was generated from the definition.
         """
         return not hasattr(self.cls, "_dependencies")
 

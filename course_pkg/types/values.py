@@ -208,7 +208,7 @@ def _check_string(field: Field, value: object, path: str) -> str:
 
 
 def _article(word: str) -> str:
-    # The articles are "an int8" and "a uint8".
+    # The article of "int8" is "an", and the article of "uint8" is "a".
     return "an" if word[0] in "aeiAEI" else "a"
 
 

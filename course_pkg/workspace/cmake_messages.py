@@ -23,8 +23,8 @@ _HEAD = re.compile(
     r"CMake (?P<kind>Error|Warning)(?: \(dev\))?"
     r"(?: at (?P<file>.+?):(?P<line>\d+)(?: \(\w+\))?)?:(?P<rest>.*)"
 )
-# For catkin's top-level file, CMake prints the name without a folder; for files outside of src, it prints
-# absolute paths.
+# The pattern matches only files of the student's packages. CMake prints catkin's top-level file without a
+# folder, and files outside of src with absolute paths.
 _OURS = re.compile(r"(?P<file>[\w.+-]+(?:/[\w.+-]+)*/CMakeLists\.txt):(?P<line>\d+)")
 _STACK = "Call Stack (most recent call first):"
 _COMMAND = re.compile(r"(?P<comment>#\s*)?(?P<name>[A-Za-z_]\w*)[ \t]*\(")

@@ -37,9 +37,9 @@ KINDS = (".srv", ".msg")  # Python packages whose names have these endings conta
 def own_workspace() -> Path:
     """Return the student's catkin workspace: the path in COURSE_WORKSPACE, or `workspace` beside `notebooks`.
 
-    A run that validates or grades notebooks sets COURSE_WORKSPACE or COURSE_STATE, so that this run does not
-    find the packages of another run. If only COURSE_STATE is set, the workspace is the folder `workspace` in
-    that folder.
+    When notebooks are validated or graded, COURSE_WORKSPACE or COURSE_STATE is set, so that each run finds
+    only its own packages. If only COURSE_STATE is set, the workspace is the folder `workspace` in
+    COURSE_STATE.
     """
     if given := os.environ.get("COURSE_WORKSPACE"):
         return Path(given).expanduser().resolve()
@@ -180,7 +180,8 @@ def _append(name: str, folders: list[Path]) -> None:
 def _follow(module: ModuleType) -> list[str]:
     """Import a package's new types; if `module` contains a type that has changed, return this type's name."""
     if module.__name__.endswith(KINDS):
-        # If a build is running or has failed, the student's own import shows the error.
+        # This import can fail while a build is running or after a failed build. The student sees the error at
+        # the next import of the types.
         with suppress(Exception):
             importlib.reload(module)
         return []

@@ -110,7 +110,7 @@ def panel_compare(calls: int) -> tuple[float, float]:
 
 
 def panel_main() -> int:
-    """Print, for each run, the ratio of the panel's call duration to the proxy's call duration.
+    """Compare the durations of calls through the panel and through the proxy; print the ratio for each run.
 
     Return 1 if the median ratio is above the limit.
     """
@@ -132,9 +132,10 @@ def panel_main() -> int:
 
 # robust: makes 200 payments with the solution of 12.3, and counts the errors. The node of the cash register
 # (the till) causes a fault at every third payment. The till is a separate process; the benchmark stops, kills
-# and restarts it. The till writes each payment to a file before it sends its response. An error is a payment
-# that is missing or was made twice, a receipt without a payment, a missing receipt, or a refusal that pay()
-# does not report. A payment that has not ended 2 s after its time limit counts as a hang.
+# and restarts it. The till writes each payment to a file before it sends its response. These results are
+# errors: a missing payment, a payment that was made twice, a receipt without a payment, a missing receipt,
+# and a refusal that pay() does not report. A payment that has not ended 2 s after its time limit counts as a
+# hang.
 
 SOLUTION = Path(__file__).parents[2] / "solutions" / "12_survive_trouble.ipynb"
 DEADLINE = 15.0  # A payment may take this many seconds. The restart of a killed till needs about 1 s.
@@ -348,8 +349,8 @@ def serve(folder: Path) -> None:
 # with and without recording. The result of a run is the lower quartile of its durations. The benchmark prints
 # the fastest run, because other programs on the machine can only make a run slower.
 
-# The first number limits the duration ratio for a call on a new connection. The second number limits the
-# duration of an event in µs.
+# The first number limits the ratio of the durations with and without recording, for a call on a new
+# connection. The second number limits the duration of an event in µs.
 RECORDER_BAR, EVENT_BAR = 1.03, 5.0
 NODE = """
 import json, os, statistics, sys, time
@@ -434,7 +435,7 @@ def figures(way: str, core: int, calls: int) -> Figures:
 
 
 def shown(runs: list[tuple[Figures, Figures]]) -> float:
-    """Print the shortest durations, and return the duration ratio for a call on a new connection."""
+    """Print the shortest durations; return the ratio (recorded / bare) for calls on new connections."""
     ratios = []
     for name in runs[0][0]:
         bare, recorded = (1e6 * min(run[end][name] for run in runs) for end in (0, 1))

@@ -55,7 +55,8 @@ NODES, TOPICS = 20, 40
 GRAPH_WATCH, SETTLE = 10.0, 10.0  # s
 RATE = 5  # Each topic has this rate in Hz.
 
-# This program is a node that publishes and subscribes to the topics in its arguments.
+# This program is a node. Its arguments name the topics that it publishes, and the topics to which it
+# subscribes.
 SPEAKER = """
 import sys
 import rospy

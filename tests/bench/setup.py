@@ -19,9 +19,9 @@ from pathlib import Path
 from tests.bench.commands import run_command
 
 # fresh: prints how long the first `./course run rosservice list` takes on a new Debian system; this includes
-# the set-up. usage: /usr/bin/python3 -m tests.bench.setup fresh [RUNS [CODENAME]]. It has to be run as root,
-# and needs debootstrap. The benchmark creates a new system once, from the apt mirror of this machine, and
-# copies this system for each run.
+# the set-up. usage: /usr/bin/python3 -m tests.bench.setup fresh [RUNS [CODENAME]]. The benchmark has to be
+# run as root, and needs debootstrap. The benchmark creates a new system once, from the apt mirror of this
+# machine, and copies this system for each run.
 
 ROOT = Path(__file__).parents[2]
 FRESH_BAR = 60.0  # s

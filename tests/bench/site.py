@@ -158,8 +158,8 @@ def axe_main() -> None:
     print(f"{count} violations on {len(pages(site))} pages, {len(WIDTHS) * len(COLOURS)} ways each")
 
 
-# nbval: prints how long nbval needs for all solutions, serially and in parallel.
-# Arguments: `[WORKERS …]`. The default is the number of workers that `course` uses on this machine.
+# nbval: prints how long nbval needs for all solutions, serially and in parallel. Arguments: `[WORKERS …]`.
+# The default for WORKERS is the number of workers that `course` uses on this machine.
 
 SOLUTIONS = sorted((Path(__file__).parents[2] / "solutions").glob("*.ipynb"))
 BAR = 0.45  # A parallel run may take at most this fraction of the serial run.

@@ -121,8 +121,8 @@ def _command(port: int, root: Path) -> list[str]:
         "ServerApp.terminado_settings": {"shell_command": list(SHELL)},
         "LabApp.news_url": "",
         "LabApp.expose_app_in_browser": True,
-        # With TCP, another program could use the port that JupyterLab chose, before the kernel listens on
-        # this port.
+        # The kernels use Unix sockets, because another program could take a TCP port before the kernel
+        # listens on it.
         "KernelManager.transport": "ipc",
     }
     return [sys.executable, "-m", "jupyterlab", *(f"--{name}={value}" for name, value in options.items())]

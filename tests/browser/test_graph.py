@@ -110,7 +110,7 @@ def test_a_large_graph_can_be_read(
 
 
 def test_a_saved_namespace_lists_its_shapes(widget: GraphPanel, page: Page, tmp_path: Path) -> None:
-    """On a saved page, a folded namespace lists its nodes and topics."""
+    """On a saved page, a click on a folded namespace shows the nodes and topics in this namespace."""
     page.goto(save(widget, tmp_path / "page.html"))
     graph = panel(page, "Graph panel")
     box = shape(graph, "namespace /robot_1/")

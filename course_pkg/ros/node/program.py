@@ -18,7 +18,7 @@ from course_pkg.ros.process.master import wait_for_master
 from course_pkg.ros.protocol.master_api import MasterClient, master_uri
 
 END_SIGNALS = (signal.SIGINT, signal.SIGTERM)
-TIMEOUT = 5.0  # Wait up to this time in s for a server, and up to this time again for its response.
+TIMEOUT = 5.0  # Wait up to this time in s for a server, and again up to this time for the response.
 INTERVAL = 0.02  # This is the time in s between two polls.
 
 Offered = tuple[type, Callable[[Message], Message]]  # The class of a service, and its handler.
@@ -34,8 +34,8 @@ def start_node(name: str) -> bool:
         wait_for_master(rospy.logwarn)
     except KeyboardInterrupt:
         return False
-    # Ctrl-C is delayed, because rospy's start and its shutdown use the same locks. A signal mask works here
-    # although rospy installs its own signal handlers.
+    # rospy's start and rospy's shutdown use the same locks, so Ctrl-C is delayed until the start has ended.
+    # The signals are masked, because rospy replaces the signal handlers during its start.
     signal.pthread_sigmask(signal.SIG_BLOCK, END_SIGNALS)
     try:
         rospy.init_node(name)
@@ -46,7 +46,7 @@ def start_node(name: str) -> bool:
 
 
 def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
-    """Wait for a master, become the node `node`, and serve `services` until Ctrl-C.
+    """Wait for a master, start the node `node`, and offer `services` until Ctrl-C.
 
     The keys of `services` are the names of the services.
     """
@@ -62,7 +62,7 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 def undisturbed() -> Iterator[None]:
     """Delay Ctrl-C until the end of the block.
 
-    A shutdown needs a lock, and a call to the master holds this lock.
+    While rospy calls the master, it holds a lock that its shutdown also needs.
     """
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}
@@ -76,7 +76,7 @@ def undisturbed() -> Iterator[None]:
 
 
 def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Message:
-    """Become the node `node`, wait up to 5 s for `service`, call it once, and return the response.
+    """Start the node `node`, wait up to 5 s for `service`, call `service` once, and return the response.
 
     `kind` is a service class, a ServiceType, or a name such as "std_srvs/Trigger". Raises ROSException if no
     node serves `service` within 5 s, CallTimeout if the response takes longer than 5 s, and rospy's errors
@@ -91,7 +91,7 @@ def call_once(node: str, service: str, kind: ServiceKind, *values: object) -> Me
 
 
 def print_response(call: Callable[[], str]) -> int:
-    """Print the result of `call`, or its error message; return the exit status, 0 or 1."""
+    """Print the result or the error message of `call`, and return the exit status 0 or 1."""
     try:
         print(call())  # noqa: T201 -- the program's result
     except (rospy.ROSException, rospy.ServiceException, CourseError) as error:

@@ -69,7 +69,8 @@ class BoundedProxy(rospy.ServiceProxy):
         """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            # The call may have ended before cancel() added this action; only this line disarms it then.
+            # If the call had already ended before this action was armed, only the next lines disarm the
+            # action.
             if call.over:
                 self._disarm(call)
 
@@ -243,7 +244,7 @@ class _Call:
         self.error = self.error or error
         sock = self.transport.socket if self.transport else None
         if sock is not None:
-            # If the socket is not connected yet, shutdown() fails; the watchdog then repeats this method.
+            # If the socket is not connected yet, shutdown() fails, and the watchdog runs this method again.
             with suppress(OSError):
                 sock.shutdown(socket.SHUT_RDWR)
 
@@ -257,7 +258,7 @@ def settle_keepalive(master: MasterClient) -> None:
 def _hung_up(transport: TCPROSTransport) -> bool:
     """Return whether the server has closed an idle connection.
 
-    If the connection is open, there are no data to read.
+    On an open idle connection, recv() finds no data and raises BlockingIOError.
     """
     sock = transport.socket
     if sock is None:

@@ -1,8 +1,8 @@
 """Start rospy in a notebook's kernel, even several times, without changing the kernel's logging.
 
-rospy can start only once in a process. After signal_shutdown(), after an interrupted rospy.spin(), or when
-another node with the same name starts, rospy is shut down. A second init_node() then does nothing and raises
-no error. This module therefore sets rospy's variables to the values that they had before the first
+rospy can start only once in a process. rospy is shut down after signal_shutdown(), after an interrupted
+rospy.spin(), and when another node starts with the same name. A second init_node() then does nothing and
+raises no error. This module therefore sets rospy's variables to the values that they had before the first
 init_node().
 
 init_node() also removes the root logger's handlers. The log messages of all threads would then appear below
@@ -77,7 +77,7 @@ class _AnyArguments:
 
 @contextmanager
 def logging_kept() -> Iterator[None]:
-    """After the block, restore the root logger's handlers, and add the new handlers only to ROS's loggers."""
+    """After the block, restore the root logger's handlers; new handlers stay only on ROS's loggers."""
     root = logging.getLogger()
     handlers, level = root.handlers[:], root.level
     try:

@@ -52,18 +52,18 @@ class Watchdog:
             for action in due:
                 action()
             with self._changed:
-                # Another thread may arm an action while the next lines run. While `_wake` is inf, each call
-                # of arm() wakes up this thread.
+                # Another thread may arm an action while the next lines run. While `_wake` is infinite, each
+                # call of arm() wakes up this thread.
                 self._wake = math.inf
                 earliest = min((deadline for deadline, _ in list(self._armed.values())), default=now)
                 self._wake = max(earliest, now + REPEAT) if due else min(earliest, now + LINGER)
                 self._changed.wait(max(self._wake - time.monotonic(), 0))
 
     def _may_end(self) -> bool:
-        """Return whether this thread may end; the next arm() then starts a new thread."""
+        """Return whether this thread may end. If it ends, the next arm() starts a new thread."""
         with self._changed:
             self._thread = None
-            # Another thread armed an action while this thread was about to end, so this thread continues.
+            # If another thread has armed an action in the meantime, this thread has to continue.
             if self._armed:
                 self._thread = threading.current_thread()
             return self._thread is None

@@ -1,6 +1,6 @@
 """Record the runs of a notebook's cells and the objects that each run created.
 
-When a cell runs again, the objects of its last run are ended.
+When a cell runs again, the objects that its last run created are shut down, for example services.
 
 A front end sends the cell's id with each execution. nbclient sends no id, so each execution without an id
 counts as a separate cell.
@@ -29,10 +29,10 @@ class CellRun:
     """
 
     source: str = ""
-    # The value is True for a check; objects of a check are ended when the check ends.
+    # The value is True for a check; when a check ends, the objects that it created are shut down.
     temporary: bool = False
     error: str = ""  # This is the class name of the exception that ended the run.
-    # The dict maps each created object to the function that ends this object; the oldest object comes first.
+    # The dict maps each created object to the function that shuts it down; the oldest object comes first.
     created: dict[Hashable, Close] = field(default_factory=dict)
     threads: frozenset[int] = frozenset()  # These threads were running when the run began.
 
@@ -47,7 +47,7 @@ class CellRun:
 class Cells:
     """The last run of each cell of this kernel's notebook.
 
-    The function `close_all` ends the objects that a run created.
+    The function `close_all` shuts down the objects that a run created.
     """
 
     def __init__(self, close_all: CloseAll) -> None:
@@ -60,7 +60,7 @@ class Cells:
         self._paused = 0
 
     def begin(self, cell: str | None, source: str = "") -> None:
-        """Begin a run of `cell`, and end the objects that the last run of this cell created."""
+        """Begin a run of `cell`, and shut down the objects that the last run of this cell created."""
         if self._current is not None:
             self._depth += 1
             return
@@ -86,7 +86,7 @@ class Cells:
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 
     def created(self, thing: Hashable, close: Close) -> None:
-        """If there is a current run, record that this run created `thing`; `close` ends `thing`."""
+        """If there is a current run, record that this run created `thing`; `close` shuts `thing` down."""
         if run := self.run:
             run.created[thing] = close
 
@@ -94,7 +94,7 @@ class Cells:
     def paused(self) -> Iterator[None]:
         """Do not record the objects that are created in the block.
 
-        These objects are kept when the cell runs again.
+        Objects that are created in the block are not shut down when the cell runs again.
         """
         self._paused += 1
         try:
@@ -104,7 +104,7 @@ class Cells:
 
     @contextmanager
     def check(self) -> Iterator[None]:
-        """After the block, end all objects that the block created.
+        """After the block, shut down all objects that the block created.
 
         A service that is created in the block does not replace a service that was created by a cell.
         """
@@ -117,7 +117,7 @@ class Cells:
             self._close_all(list(run.created.values()))
 
     def later_run(self, source: str) -> CellRun | None:
-        """Return the last run of a cell; an earlier run of this cell had the file name `source`.
+        """Return the last run of the cell that has run with the file name `source`.
 
         If `source` is the file name of the last run, return None.
         """

@@ -1,4 +1,4 @@
-"""Record in `Cells` which objects of rospy and actionlib a cell creates, and end these objects.
+"""Record in `Cells` which objects of rospy and actionlib a cell creates, and shut these objects down.
 
 rospy has no list of its Publisher and Subscriber objects. This module therefore replaces the methods that
 create these objects with methods that also record the objects. A method with unexpected parameters is not
@@ -32,8 +32,8 @@ from course_pkg.ros.trace.hooks import Hook, Method
 GOAL_TIMEOUT = 2.0  # A goal has to end within this time in s after its cancellation.
 # One of these errors is raised if a topic is closed, the node is shut down, or the master does not answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
-# The address of an ended service is replaced with this value. Otherwise, another shutdown() of the ended
-# service would unregister a newer service of this process with the same name.
+# The address of an ended service is replaced with this value. If the ended service kept its address, another
+# shutdown() of this service would unregister a newer service of this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
 LOOK = 0.5  # This is the time in s between two polls in _end_with_process().
 
@@ -63,9 +63,9 @@ def note_creations(cells: Cells) -> None:
 
 
 def close_all(closes: list[Close]) -> None:
-    """End the objects of a run, from newest to oldest.
+    """Shut down the objects of a run, from newest to oldest.
 
-    Action servers end before all other objects, because an ending action server publishes results.
+    Action servers end before all other objects, because an action server publishes results when it ends.
     """
     if not closes:
         return
@@ -83,7 +83,7 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """If the master does not answer, prevent rospy from unregistering, because rospy would wait for ever."""
+    """If the master does not answer, rospy does not unregister during the block, and so does not hang."""
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:
@@ -143,11 +143,11 @@ def _registering(cells: Cells) -> Callable[[Method], Method]:
 
 
 def _make_room(run: CellRun, before: ServiceImpl) -> bool:
-    """Return whether a new service may replace an old service; if necessary, shut the old service down first.
+    """Return whether a new service may replace the service `before`; if necessary, shut `before` down.
 
-    During a check, the service of a cell must continue. A check may create a second object of a student's
-    class, and the `__init__` of this class may create a service. The service of the first object must still
-    respond.
+    A check must not shut down the service of a cell. A check may create a second object of a student's class,
+    and the `__init__` of this class may create a service. The service of the second object must not replace
+    the service of the first object.
     """
     ours = _Identity(before) in run.created
     if run.temporary and not ours:
@@ -187,7 +187,7 @@ def _close_action(server: actionlib.ActionServer) -> None:
 def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
     """End an action server and cancel a running goal.
 
-    If the function of the goal ignores the cancellation, the goal continues.
+    If the goal callback ignores the cancellation, the goal continues.
     """
     with server.terminate_mutex:
         server.need_to_terminate = True
@@ -201,7 +201,7 @@ def _close_simple_action(server: actionlib.SimpleActionServer) -> None:
 def _end_with_process(server: actionlib.SimpleActionServer) -> None:
     """End an action server's thread when the main thread ends.
 
-    Without this function, Python would wait for ever for this thread.
+    Without this function, Python would wait for ever for the end of the action server's thread.
     """
     main = threading.main_thread()
     while main.is_alive() and not server.need_to_terminate:

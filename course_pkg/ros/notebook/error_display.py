@@ -101,7 +101,7 @@ class ThreadErrors(logging.Handler):
         self._shown: set[str] = set()
 
     def install(self) -> None:
-        """Start to show these exceptions; a second call has no effect."""
+        """Start to show the exceptions of handlers, callbacks and threads; a second call has no effect."""
         logger = logging.getLogger(LOGGER)
         if self not in logger.handlers:
             logger.addHandler(self)

@@ -8,9 +8,9 @@ from __future__ import annotations
 import logging
 import sys
 
-# Without a salt, the ids in an SVG are random. Without the setting "Date": None, an SVG contains the time of
-# the run. With the font type "none", an SVG contains letters as text, so it is smaller, and a screen reader
-# can read it.
+# Without a salt, the ids in an SVG are random. The date is None, so that an SVG does not contain the time of
+# the run. With the font type "none", an SVG contains its letters as text. Such an SVG is smaller, and a
+# screen reader can read it.
 RC = {"svg.hashsalt": "course_pkg", "svg.fonttype": "none"}
 SETTINGS = {
     "figure_formats": {"svg"},

@@ -48,7 +48,7 @@ class Program:
         return self._process.returncode
 
     def wait(self, timeout: float = 30.0, *, line: str = "", service: str = "") -> int | None:
-        """Wait until the output contains `line`, until the program offers `service`, or until both are true.
+        """Wait for `line` in the output, or for `service`; if both are given, wait for both.
 
         Without `line` and `service`, wait until the program ends.
 

@@ -13,7 +13,7 @@ from types import TracebackType
 import course_pkg
 
 LINES = 12  # A traceback has at most this number of lines.
-WIDTH = 100  # A front end breaks lines with more characters.
+WIDTH = 100  # A front end breaks a line that is longer than this number of characters.
 MESSAGE_LINES = 6  # A message has at most this number of lines, so at least two calls can be shown.
 MORE = " … (%tb shows the rest)"
 # Folders with these names contain installed libraries, including the libraries of ROS.
@@ -22,7 +22,7 @@ HEADER = "Traceback (most recent call last; %tb shows all of it):"
 HANDLER_HEADER = "Traceback of a handler or callback (most recent call last):"
 MAGIC = re.compile(r"get_ipython\(\)\.run_line_magic\('(\w+)', '(.*)'\)")
 
-PlaceOf = Callable[[str], str]  # The function returns the name that a message shows for a file.
+PlaceOf = Callable[[str], str]  # The function returns the name of a file for an error message.
 
 
 def readable_traceback(error: BaseException, place_of: PlaceOf = str, header: str = HEADER) -> list[str]:

@@ -39,7 +39,7 @@ def package_folder(package: str) -> Path:
 def _programs(package: str) -> Iterator[Path]:
     """Yield the executable files of a package.
 
-    The files that were built or installed are before the files in the source folder.
+    The built or installed files come first, and then the files in the source folder.
     """
     for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(os.pathsep):
         yield from _executables(Path(prefix) / "lib" / package)

@@ -27,7 +27,7 @@ GRACE = 3.0  # A node has to end within this time in s after SIGINT; a node with
 
 
 class NodeProcess:
-    """A command that runs one or more nodes; the command ends with the current process, or earlier.
+    """A command that runs one or more nodes; all of them end when this process ends, or earlier.
 
     A temporary file stores the output. The file is deleted together with this object.
     """
@@ -112,7 +112,7 @@ class NodeProcess:
     def stop(self, grace: float = GRACE, *, unregister: bool = True) -> None:
         """End the process with SIGINT, or with SIGKILL after `grace` s.
 
-        If `unregister` is true, the process then has no registrations at the master.
+        If `unregister` is true, also remove the registrations that the process has left at the master.
         """
         if not self.running:
             return
@@ -140,7 +140,7 @@ class NodeProcess:
         return f"<{self.label}, {'running' if self.running else 'ended'}>"
 
     def _serves(self, master: MasterClient, name: str) -> bool:
-        """Return whether this process offers `name`; the master may still list another process."""
+        """Return whether this process is the registered server of `name`, and whether it answers."""
         uri = master.lookup_service(name)
         if uri is None or port_of(uri) not in self._process.listening_ports():
             return False

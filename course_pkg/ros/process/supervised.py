@@ -1,4 +1,4 @@
-"""Start a command that ends, with all its descendants, when its owner process ends.
+"""Start a command; the command and all its descendants end when the owner process ends.
 
 The command is a child of `supervisor.py`, a small process that observes the owner. When the owner has ended,
 even after SIGKILL, the supervisor ends the command and cleans up.
@@ -27,10 +27,11 @@ class SupervisedProcess:
 
     When the command ends, its background processes also get SIGTERM, and SIGKILL after 2 s. The command runs
     in the folder `cwd` and inherits the file descriptors in `inherit`. At the end, the supervisor deletes the
-    folder `remove`, and unregisters the node `withdraw` (the master's URI, the node's name, the node's URI).
-    If `command` is empty, the supervisor does nothing except this clean-up after this process has ended.
+    folder `remove`. It also unregisters the node in `withdraw`, a tuple of the master's URI, the node's name
+    and the node's URI. If `command` is empty, the supervisor only waits until this process has ended, and
+    then cleans up.
 
-    If `foreground` is true, the command uses the standard input and the terminal of this process, and it
+    If `foreground` is true, the command uses the standard input and the terminal of this process, and
     receives Ctrl-C. If `output` is None, the command also prints to the terminal. Raises GraphError if the
     command cannot be started.
     """
@@ -139,7 +140,8 @@ def _program(
     report: int, remove: Path | None, withdraw: tuple[str, str, str] | None, foreground: bool
 ) -> list[str]:
     cleaning = [str(remove or ""), *(withdraw or ("", "", ""))]
-    # With -I and -S, the supervisor starts in 20 ms and ignores modules on the student's import path.
+    # With Python's options -I and -S, the supervisor starts in 20 ms and ignores modules on the student's
+    # import path.
     start = [sys.executable, "-I", "-S", str(PROGRAM), str(os.getpid()), str(report)]
     return [*start, "foreground" if foreground else "", *cleaning]
 

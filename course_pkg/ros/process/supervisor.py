@@ -51,7 +51,7 @@ class Supervisor:
         for number in FROM_TERMINAL if foreground else ():
             # The terminal also sends this signal to the command, so the supervisor ignores the signal.
             signal.signal(number, signal.SIG_IGN)
-        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # The owner may have blocked some signals.
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())  # Unblock the signals that the owner may have blocked.
         os.set_inheritable(report, False)
         self.child = self._start(command, report) if command else None
         os.close(report)
@@ -107,9 +107,9 @@ class Supervisor:
     def _end_descendants(self) -> frozenset[int]:
         """End all descendants with SIGTERM, or with SIGKILL after GRACE s.
 
-        Orphaned descendants become children of this process. Supervisors among them are killed GRACE s later
-        than the others, because a supervisor cleans up after its owner has been killed. The returned set
-        contains the listening ports of the killed processes.
+        Orphaned descendants become children of this process. If a descendant is a supervisor, it is killed
+        GRACE s later, because it has to clean up after its owner has been killed. The returned set contains
+        the listening ports of the killed processes.
         """
         ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.urgent else GRACE)
@@ -181,7 +181,7 @@ def descendants(root: int) -> list[int]:
         if entry.isdigit():
             try:
                 with open(f"/proc/{entry}/stat", "rb") as stat:
-                    # The name of the process may contain brackets.
+                    # The name of the process may contain brackets, so search for the last bracket.
                     parent = int(stat.read().rpartition(b")")[2].split()[1])
             except OSError:
                 continue
@@ -197,7 +197,7 @@ def descendants(root: int) -> list[int]:
 def _import_libraries() -> None:
     """Add the folders of the course and of its libraries to the import path.
 
-    The interpreter's options -I and -S remove these folders.
+    The interpreter's options -I and -S exclude the folders of libraries from the import path.
     """
     import site
 

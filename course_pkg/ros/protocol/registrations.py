@@ -51,7 +51,7 @@ def registrations(master: MasterClient, nodes: Collection[str] | None = None) ->
 
 
 def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Registration]:
-    """Unregister these entries with one request, and return the entries that were registered.
+    """Unregister these entries with one request, and return the entries that were still registered.
 
     The master removes an entry only if its address matches, so entries of other processes are not removed.
     """

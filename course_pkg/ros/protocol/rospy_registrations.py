@@ -1,6 +1,6 @@
 """The registrations of this process, from rospy's own lists.
 
-After a restart of the master, these registrations must be sent again.
+After a restart of the master, this process must send its registrations again.
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ class XmlRpcClient:
         while self._idle:
             connection = self._idle.pop()
             if connection.pid != os.getpid():
-                continue  # This process is a fork, and its parent still uses the connection.
+                continue  # This process is a fork. Its parent uses this connection, so do not use it here.
             try:
                 return self._over(connection, body, deadline)
             except STALE:

@@ -1,8 +1,9 @@
 """Read many topics on one thread, many messages at a time, for a panel that draws the messages.
 
-A subscriber of rospy wakes up for each message, and with hundreds of messages per second, this takes too much
-CPU time. The reader therefore uses TCPROS itself (http://wiki.ros.org/ROS/TCPROS), and reads all new messages
-every 50 ms. The reader does not register as a subscriber, because a panel should not change the graph.
+A subscriber of rospy wakes up for each message. For hundreds of messages per second, it uses too much CPU
+time. The reader therefore uses TCPROS (http://wiki.ros.org/ROS/TCPROS) without rospy, and reads all new
+messages every 50 ms. The reader does not register as a subscriber, because a panel should not change the
+graph.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from course_pkg.ros.protocol.xmlrpc import number
 INTERVAL = 0.05  # This is the time in s between two reads.
 SEARCH = 1.0  # This is the time in s between two requests to the master.
 TIMEOUT = 0.5  # A node has to respond within this time in s.
-# If a message has more bytes, the reader closes the connection.
+# If a message is longer than this number of bytes, the reader closes the connection.
 LONGEST = 1 << 20
 CHUNK = 1 << 16  # One read returns at most this number of bytes.
 CALLER = "/course"
@@ -105,7 +106,7 @@ class BulkReader:
         for place, probe in zip(new, probes, strict=True):
             answer = rpc_answer(probe)
             if isinstance(answer, list) and answer[:1] == ["TCPROS"]:
-                with suppress(OSError):  # The publisher may have ended; the next search removes it.
+                with suppress(OSError):  # The publisher may have ended. The next search tries again.
                     streams[place] = _Stream(place[0], (str(answer[1]), int(number(answer[2]))))
 
     def _places(self) -> set[Place]:
@@ -153,7 +154,7 @@ class _Stream:
         self._sock.close()
 
     def _blocks(self) -> list[bytes]:
-        """Remove the complete blocks from the received bytes; return them without the connection header."""
+        """Take all complete messages out of the received bytes; return them without the connection header."""
         blocks, at = [], 0
         while len(self._rest) >= at + 4:
             (length,) = struct.unpack_from("<I", self._rest, at)

@@ -1,4 +1,4 @@
-"""The paths of the numbers in a message: `data`, `pose.position.x`, `position[0]`."""
+"""The paths of the numbers in a message, such as `data`, `pose.position.x` and `position[0]`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ ELEMENTS = 8  # For an array, at most this number of elements is listed.
 # numbers.
 MOST = 200
 
-_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)  # The first kind is the most probable kind of a measurement.
+# A measurement is most probably a float, and least probably a bool.
+_NUMBERS = (Kind.FLOAT, Kind.INTEGER, Kind.BOOL)
 # These fields are not measurements: the time and frame of a measurement, and the sensor's limits.
 _HEADER = "std_msgs/Header"
 _SETTING = re.compile(r"(^|_)(min|max|increment|scan_time|field_of_view)(_|$)")
@@ -67,7 +68,7 @@ def _walk(value: Message, steps: Sequence[int | str]) -> Message:
 
 
 def _first_numbers(message: MessageType, without: str = "") -> Iterator[tuple[str, Kind]]:
-    """Yield the path and the kind of the first MOST numbers; skip fields whose message type is `without`."""
+    """Yield the paths and kinds of at most MOST numbers; omit all fields of the message type `without`."""
     every = (found for field in message.fields for found in _paths(field, field.name, without))
     return islice(every, MOST)
 

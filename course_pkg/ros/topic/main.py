@@ -1,4 +1,4 @@
-"""The program of a topic process: `python -m course_pkg.ros.topic.main DESCRIPTOR TOPIC`.
+"""The program of a topic process, started by `python -m course_pkg.ros.topic.main DESCRIPTOR TOPIC`.
 
 The process receives commands through its channel. The name of a command is in the field "do", and these are
 the other fields:

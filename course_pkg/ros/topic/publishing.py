@@ -16,7 +16,7 @@ from course_pkg.ros.topic.statistics import RateStatistics
 from course_pkg.types import MessageType, StringTree
 
 BURST = 1000  # One command publishes at most this number of messages without a pause.
-# A tick with a longer delay (s) is skipped; a tick with a shorter delay is executed at once.
+# A tick that is more than this time in s late is skipped; any other late tick is executed at once.
 CATCH_UP = 0.25
 
 

@@ -12,7 +12,8 @@ from course_pkg.ros.topic.reports import Figures
 WINDOW = 3.0  # A rate is measured over this time in s.
 FEW = 5  # At least this number of messages is used, even if they are older than WINDOW.
 MOST = 5000  # A rate is computed from at most this number of messages.
-SILENCE = 3.0  # If no message arrives for SILENCE mean gaps (at least 2 s), no statistics are returned.
+# If the last message is older than 2 s and than this number of mean gaps, there are no statistics.
+SILENCE = 3.0
 SPAN = 20.0  # A series contains only values that are at most this old (s).
 STEP = 0.1  # At most four values are stored for each time step of this length in s.
 
@@ -32,9 +33,9 @@ class RateStatistics:
             self._times.append(at)
 
     def figures(self, now: float) -> Figures:
-        """Return the statistics of the last 3 s, or of the last 5 events.
+        """Return the statistics of the events in the last 3 s, or of the last 5 events if these are more.
 
-        If no more events arrive, the returned dict is empty.
+        If the last event is older than 2 s and older than three mean gaps, the returned dict is empty.
         """
         times = self._latest(now)
         if len(times) < 2:

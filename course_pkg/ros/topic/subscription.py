@@ -20,7 +20,7 @@ from course_pkg.ros.topic.reports import Source
 from course_pkg.ros.topic.statistics import DownsampledSeries, RateStatistics
 
 CAPACITY = 10  # Only the last messages, up to this number, are stored.
-LONGEST = 16_384  # The body of a message with more bytes is not stored.
+LONGEST = 16_384  # The body of a message that is longer than this number of bytes is not stored.
 
 Extract = Callable[[bytes], float]
 

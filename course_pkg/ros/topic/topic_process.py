@@ -111,7 +111,7 @@ class TopicProcess:
 def _environment() -> dict[str, str]:
     """Return an environment in which Python does not import from the current folder.
 
-    A file in the notebook's folder could otherwise replace a module of the course.
+    If Python also imported from the notebook's folder, a file there could replace a module of the course.
     """
     here = os.getcwd()
     course = str(Path(course_pkg.__file__).resolve().parent.parent)

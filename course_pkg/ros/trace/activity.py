@@ -19,7 +19,8 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
 TIMEOUT = 0.5  # This is the time limit of a poll in s.
-STATISTICS = "getBusStats"  # The third item of the response is for services; rospy leaves this item empty.
+# The third item of the response contains the statistics of services; in rospy, this item is empty.
+STATISTICS = "getBusStats"
 
 Callers = dict[str, tuple["ServiceCaller", ...]]
 # One of these errors is raised if a response has an unexpected structure.
@@ -95,7 +96,7 @@ class ActivityPoller:
             if (peer := self._peers[uris[name]].get(each.connection))
         ]
         callers = {name: found for probe in probes.values() for name, found in _callers(probe).items()}
-        # Without the name of the subscriber, the count of a connection cannot be used.
+        # If no subscriber of a node's connections is known, the counts of this node cannot be used.
         known = {name for name, found in counts.items() if self._peers[uris[name]] or not found}
         silent = frozenset(node.name for node in snapshot.nodes if node.name not in known)
         return Activity(time.monotonic(), tuple(sorted(traffic)), silent, callers)
@@ -151,7 +152,7 @@ def _counts(probe: Probe) -> list[_Count] | None:
             for number, *_, messages, _ in connections
         ]
     except INVALID:
-        # After 2 GiB on a connection, rospy returns an error, because the byte count is too large for
+        # After a connection has sent 2 GiB, rospy returns an error, because the byte count is too large for
         # XML-RPC.
         return None
 

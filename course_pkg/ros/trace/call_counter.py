@@ -54,7 +54,7 @@ class CallCounter:
     def _forget_one(self, callers: dict[str, _Count]) -> None:
         """Delete the caller with the oldest call.
 
-        A waiting caller is deleted only if all callers are waiting.
+        If possible, delete only a caller that has no running call.
         """
         idle = (name for name, each in callers.items() if not each.running)
         callers.pop(next(idle, next(iter(callers))))

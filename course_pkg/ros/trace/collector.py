@@ -16,7 +16,8 @@ from course_pkg.ros.trace.matching import NodeRecord, match_events
 from course_pkg.ros.trace.recorder import recorder
 from course_pkg.ros.trace.recording import GET_RECORD, MASTER, PUBLISH, ProcessRecord, Recording
 
-TIMEOUT = 1.0  # Wait up to this time in s for the responses of all nodes; 20,000 spans take 0.3 s.
+# Wait up to this time in s for the responses of all nodes; a response with 20,000 spans takes 0.3 s.
+TIMEOUT = 1.0
 LEFT_OUT = ("/rosout",)  # This node receives log messages, and log messages are not recorded.
 REASONS = {
     Reach.REFUSED: "its process is gone",

@@ -1,8 +1,8 @@
 """Count the sent, waiting and dropped messages of a publisher, for each subscriber.
 
-With a queue_size, rospy puts each message into one queue per subscriber, and a thread sends the messages of
-the queue. When a queue is full, rospy drops the oldest message without an error message. This module replaces
-the queue with a queue that counts.
+If a publisher has a queue_size, rospy puts each message into one queue per subscriber. A thread sends the
+messages of a queue. When a queue is full, rospy drops the oldest message without an error message. This
+module replaces the queue with a queue that counts the messages.
 
 A message counts as sent when it is written to the connection. A slow subscriber may drop the message later;
 the publisher cannot detect this.
@@ -75,7 +75,7 @@ class Deliveries(rospy.SubscribeListener):
         self.update()
 
     def _all(self) -> tuple[Delivery, ...]:
-        """Return one Delivery for each subscriber; the last one has the totals of all closed connections."""
+        """Return one Delivery for each connected subscriber, and then the sum of all closed connections."""
         self.update()
         with self._lock:
             return (*map(_delivery, self._connections), self._disconnected)

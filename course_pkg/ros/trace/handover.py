@@ -1,8 +1,8 @@
 """Send the record of a node to other nodes before the node ends.
 
-A recording then also includes nodes that run only briefly. A node that makes a recording stores its address
-in a parameter of the master. A node that ends sends its record to this address by XML-RPC. A killed node
-cannot send its record.
+Without this record, a recording would not include nodes that run only briefly. A node that makes a recording
+stores its address in a parameter of the master. A node that ends sends its record to this address by XML-RPC.
+A killed node cannot send its record.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def hand_over() -> None:
 
 def _hand_over(uri: str) -> None:
     record = json.dumps(recorder().since(time.monotonic() - LONGEST))
-    # The recording node may have ended, and another program may use its port now.
+    # The recording node may have ended. Another program may use the port now and send an invalid response.
     with suppress(OSError, *NO_ANSWER):
         XmlRpcClient(uri, TIMEOUT).ask(KEEP, "/course", rospy.get_name(), record)
 

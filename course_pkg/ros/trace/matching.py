@@ -1,8 +1,9 @@
 """Combine the records of several nodes: match handlers with requests, and callbacks with messages.
 
 The publisher and the subscriber both count the messages of a connection. Two records describe one message if
-they have the same connection, name and number. A later connection may use the same ports again. Records are
-therefore not matched if several matches are possible, or if their times contradict each other.
+they have the same topic or service, the same connection, and the same number. A later connection may use the
+same ports again. Records are therefore not matched if several matches are possible, or if their times
+contradict each other.
 """
 
 from __future__ import annotations
@@ -136,7 +137,7 @@ def _by_transfer(spans: Iterable[Span]) -> dict[TransferKey, list[Span]]:
 
 
 def _keys(spans: Iterable[Span]) -> dict[Exchange, str]:
-    """Return a key for each exchange, numbered in order of time."""
+    """Return a key for each exchange, such as "call 2" for the second call."""
     numbers = {"call": 0, "message": 0}
     keys: dict[Exchange, str] = {}
     for each in spans:
@@ -186,7 +187,7 @@ def _event(
 
 
 def _note(data: SpanData, ended: bool) -> str:
-    """Return the note on a span; a span that has not ended has no result yet."""
+    """Return the note on a span, such as an error message; a span that has not ended may have no note yet."""
     if data["kind"] != PUBLISH:
         return data["note"] if ended else ""
     if not ended:

@@ -1,7 +1,7 @@
 """The recorder of a process: the latest actions of its node, and the number of calls of each caller.
 
-Times are values of time.monotonic(). On Linux this is CLOCK_MONOTONIC, one clock for all processes of a
-machine, so the times of several nodes can be compared. Sources: clock_gettime(2) and
+Times are values of time.monotonic(). On Linux, this function reads CLOCK_MONOTONIC. All processes of a
+machine share this clock, so the times of several nodes can be compared. Sources: clock_gettime(2) and
 https://docs.python.org/3/library/time.html#time.monotonic ("system-wide").
 
 This module does not import rospy. The modules `service_hooks` and `topic_hooks` call the recorder.
@@ -127,7 +127,7 @@ class CallSpan:
         self.start = time.monotonic()
 
     def begin(self, kind: str) -> CallPart:
-        """Record that a phase begins, and return its CallPart; the caller has to set its `end` later."""
+        """Record that a phase begins, and return its CallPart; the caller of this method sets `end` later."""
         part = CallPart(kind)
         self.parts.append(part)
         return part
@@ -242,7 +242,7 @@ def _transfer_data(transfer: Transfer) -> tuple[str, int, str]:
 
 
 def _thread() -> Thread:
-    # The span does not store the thread object, because a server creates a new thread for each call.
+    # Do not store the thread object in the span, because a server creates a new thread for each call.
     thread = threading.current_thread()
     return thread.name, thread.ident or 0
 

@@ -11,7 +11,8 @@ CONNECT = "connect"  # The caller connects to the server, and they exchange head
 REQUEST = "request"  # The caller sends the request.
 WAIT = "wait"  # The caller waits until the response arrives.
 RESPONSE = "response"  # The caller has received the response.
-# The call fails. `note` is the error message; if the server sent the message, `peer` is the server, else "".
+# The call fails. `note` is the error message. `peer` is the server if the server sent this message, or else
+# "".
 ERROR = "error"
 HANDLER = "handler"  # The server handles a request.
 PUBLISH = "publish"  # A node publishes a message.

@@ -3,8 +3,8 @@
 A call is identified by its connection (the TCP ports) and by its number on this connection. Client and server
 count the calls in the same order, because TCP does not lose or reorder data.
 
-rospy has no hooks for calls, so this module replaces a few methods of rospy. If these methods differ in a
-release of rospy, the module changes nothing.
+rospy has no hooks for calls, so this module replaces a few methods of rospy. If the installed release of
+rospy has different methods, the module changes nothing.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def hook_services() -> bool:
 
 
 def service_transport(protocol: TCPROSTransportProtocol, name: str) -> TCPROSTransport:
-    """Return a new client connection of rospy's current class.
+    """Return a new client connection, as rospy's ServiceProxy creates it.
 
     If the hooks are installed, the connection records the calls.
     """

@@ -4,8 +4,8 @@ A message is identified by its connection (the TCP ports) and by its number on t
 counts the messages that it sends, because its queue may drop messages before they are sent. The subscriber
 counts the messages that arrive, because its queue may drop messages after they have arrived.
 
-rospy has no hooks for messages, so this module replaces a few methods of rospy. If these methods differ in a
-release of rospy, the module changes nothing.
+rospy has no hooks for messages, so this module replaces a few methods of rospy. If the installed release of
+rospy has different methods, the module changes nothing.
 """
 
 from __future__ import annotations
@@ -137,12 +137,12 @@ class Batch:
         self._index = 0
 
     def transfers(self, msg: genpy.Message) -> list[Transfer]:
-        """Return the transfer of a message; callbacks receive the messages in the order of the batch."""
+        """Return a list with the transfer of `msg`; call this method in the order of the batch."""
         for index in range(self._index, len(self._msgs)):
             if self._msgs[index] is msg and self._connection is not None:
                 self._index = index
                 return [(self._connection, self._first + index, self._peer)]
-        # The callback has two topics, and `msg` is a latched message of the other topic.
+        # A callback may subscribe to another topic; `msg` is then a latched message of this other topic.
         return []
 
 

@@ -1,7 +1,7 @@
 """The bytes of a real call, recorded between a client and a server.
 
-The lookup and the connection go through relays (relay.py) that forward all bytes, and rospy's transport is
-the client.
+The lookup and the connection go through relays (relay.py), which forward all bytes. The client is rospy's
+transport.
 """
 
 from __future__ import annotations

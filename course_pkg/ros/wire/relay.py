@@ -38,7 +38,7 @@ class RelayedConnection:
 
     opened: float  # The connection was opened at this value of time.monotonic().
     chunks: list[Chunk] = field(default_factory=list)
-    # The program that closed the connection first: "client", "server", or "" while the connection is open.
+    # The side that closed the connection first ("client" or "server"), or "" while the connection is open.
     closed_by: str = ""
     refused: str = ""  # This is the error message if the server could not be reached.
     lost: int = 0  # This number of bytes was forwarded but not stored.
@@ -163,7 +163,7 @@ def _copy(
 ) -> None:
     """Forward the bytes from `source` to `sink`; after the last byte, end the stream to `sink`."""
     kept = 0
-    # A reset connection, or a connection that close() ended, is not an error.
+    # It is not an error if the connection was reset, or if close() ended the connection.
     with suppress(OSError):
         while data := source.recv(CHUNK):
             kept += len(data)

@@ -1,1 +1,1 @@
-"""What Linux offers to separate processes: namespaces, bubblewrap, other users, and removed rights."""
+"""Separate processes from each other on Linux: with namespaces, bubblewrap, users, and fewer privileges."""

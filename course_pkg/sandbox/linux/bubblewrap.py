@@ -78,10 +78,10 @@ def require_sandbox() -> None:
 
 
 def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) -> list[str]:
-    """Return the command that runs `command` in a sandbox; start it with an empty environment.
+    """Return the command that runs `command` in a sandbox.
 
-    Inside the sandbox, only the course (without solutions and tests), ROS, and the paths in `readable` are
-    visible, and all of them are read-only.
+    Start the returned command with an empty environment. Inside the sandbox, only the course (without
+    solutions and tests), ROS, and the paths in `readable` are visible, and all of them are read-only.
     """
     root = os.geteuid() == 0
     prepared = ["sh", "-c", AS_ROOT.format(NOBODY)] if root else []
@@ -103,8 +103,8 @@ def sandbox_command(command: Sequence[str], *, readable: Sequence[Path] = ()) ->
 def _root_capabilities() -> Iterator[str]:
     """Yield the options that allow root to mount /proc, and to become the user nobody afterwards.
 
-    bwrap mounts a new /proc, and covers some folders of this /proc. The kernel then does not allow the inner
-    sandboxes to mount their own /proc.
+    If bwrap mounted the new /proc itself, it would cover some folders of this /proc. The kernel would then
+    not allow the inner sandboxes to mount their own /proc.
     """
     yield from ("--dir", "/proc")
     for capability in ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP"):
@@ -157,8 +157,8 @@ def _course() -> Iterator[Path]:
 def clean_environment() -> dict[str, str]:
     """Return the course's environment, without variables of the user who grades.
 
-    With more than one arena, glibc reserves about 64 MiB of address space for each thread. A student's code
-    could then start only about ten threads within the limit MEMORY.
+    If glibc uses more than one memory arena, it reserves about 64 MiB of address space for each thread. A
+    student's code could then start only about ten threads within the limit MEMORY.
     """
     known = environment.merged(Places.of(), {})
     known.update(HOME="/student", ROS_HOSTNAME="localhost", LANG="C.UTF-8", PYTHONDONTWRITEBYTECODE="1")

@@ -12,7 +12,7 @@ from course_pkg.sandbox.linux import namespaces
 
 STUDENT = 1000  # The student's code inside the sandbox has this uid and gid.
 MEMORY = 1 << 30  # The address space of each process has this limit in bytes.
-# The address space of a check runner has this limit in bytes; the stacks of its threads need most of it.
+# The address space of a check runner has this limit in bytes; most of it is for the stacks of threads.
 CHECK_RUNNER = 2 << 30
 TOGETHER = 768 << 20  # The total memory of all processes of a part has this limit in bytes.
 # At most this number of processes and threads may run; a launch file with three nodes starts about 60.
@@ -80,7 +80,7 @@ def run_confined(work: Callable[[], None], *, may_write: bool) -> NoReturn:
 
 
 def _mount_memory_folders() -> None:
-    """Mount folders in memory for this sandbox; they contain only the visible paths of the outer sandbox."""
+    """Mount new folders in memory, and make the paths in shadowed_paths() visible in them again."""
     shadows = {path: f"{SHADOW}/{number}" for number, path in enumerate(shadowed_paths())}
     for path, place in shadows.items():
         if os.path.isdir(path):
@@ -136,7 +136,8 @@ def _filter() -> Any:  # noqa: ANN401 -- libseccomp's binding has no types
         rules.add_rule(refused, call)
     users = seccomp.Arg(0, seccomp.MASKED_EQ, namespaces.USER, namespaces.USER)
     rules.add_rule(refused, "clone", users)
-    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")  # A filter cannot read the flags of clone3.
+    # A filter cannot read the flags of clone3, so refuse every call of clone3.
+    rules.add_rule(seccomp.ERRNO(errno.ENOSYS), "clone3")
     for request in (TIOCSTI, TIOCLINUX):
         rules.add_rule(refused, "ioctl", seccomp.Arg(1, seccomp.MASKED_EQ, 0xFFFFFFFF, request))
     return rules

@@ -1,8 +1,8 @@
 """Linux system calls for a sandbox, called from Python: namespaces(7), mount(2), capabilities(7).
 
-Each function changes the calling process, which must have only one thread. A function raises OSError with the
-name of the system call if the kernel refuses the call. The comments name the kernel headers that define the
-constants.
+Each function changes the calling process. This process must have only one thread. A function raises OSError
+with the name of the system call if the kernel refuses the call. The comments name the kernel headers that
+define the constants.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def become_root() -> None:
 
 
 def keep_mounts_private() -> None:
-    """Separate the mounts of this namespace and of the parent namespace; new mounts are then not shared."""
+    """Make each later mount visible only in the namespace that mounts it."""
     _mount("none", "/", "", MS_REC | MS_PRIVATE, "")
 
 
@@ -132,7 +132,7 @@ def adopt_orphans() -> None:
 def be_unreadable() -> None:
     """Prevent other processes of this user from reading this process.
 
-    Other processes could otherwise use ptrace, /proc/PID/mem and /proc/PID/fd.
+    Without this setting, another process of this user could use ptrace, /proc/PID/mem and /proc/PID/fd.
     """
     _done(_libc.prctl(PR_SET_DUMPABLE, 0, 0, 0, 0), "prctl")
 

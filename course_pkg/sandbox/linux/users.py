@@ -65,7 +65,7 @@ def become(uid: int) -> None:
     os.setresuid(uid, uid, uid)
     namespaces.give_up_privileges()
     namespaces.be_unreadable()
-    # The change of the user has cancelled the earlier call of die_with_parent().
+    # The change of the user has cancelled the earlier call of die_with_parent(), so repeat the call.
     namespaces.die_with_parent()
 
 
@@ -128,8 +128,8 @@ def clear(users: Users) -> None:
 def _kill_all(uid: int, killer: int) -> None:
     """Kill all processes of `uid` in one system call, so that no process can fork before it is killed.
 
-    The killing process uses `uid` only as its effective user id, so the killed processes cannot send signals
-    to the killing process.
+    Only the effective user id of the killing process is `uid`. The killed processes therefore cannot send
+    signals to it.
     """
     if not (pid := os.fork()):
         try:

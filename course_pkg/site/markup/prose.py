@@ -1,6 +1,6 @@
 """Converts Markdown to HTML.
 
-The class escapes raw HTML, adds anchors to headings, and changes links into the site's links.
+The class Prose escapes raw HTML, adds anchors to headings, and changes links into the site's links.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class _Renderer(HTMLRenderer):
         return f'<div class="wide"><table>{text}</table></div>\n'
 
     def table_cell(self, text: str, align: str | None = None, head: bool = False) -> str:
-        # An empty corner cell of a table is not a header.
+        # An empty cell in the header row of a table is not a header.
         tag = "th" if head and text.strip() else "td"
         style = f' style="text-align:{align}"' if align else ""
         return f"<{tag}{style}>{text}</{tag}>"

@@ -4,10 +4,10 @@ Arguments: `[few] [PART …]`.
 
 PART is the beginning of a part's id, such as 05 or 05.3. The first right answer has to earn full points, and
 each wrong example answer has to earn fewer points. The benchmark also changes the first right answer into
-answers that do nothing: all functions return the same value or raise an exception, or the code has an error
-at its beginning. An answer that does nothing must earn no points. The exit status is the number of answers
-that earn a wrong number of points. With `few`, only two wrong answers of each part run. The benchmark omits
-parts without goals, because these parts have no partial credit.
+answers that do nothing. In such an answer, all functions return the same value or raise an exception, or the
+code has an error at its beginning. An answer that does nothing must earn no points. The exit status is the
+number of answers that earn a wrong number of points. If `few` is given, only two wrong answers of each part
+run. The benchmark omits parts without goals, because these parts have no partial credit.
 """
 
 from __future__ import annotations

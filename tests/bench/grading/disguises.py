@@ -276,7 +276,7 @@ def turn_conditions(module: ast.Module, draw: random.Random) -> None:
 
 
 def leave_else_out(module: ast.Module, draw: random.Random) -> None:
-    """If a branch ends with return or raise, move the statements after this branch into an else branch."""
+    """If the body of an `if` ends with return or raise, move the following statements into an else branch."""
     for body in _blocks(module):
         for place, node in enumerate(body):
             ends = isinstance(node, ast.If) and isinstance(node.body[-1], ast.Return | ast.Raise)

@@ -29,9 +29,9 @@ from tests.grading.submitted import WRONG, hand_in
 # students (default 30) hand in the notebook of chapter 05. Every third student has one wrong answer. Three
 # commands grade the notebooks: `course grade` without nbval, `course grade --validate all`, and `nbgrader
 # autograde` with a notebook that has the same cells. The ratio of two commands is computed from their
-# durations per notebook. With `plain`, only the first command runs. With `many`, `course grade` also grades
-# 1,000 (or COUNT) submissions, and the benchmark measures the memory. nbgrader is installed into a folder of
-# the cache.
+# durations per notebook. If `plain` is given, only the first command runs. If `many` is given, `course grade`
+# also grades 1,000 (or COUNT) submissions, and the benchmark measures the memory. nbgrader is installed into
+# a folder of the cache.
 
 NBGRADER = "nbgrader==0.9.6"
 CHAPTER = "05"
@@ -200,13 +200,17 @@ def nbgrader_python() -> Path:
 
 # kill: kills the grader by SIGKILL at random moments. Arguments: `[TIMES]`. Six submissions are graded once
 # without a kill. Then the benchmark does the following TIMES times (default 20): it kills a run after a
-# random time, and continues the run. The grades must be equal after each run, and no process may remain.
+# random time, and continues the run. After each run, the grades must be the same as without a kill, and no
+# process may remain.
 
 COURSE = Places.of().checkout / "course"
 
 
 def kill_main() -> None:
-    """Kill runs and continue them. Print how often the grades were equal and no process remained."""
+    """Kill runs and continue them.
+
+    Print how often the grades were the same as without a kill, and no process remained.
+    """
     times = int(sys.argv[1]) if len(sys.argv) > 1 else 20
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         here = Path(folder)
@@ -240,7 +244,7 @@ def continued(submissions: Path, out: Path, whole: float, expected: bytes) -> bo
 
 
 def still_there(pids: list[int]) -> list[int]:
-    """Wait at most 10 s for the processes `pids` to end, and return those that still run."""
+    """Wait at most 10 s for the end of the processes `pids`, and return the processes that still run."""
     deadline = time.monotonic() + 10.0
     while time.monotonic() < deadline:
         pids = [pid for pid in pids if alive(pid)]
@@ -284,7 +288,7 @@ def reference_main() -> None:
             for path in NotebookStore().solutions():
                 target = hand_in(here / "in", f"s{number:02}", path.name[:2])
                 notebook = json.loads(target.read_text("utf-8"))
-                # Identical notebooks would be graded only once.
+                # `course grade` grades identical notebooks only once, so each notebook gets a different text.
                 notebook["cells"][0]["source"] += f"\n{number}"
                 target.write_text(json.dumps(notebook), "utf-8")
         grade_without_nbval(here / "in", here / "out")

@@ -139,7 +139,7 @@ def uses_of_any(source: str) -> int:
 
 
 def function_lengths(source: str) -> Iterator[int]:
-    """Yield the number of lines of each function without its decorators."""
+    """Yield the number of lines of each function; decorators are not counted."""
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.end_lineno is not None:
             yield node.end_lineno - node.lineno + 1

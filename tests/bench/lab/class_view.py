@@ -24,8 +24,8 @@ RATE = 10  # results per second
 SECONDS = 30
 PARTS = ("05.1", "05.2", "05.3", "05.4")
 VERDICTS = ("passed", "not yet", "not yet")
-# Records the time, in ms since 1970, of the first frame that the browser draws after each new version of the
-# page.
+# After each new version of the page, this script records the time (ms since 1970) of the first frame that the
+# browser draws.
 WATCH = """
 () => {
   window.shown = [];
@@ -38,7 +38,7 @@ WATCH = """
 
 
 def live_main() -> None:
-    """Print the median, the 95th percentile and the maximum: 60 senders, 10 results per second."""
+    """Print the median, the 95th percentile and the maximum time for 60 senders and 10 results per second."""
     choice = random.Random(60)  # noqa: S311 -- a class, not secrets
     with tempfile.TemporaryDirectory(prefix="course-bench-") as folder:
         data, port = Path(folder, "data"), free_port()

@@ -1,8 +1,8 @@
 """Compares the first `course lab` of a new user of a shared installation with later starts of this user.
 
 Arguments: `PREFIX [RUNS]`. PREFIX is the folder of an installation by `./course install --prefix PREFIX`.
-Each run is a new user, with an empty home folder and an empty browser cache. For the first start and for
-the second start, the program prints the time from the command to a page with a rendered notebook and an
+Each run starts as a new user, with an empty home folder and an empty browser cache. For the first start and
+for the second start, the program prints the time from the command to a page with a rendered notebook and an
 idle kernel. It also prints the size of the user's files. If root starts the program, the new user is the
 account `nobody`.
 """

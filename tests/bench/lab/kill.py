@@ -20,9 +20,9 @@ TIMEOUT = 20.0  # A process that still runs after this many seconds counts as le
 
 
 def kill(times: int = 25) -> bool:
-    """Kill a process of `course lab` several times, and count the things that remain.
+    """Kill four processes of `course lab`, each one several times, and print what is left.
 
-    Return whether none of these remains.
+    Return whether nothing is left.
     """
     victims = {"course lab": b"", "the master": b"rosmaster\0--core", "the kernel": b"ipykernel_launcher"}
     victims["the holder of the graph"] = b"graph/holder.py\0"
@@ -43,8 +43,9 @@ def kill(times: int = 25) -> bool:
 def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
     """Kill the process whose command line contains `pattern`, and then stop the command.
 
-    An empty `pattern` kills the command itself. The files of the command are in `folder`. Return the time in
-    s until nothing is left, and, for each kind, the number of things that are left after TIMEOUT.
+    An empty `pattern` kills the command itself. The files of the command are in `folder`. The function waits
+    up to TIMEOUT until nothing is left. Return the waiting time in s, and the number of remaining processes,
+    sockets, mounts and files.
     """
     port, before = free_port(), files_in(folder)
     variables = {"TMPDIR": folder, "XDG_STATE_HOME": f"{folder}/state"}
@@ -53,7 +54,8 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
         assert urlsplit(address).port == port
         family = eventually(partial(complete_family, process), timeout=60)
         if pattern:
-            # The supervisor has the same command line as its child process and comes first in the list.
+            # The supervisor has the same command line as its child process and comes first, so take the last
+            # process.
             os.kill(having(pattern, family)[-1], signal.SIGKILL)
             family += below(process)
             process.send_signal(signal.SIGINT)
@@ -78,7 +80,7 @@ def killed(folder: str, pattern: bytes) -> tuple[float, dict[str, int]]:
 def files_in(folder: str) -> set[str]:
     """Return all files, sockets and folders in a folder.
 
-    Another process may remove some of them during the search.
+    Another process may remove some of the files during the search.
     """
     return {os.path.join(root, name) for root, folders, files in os.walk(folder) for name in folders + files}
 
@@ -86,8 +88,8 @@ def files_in(folder: str) -> set[str]:
 def started_with(folder: str) -> list[int]:
     """Return all processes of this computer with TMPDIR=`folder`.
 
-    A network exists only while a process uses it or has it open. Therefore, if none of these processes
-    exists, the command has no private network.
+    Linux deletes a private network when no process uses it. If the list is empty, the private network of the
+    command therefore does not exist.
     """
     found = []
     for process in Path("/proc").glob("[0-9]*"):

@@ -154,7 +154,10 @@ def times_of_clicks(server: AbstractContextManager[str], clicks: int) -> list[fl
 
 
 def reported(medians: dict[str, float], ratio_bar: float, bar: float, unit: str) -> bool:
-    """Print the ratio of the medians and the duration. Return whether both values meet their limits."""
+    """Print the ratio of the medians, and the median of `course lab`.
+
+    Return whether the ratio meets its limit.
+    """
     ratio = medians["course"] / medians["stock"]
     print(f"course lab / stock: {ratio:.2f} (bar {ratio_bar}): {'met' if ratio <= ratio_bar else 'MISSED'}")
     met = medians["course"] <= bar

@@ -129,7 +129,7 @@ def test_leaving_the_page_undoes_the_fault(lab: Lab, context: BrowserContext) ->
     ):
         shown = page.locator(".jp-OutputArea-output", has_text="http://localhost").first.inner_text()
         master = MasterClient(shown.strip().strip("'"))
-        # The list can include nodes of a fault that another panel caused.
+        # If a fault of another panel is active, the list includes the nodes of this fault.
         before = master.system_state().nodes
         begin(panel(page, LABEL), "stale")
         assert master.system_state().nodes != before

@@ -86,7 +86,7 @@ def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Lab]:
 
 
 def steps() -> Iterator[tuple[str, str]]:
-    """Yield the steps of the chapter in order: ("type", commands) or ("write", exercise cell)."""
+    """Yield the steps of the chapter in order, as ("type", commands) or ("write", exercise cell)."""
     for cell in read(NotebookStore().solutions(["07"])[0])["cells"]:
         source = cell["source"]
         if source.startswith(LAST):
