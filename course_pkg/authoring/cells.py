@@ -117,7 +117,7 @@ def not_passed(notebook: Notebook) -> dict[str, str]:
 
 
 def _plain_text(cell: Cell) -> str:
-    """Return the plain text of the cell's results, without printed text."""
+    """Return the `text/plain` outputs of the cell; printed text is not included."""
     texts = (output.get("data", {}).get("text/plain", "") for output in cell["outputs"])
     return "\n".join(str(text) for text in texts if text)
 

@@ -81,7 +81,10 @@ def _kept(metadata: CellMetadata) -> CellMetadata:
 
 
 def _number(cell: Cell, number: int) -> None:
-    """Set the execution count of an executed cell to its position, even if the cells ran in another order."""
+    """Set the execution count of a cell to `number`, unless the cell was never executed.
+
+    The cells get increasing numbers, even if they ran in another order.
+    """
     if cell["execution_count"] is None and not cell["outputs"]:
         return
     cell["execution_count"] = number

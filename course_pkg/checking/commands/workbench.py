@@ -114,7 +114,10 @@ class _Running:
 
 
 def _place(name: str) -> str:
-    """Return the path of a copy: a relative path does not change; an absolute path becomes a file name."""
+    """Return the path at which a file is copied into a folder of the check.
+
+    A relative path does not change. For an absolute path, only the file name is used.
+    """
     path = Path(os.path.normpath(name))
     return path.name if path.is_absolute() or ".." in path.parts else str(path)
 
@@ -136,7 +139,7 @@ def _environment(folder: Path) -> dict[str, str]:
     """Return the course's environment; PWD is set because catkin_make uses it as the working directory."""
     try:
         known = environment.merged(Places.of(), os.environ)
-    except (OSError, ValueError):  # The course is installed, but its set-up was not run.
+    except (OSError, ValueError):  # Without a finished set-up, the current environment is used.
         known = dict(os.environ)
     return {**known, "PWD": str(folder), "PYTHONUNBUFFERED": "1"}
 
@@ -182,7 +185,7 @@ def _scheduled(pid: int) -> Reply:
 
 
 def _end_group(leader: int) -> None:
-    """End the processes that are still running in the command's session."""
+    """Kill the command and all processes that it has started."""
     try:
         os.killpg(leader, signal.SIGKILL)
     except ProcessLookupError:

@@ -116,7 +116,7 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
     """Assert that the room's node serves the room's service.
 
-    `before` contains the earlier addresses of the services.
+    `before` contains the addresses of the services that existed earlier.
     """
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None

@@ -179,7 +179,10 @@ def a_mirror(context: CheckContext) -> None:
 
 
 def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[Json, Json]:
-    """Return the first changed message, before and after the change, or ({}, {}) without a change."""
+    """Return the first message that the student's code changed, as it was before and after the change.
+
+    If no message was changed, return ({}, {}).
+    """
     given, seen = (
         [{field: each[field] for field in FIELDS} for each in all_] for all_ in (messages, witnessed)
     )
@@ -213,7 +216,7 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
 def _of_both_signs(context: CheckContext, count: int) -> list[float]:
     """Return `count` random numbers: two are positive, and the others are negative.
 
-    So each wrong sign in the mirror image changes the result.
+    Therefore, each wrong sign in a mirror image is visible.
     """
     return context.random.shuffled(
         [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(count - 2, -3.0, -0.1)]
@@ -395,7 +398,7 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
     goals={NEWEST: 2, ALL_ORDERS: 1},
 )
 def two_queues(context: CheckContext) -> None:
-    """Publish angles much faster than draw() can handle them, and many orders within a short time."""
+    """Publish angles faster than draw() can draw them, and many orders for prepare() within a short time."""
     topics = [f"/{context.random.word()}" for _ in range(2)]
     angles = context.random.numbers(ANGLES, -900.0, 900.0)
     numbers = context.random.integers(ORDERS, 1000, 9999)
@@ -431,8 +434,8 @@ def _drawn(
 ) -> None:
     """Assert that each drawn angle was the newest published angle at the time of its drawing.
 
-    `drawn` contains the times and the angles of the drawings, and `sent` contains the time of each published
-    angle.
+    `drawn` contains the time and the angle of each drawing. `sent` maps each published angle to its
+    publishing time.
     """
     angles = [angle for _, angle in drawn]
     context.require(

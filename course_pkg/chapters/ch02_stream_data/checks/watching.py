@@ -103,7 +103,8 @@ def _runs(context: CheckContext, topic: str) -> None:
         before=end,
     )
     time.sleep(max(end + 0.1 - time.monotonic(), 0.0))
-    # On a busy machine, the last message may reach the watch late.
+    # On a busy machine, the last message may reach the watch late, so the check waits until the state
+    # changes.
     wait_until(lambda: _asked(context, topic).returned() != "running", at_this_load(0.1))
     ended = 'more than 1 s after the last message, the state is "ended"'
     _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))
@@ -124,11 +125,10 @@ def _says(
     pause: float = 0.0,
     before: float = float("inf"),
 ) -> None:
-    """Call state() once or several times (`times`), and assert that each call returns `word`.
+    """Call state() `times` times, and assert that each call returns `word`.
 
-    There is a pause of `pause` s between two calls. A call that ends after the time `before` may return any
-    of the three strings. The fastest call must be fast; other calls may be slow, because the machine may be
-    busy.
+    There is a pause of `pause` s between two calls. If a call ends after the time `before`, each of the three
+    possible strings is accepted. Only the fastest call has to be fast, because the machine may be busy.
     """
     took = []
     for _ in range(times):

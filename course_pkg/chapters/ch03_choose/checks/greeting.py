@@ -103,9 +103,9 @@ GREETED = (
     },
 )
 def greet_everyone(context: CheckContext) -> None:
-    """Publish five customers quickly, two of them twice.
+    """Publish five customers in quick succession; two of the five are published twice.
 
-    After a pause, publish two new customers, and one customer that was already published.
+    After a pause, publish two new customers, and one customer again.
     """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)

@@ -13,8 +13,8 @@ SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 # The relative error of a float32 is less than 1e-7; a number with two digits after the point differs more.
 NEAR = 1e-5
-# A message may contain at most this many numbers. In a message with more numbers, one of the numbers may be
-# right by chance.
+# A message may contain at most this many numbers. If a message contains many numbers, one of them may equal
+# the right value by chance.
 MANY = 6
 # The pattern matches an error message from the student's handler, but no message of rospy itself.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
@@ -32,7 +32,7 @@ NAMED = "Write the name and the value of the side in the error message."
     goals=[AREA, VOLUME],
 )
 def area_and_volume(context: CheckContext) -> None:
-    """Send some boxes; the three sides of each box are different."""
+    """Send some boxes; in each box, the length, the width and the height are different."""
     get_geometry = context.service("/getGeometry", "course_pkg/geometry")
     require_served_by_notebook(context, "/getGeometry")
     for _ in range(context.random.integer(5, 9)):
@@ -105,7 +105,7 @@ def _about_area(width: float, length: float, height: float) -> Hints:
     goals={MEASURED: 1, REFUSED: 2, NAMED: 1},
 )
 def a_box_that_cannot_be(context: CheckContext) -> None:
-    """Send a normal box and three flat boxes; then send boxes with one and with two negative sides."""
+    """Send a normal box, three boxes with a side of 0, and boxes with one or two negative sides."""
     get_geometry = context.service(
         "/getGeometryChecked",
         "course_pkg/geometry",
@@ -200,9 +200,9 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 
 def _unclear(named: list[str], numbers: list[float], side: str, value: float, reason: str) -> str:
-    """Return the hint for an error message with the sides `named` and the `numbers`.
+    """Return the hint for a message that does not name exactly the negative `side` and its `value`.
 
-    The message has to contain only `side` and `value`.
+    `named` contains the sides in the message, and `numbers` contains its numbers.
     """
     if len(numbers) > MANY:
         return "The message contains too many numbers. Write only the value of the negative side."

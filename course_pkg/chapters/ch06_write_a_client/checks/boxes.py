@@ -38,7 +38,7 @@ def stops(context: CheckContext, function: str, *args: Value, catch: str) -> Non
 
     The function should catch only the error `catch`.
 
-    A report contains this assertion only if the assertion fails.
+    If the student's function ends correctly, the report does not contain this assertion.
     """
     context.prepare(STOP_BUTTON)
     result = context.run("interrupted", Its(function), *args, worded=f"{function}()")

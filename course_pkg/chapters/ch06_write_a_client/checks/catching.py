@@ -24,7 +24,7 @@ class Slip:
 
 class no_name:
     TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
-"""  # Each use of this object raises the same error as a service name of a wrong type.
+"""  # Every operation on this object raises the error that a service name of a wrong type causes.
 
 DEPENDS = (
     "The result has to depend on the response of this call, not on earlier calls. Read the volume "

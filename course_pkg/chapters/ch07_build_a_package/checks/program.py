@@ -22,8 +22,8 @@ MUCH = 6.0  # An import that needs more CPU time (s) than this is in an endless 
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 LOGGERS = ("/get_loggers", "/set_logger_level")  # Every rospy node has these services.
 
-# This code imports the script as a module. Calls that only a running node makes end the import with a
-# message.
+# This code imports the script as a module. If the script calls a function that only a running node should
+# call, the import ends with a message.
 IMPORTS = """\
 import importlib.util, pathlib, sys, rospy
 def began(*args, **kwargs):
@@ -126,9 +126,10 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
 
 
 def _never_ends(done: Finished) -> bool:
-    """Return whether an import that reached its time limit waits for ever or is in an endless loop.
+    """Return True if an import that reached its time limit would never end.
 
-    A slow import on a busy machine is different, because it waits for the CPU most of the time.
+    Such an import waits for ever, or is in an endless loop. Return False if the import was only slow on a
+    busy machine: in this case, it waited for a CPU most of the time.
     """
     return done.ran + done.queued < done.took / 2 or done.ran > MUCH
 

@@ -117,7 +117,7 @@ def line_for_a_terminal(context: CheckContext) -> None:
 
 
 def _is_call(line: Json) -> bool:
-    """Return whether the line is a call with rosservice; it may read the fields from a pipe."""
+    """Return whether the line runs `rosservice call`; a pipe may supply the fields."""
     *before, last = commands_of(line) or [[]]
     return last[:2] == ["rosservice", "call"] and all(words[:1] in PRINTS for words in before)
 
@@ -165,7 +165,7 @@ def _lost(actual: Fields) -> bool:
 
 
 def _complaint(line: str, output: str) -> str:
-    """Return the hint for a line that has made no call."""
+    """Return the hint for a line that did not call the service."""
     with suppress(ValueError):  # A quotation mark is not closed.
         if len(shlex.split(line)) == WORDS and matches("ParserError|ScannerError|Too many").search(output):
             return NO_YAML

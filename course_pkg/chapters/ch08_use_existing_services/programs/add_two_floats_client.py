@@ -1,4 +1,4 @@
-"""The node `add_two_floats_client`: its type differs from the server's type, so `add_two_ints` refuses it.
+"""The node `add_two_floats_client`: a client with a wrong type; `add_two_ints` refuses the connection.
 
 The client's definition has the same name, AddTwoInts, but its fields have the type float64 instead of int64.
 This happens in practice if a definition was changed, and only the client was built again. When a client

@@ -236,7 +236,7 @@ def _starts_and_stops(
         _says(context, switch, moving=True, already=True)
         if turning:
             toggle()
-    # These calls come one immediately after the other, so several calls come between two messages.
+    # The next calls follow each other without a pause, so that several calls occur between two messages.
     for moving in (False, True):
         for already in (False, True):
             _says(context, switch, moving=moving, already=already)

@@ -21,7 +21,7 @@ from course_pkg.ros import Snapshot
 DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
 ALWAYS = {"/turtlesim", f"/{DRIVER}"}
 READY = 20.0  # On a busy machine, a launch file must start its nodes within this time in s.
-# The script starts the course's program instead of the student's program from an earlier exercise.
+# This script replaces the student's program from an earlier exercise; it starts the course's program.
 STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'
 
 
@@ -67,7 +67,7 @@ START = f"""%%writefile {FILE.path}
     start=START,
 )
 def two_turtles_or_one(context: CheckContext) -> None:
-    """Compare the nodes that roslaunch would start; then start them with a separate master."""
+    """Compare the list of nodes in the launch file; then start these nodes with a separate master."""
     launches(context, FILE)
 
 

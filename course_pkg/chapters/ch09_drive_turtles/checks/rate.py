@@ -13,7 +13,8 @@ from course_pkg.checking.peers.service_calls import Service
 PROGRAM = script("pubvel_toggle_plus")
 KIND = "course_pkg/ChangeRate"
 AT_FIRST = 2.0  # The first rate is in messages per second.
-# At the end, the check sets this rate (messages per second); the next message then comes after 1000 s.
+# At the end, the check sets this rate in messages per second. The program then publishes its next message
+# only after 1000 s.
 TINY = 0.001
 OTHER_RATE = (
     "The program published at another rate than the rate that the client had set. Calculate the pause from "

@@ -84,7 +84,7 @@ def spawns(context: CheckContext, program: TurtleProgram) -> None:
 def _served_late(context: CheckContext, world: World, running: Running) -> tuple[float, Finished]:
     """Start a server while the program is waiting.
 
-    Returns the start time of the program (s, time.monotonic()), and how the program ended.
+    Returns the start time of the program (s, time.monotonic()), and the result of the program.
     """
     began = world.begins(running)
     wait_until(lambda: running.status is not None, at_this_load(WITHOUT_A_WAIT), 0.05)

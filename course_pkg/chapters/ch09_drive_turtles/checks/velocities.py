@@ -18,7 +18,7 @@ KEEP_COMING = "the program publishes velocities all the time"
 # SILENCE is the maximum time in s without a message; during the check, the programs publish at least twice
 # per second.
 SILENCE = 4.0
-# Within this time in s after a response, a message that was sent before the call may still arrive.
+# After a response, a message from before the call may still arrive within this time in s.
 FLYING = 0.05
 SILENT = (
     "No velocity arrived for 4 s. Publish a message in each round of the loop, even if the velocity is "
@@ -48,7 +48,7 @@ class Stream:
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
-        """Return the next `count` messages; assert that no message takes longer than `within` s."""
+        """Return the next `count` messages; assert that each message arrives within `within` s."""
         before = len(self._subscription.arrivals)
         for number in range(before + 1, before + count + 1):
             if len(self._subscription.wait(number, within)) < number:

@@ -1,4 +1,4 @@
-"""The node `spawn_turtle_plus`: spawns MyTurtle, and also publishes turtle1's velocities for it."""
+"""The node `spawn_turtle_plus`: spawns MyTurtle, and sends the velocities of turtle1 also to MyTurtle."""
 
 from __future__ import annotations
 

@@ -18,10 +18,10 @@ from course_pkg.waiting import wait_until
 TRIGGER = "std_srvs/Trigger"
 TOGETHER = 1.0  # The server waits at most this many s until the other calls have arrived.
 LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
-# A function must return within this many s after the last response; otherwise, it may sleep instead of
-# joining its threads.
+# The function must return within this many s after the last response. A function that sleeps for a fixed time
+# may take longer than a function that joins its threads.
 PROMPT = 0.3
-LONGER = 1.0  # In an additional round, the calls are longer than PROMPT by this many s.
+LONGER = 1.0  # If a round ends later than PROMPT, the calls of the next round take this many s longer.
 
 # This code reports each call through a persistent proxy, on the thread that makes the call.
 KERNEL_CODE = (
@@ -150,7 +150,8 @@ ERRORS = [
 def calls_at_once(context: CheckContext) -> None:
     """Respond only after all clients have called; use two different numbers of clients.
 
-    The calls of the first round take longer, so that a join() with a short timeout ends before a call ends.
+    The calls of the first round take longer. If a function uses join() with a short timeout, it therefore
+    returns too early.
     """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
@@ -233,7 +234,7 @@ def _calls_itself(context: CheckContext, server: ScriptedServer) -> None:
 
 
 def _shares_no_proxy(context: CheckContext, proxies: Proxies, server: ScriptedServer) -> None:
-    """Assert that each persistent connection to the service belongs to a recorded call."""
+    """Assert that all persistent connections come from calls that `proxies` has recorded."""
     persistent = [header for header in server.received.headers if header.get("persistent") in ("1", "true")]
     context.require(
         "all calls wait for their responses at the same time",

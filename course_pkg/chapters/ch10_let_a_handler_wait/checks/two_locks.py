@@ -10,13 +10,13 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
-# A thread of the check waits for a lock, or tries to acquire it repeatedly, for at most this many s.
+# If a thread cannot acquire a lock within this many s, the check assumes a deadlock.
 LIMIT = 4.0
 THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES moves.
-RUN = 14.0  # The time limit in s for all threads together: three deadlocks, one after another, and the moves.
+RUN = 14.0  # This time limit in s for all threads is enough for three consecutive deadlocks and all moves.
 
 MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
-FIRST_MEETING = 0.3  # The first thread waits at most this many s, so that the other threads can start.
+FIRST_MEETING = 0.3  # After its first lock, the first thread waits at most this many s for the other threads.
 
 # This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
 KERNEL_CODE = """
@@ -52,7 +52,7 @@ class Deadlock(Exception):
 
 
 class CheckedLock:
-    """A lock; `acquire` returns when another thread has acquired the other lock, or after a short time.
+    """A lock; after `acquire`, the thread waits shortly until another thread has acquired the other lock.
 
     Therefore, two threads that acquire the two locks in opposite order always block each other. A thread that
     waits too long gets an error, so that all threads end.

@@ -117,7 +117,7 @@ ANSWERED = "Return the response, even if its bytes arrive one after the other."
     goals={ANSWERED: 3, "Raise ServiceException if the server refuses the call.": 1},
 )
 def call_over_a_socket(context: CheckContext) -> None:
-    """Send the response in one piece or byte by byte; or refuse the connection or the request."""
+    """Serve calls in five ways: the server responds at once or byte by byte, or refuses in different ways."""
     context.require(
         "the function uses only a socket",
         holds=not ROS_CLIENTS & _names(context.source("ask")),
@@ -139,13 +139,13 @@ def call_over_a_socket(context: CheckContext) -> None:
 
 
 def _names(source: str) -> set[str]:
-    """Return the names in the code of a function, without those in comments and docstrings.
+    """Return the names that the code of a function uses; comments and docstrings do not count.
 
     The name of an attribute is also returned with a dot before it.
     """
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
-    # The source of a lambda, for example, can be only a part of a line, which is not valid Python.
+    # If the function is a lambda, for example, the source may be a part of a line and not valid Python.
     except SyntaxError:
         return set()
     attributes = {node.attr for node in nodes if isinstance(node, ast.Attribute)}

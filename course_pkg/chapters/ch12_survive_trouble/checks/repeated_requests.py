@@ -86,7 +86,7 @@ FAILED = "Charge again after the purse has failed. Refuse a request without an i
     },
 )
 def charge_once(context: CheckContext) -> None:
-    """Send new and repeated requests; let the purse fail; send a request without an id.
+    """Send new requests, repeated requests, requests for which the purse fails, and one without an id.
 
     After that, send 50 requests at the same time.
     """
@@ -119,8 +119,8 @@ def charge_once(context: CheckContext) -> None:
 class CheckedPurse:
     """A purse for the student's till. The kernel has a proxy for the purse.
 
-    A call of take() returns when there is another call with the same amount, or after a short time.
-    Therefore, two repeated requests without a lock always run at the same time in this check.
+    Each call of take() waits for a short time, and ends early if another call has the same amount. Therefore,
+    two repeated requests without a lock always run at the same time in this check.
     """
 
     def __init__(self) -> None:
@@ -148,12 +148,12 @@ class CheckedPurse:
             self.took.append(cents)
 
     def await_crowd(self) -> None:
-        """Let the next call of take() wait longer. The other calls can then start even on a busy machine."""
+        """Let the next call of take() wait longer, so that the other calls can start on a busy machine."""
         self._long_waits = 1
 
 
 def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Serve `name` with a new Till; return the Till's purse, and the result of the call that creates it."""
+    """Serve `name` with a new Till; return the purse of this Till, and the result of Till(purse)."""
     purse = CheckedPurse()
     context.place("checked_purse", purse)
     its = Its("Till"), Its("checked_purse")
@@ -225,7 +225,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
 
 
 def _only_one(words: str) -> Hints:
-    """Return the hint `words` for the case that the purse was used only once."""
+    """Return the hint `words`, which is shown only if the purse was used less than twice."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -326,7 +326,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
 
 
 def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send so many requests that two random receipt numbers would probably be equal."""
+    """Send many requests; if the receipt numbers are random, two of them are probably equal."""
     purse.meeting = 0.0
     requests = [
         {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}

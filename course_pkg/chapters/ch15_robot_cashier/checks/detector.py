@@ -25,7 +25,7 @@ AWAIT = "course_pkg/AwaitCustomer"
 LONG = 6.0  # This value of `patience` (s) is longer than every successful wait.
 LATER = 2.2  # LATER is the time in s until a customer comes.
 SLACK = 2.0  # On a busy machine, a call may take this many s longer.
-EARLY = 0.1  # Because of rounding, a call may seem to end this many s too early.
+EARLY = 0.1  # A call that ends this many s too early is accepted, because the measured times are not exact.
 CALLERS = 4
 
 NOT_SEEN = (
@@ -270,7 +270,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
 
 
 def _counts_before_the_call(context: CheckContext, name: str, vision: SeenCustomers) -> None:
-    """Make one call after the last message, which is still recent and says that no customer is there."""
+    """Make one call shortly after the last message, which reported that no customer was there."""
     if vision.silent_for() > 0.5:
         return  # The machine is too busy for this assertion.
     detect = context.service(name, AWAIT, timeout=LONG, hints=[(matches("camera"), BEFORE), *FAILED[1:]])

@@ -198,7 +198,10 @@ def the_visits(context: CheckContext) -> None:
 
 
 class Alone:
-    """Tests a node without a till: a customer comes, and leaves after one call."""
+    """A detector for a test in which no till is running.
+
+    It reports a customer in the first call, and no customer in later calls.
+    """
 
     def __init__(self) -> None:
         self.patiences: list[float] = []
@@ -237,7 +240,7 @@ class Detector:
 
 
 class Till:
-    """Refuses the second reset; for each reset, it stores the number of earlier calls to the detector."""
+    """Refuses only its second call; for each call, stores how often the detector was called before."""
 
     def __init__(self, detector: Detector) -> None:
         self.resets: list[int] = []

@@ -1,4 +1,4 @@
-"""15.11: the student's whole system; the check launches it, uses it like a customer, and causes faults."""
+"""15.11: the student's whole system; the check launches it, acts as a customer, and causes faults."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from course_pkg.waiting import wait_until
 
 # On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
 STARTING = 40.0
-# All other nodes must exist this many s after the first node; if the first node started late, they get more
+# All other nodes must exist this many s after the first node. If the first node started late, they get more
 # time.
 COMPLETE = 6.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
@@ -46,8 +46,8 @@ SERVICES = {
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
 SYSTEM = "roslaunch starts the whole system"  # The text is the title of an assertion.
-VISITS = 2  # After the restart, at most this many customers come until the system greets one of them.
-MANY = 6  # Two customers make this many simultaneous calls.
+VISITS = 2  # After the restart, the check lets up to this many customers come, until one is greeted.
+MANY = 6  # The number of simultaneous calls in the test with two customers.
 
 NOT_LAUNCHED = (
     "The command roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the "
@@ -100,7 +100,7 @@ AFTERWARDS = (
     start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
 )
 def the_whole_system(context: CheckContext) -> None:
-    """Use the system like two customers, cause faults of printer and camera, and kill all nodes."""
+    """Let two customers use the system, let the printer and the camera fail, and kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
     command = f"python3 -c '{READER}' {FILE} hardware:=false"
     programs = package.start(command, worded="roslaunch")
@@ -219,7 +219,10 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer soon returns `customer`; the report shows `hint` if a call fails."""
+        """Return whether detect_customer soon returns `customer`.
+
+        The report shows `hint` if a call fails.
+        """
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:

@@ -1,7 +1,8 @@
 """The node `fetcher`: a robot with the action `fetch`; it fetches the things of a goal one by one.
 
-A goal contains the number of `things`, and the `seconds` for each thing. The robot publishes feedback after
-each thing. The result contains the number of fetched things, even after a cancellation.
+A goal contains the number of things (`things`), and the time for each thing in s (`seconds`). The robot
+publishes feedback after each thing. The result contains the number of fetched things, even after a
+cancellation.
 """
 
 from __future__ import annotations
