@@ -1,8 +1,8 @@
 """Run the commands of `course`.
 
-Each package declares its commands in its module `commands.py`. This module imports only the standard library
-and the modules `commands.py`, so any Python interpreter can run it before the set-up. The function of each
-command imports all other modules when the command runs.
+Each package declares its commands in its module `commands.py`. The imports of this module are only the
+standard library and the modules `commands.py`. Therefore, any Python interpreter can run it before the
+set-up. The function of each command imports all other modules when the command runs.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def parse(arguments: Sequence[str]) -> SimpleNamespace:
 
 def _parsers() -> tuple[ArgumentParser, Mapping[str, ArgumentParser]]:
     """Return the parser of `course`, and the parser of each subcommand."""
-    # The import takes 10 ms, and the command `run` does not need argparse.
+    # Import argparse only here: the import takes 10 ms, and the command `run` does not need it.
     from argparse import ArgumentParser
 
     parser = ArgumentParser(

@@ -34,8 +34,8 @@ class Part:
     counts as not attempted. Names that are joined with `|` are alternatives: one of them is enough.
 
     `deadline` is the time limit of the whole check in s. If the student has to repair a file, `start` is the
-    `%%writefile` cell that the student gets; otherwise, `start` is empty. `goals` divide the points; a part
-    without goals gives all of its points or none.
+    `%%writefile` cell with the wrong file. Otherwise, `start` is empty. The points are divided among `goals`.
+    A part without goals gives either all of its points or no points.
     """
 
     check: str
@@ -49,7 +49,10 @@ class Part:
 
     @property
     def package_files(self) -> dict[str, list[str]]:
-        """The files that the part needs: a dict from the names of catkin packages to paths in them."""
+        """The files in catkin packages that the part needs.
+
+        The keys are the names of the packages, and the values are paths relative to the package.
+        """
         found: dict[str, list[str]] = {}
         for name in self.needs:
             if packaged := PACKAGED.fullmatch(name):

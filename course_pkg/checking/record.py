@@ -67,7 +67,7 @@ class StudentRecord:
         return message
 
     def read(self, checks: Iterable[str]) -> tuple[dict[str, PartRecord], str]:
-        """Return the records of these parts by their ids, and a message about damaged records, or ""."""
+        """Return a dict with the record of each part, and a message about damaged records or ""."""
         found: dict[str, PartRecord] = {}
         damaged: dict[str, list[str]] = {}
         for check in checks:
@@ -88,9 +88,9 @@ class StudentRecord:
         return self.folder / f"{check}.json"
 
     def _before(self, check: str) -> tuple[PartRecord | None, str]:
-        """Return the earlier record of a part, and "".
+        """Return the stored record of a part, or None, and a message about a problem, or "".
 
-        If the file is damaged, rename it, and return None and a message.
+        A damaged file is renamed.
         """
         try:
             return self._read(check), ""
@@ -141,6 +141,6 @@ def _reason(error: Exception) -> str:
 
 
 def _listed(parts: list[str], most: int = 5) -> str:
-    """Return a string with the ids of the first parts; it contains no more than `most` ids."""
+    """Return the ids of the first `most` parts as text, and the number of further parts."""
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(parts[:most]) + more

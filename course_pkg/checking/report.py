@@ -60,7 +60,7 @@ class Review:
     """An instructor's decision about an answer after the check."""
 
     comment: str = ""  # This comment is for the student.
-    # The check gave these points; the value is set only if the instructor has changed the points.
+    # The points from the check, or None if the instructor has not changed the points.
     computed: float | None = None
     outdated: bool = False  # The value is true if the answer has changed since the review.
 
@@ -105,8 +105,7 @@ class Report:
     def credits(self) -> list[str]:
         """Return a line with the points for each goal.
 
-        The list is empty for a passed check, if no assertion was checked, or if the part gives all points or
-        none.
+        The list is empty if the check has passed, if no assertion was checked, or if the part has no goals.
         """
         if self.verdict is Verdict.PASSED or not self.assertions or not total(self.goals):
             return []

@@ -20,9 +20,10 @@ class Fault:
     causes the fault on a stage (see the module `stage`). `visitor` shows the symptom: it is the text of a
     Python program, or "$ " and a command line.
 
-    `look` names the kind of symptom in one or two words: a group, and optionally a subgroup of very similar
-    symptoms. The wrong diagnoses for students come from faults with a similar `look`. The diagnoses of the
-    faults in `unlike` are never offered as wrong choices, because they would also be correct.
+    `look` describes the symptom in one or two words. The first word is a group, and the second word is a
+    subgroup of very similar symptoms. The wrong diagnoses for students come from faults with a similar
+    `look`. `unlike` contains faults whose diagnoses would also be correct, so they are not offered as wrong
+    choices.
     """
 
     name: str
@@ -40,7 +41,7 @@ class Fault:
 
     @property
     def timeout(self) -> float:
-        """The time limit in s for the visitor."""
+        """The time limit in s for the program or command that shows the symptom."""
         return (HANG + START if self.is_command else HANG) if self.hangs else TIMEOUT
 
     @property

@@ -168,7 +168,7 @@ class Program:
 def _still(pid: int) -> bool:
     """Return whether all threads of a process are suspended.
 
-    psutil returns only one state for the whole process.
+    The states are read from /proc, because psutil returns only one state for the whole process.
     """
     try:
         stats = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]

@@ -129,7 +129,10 @@ class Stage:
         return keeper
 
     def keep(self, code: str, env: dict[str, str] | None = None) -> Program:
-        """Start the faulty program, and return at once; a student may read its output."""
+        """Start the program that contains the fault, and return at once.
+
+        A student may read the output of this program.
+        """
         self.keeper = self.program("keeper.py", code, env)
         self.keeper.begin()
         return self.keeper
@@ -166,14 +169,17 @@ class Stage:
         os.kill(pid, signal.SIGSTOP)
 
     def later(self, end: Callable[[], object]) -> None:
-        """Call `end` when the fault is undone. `end` must not have a reference to this stage."""
+        """Store a function that is called when the fault is undone.
+
+        `end` must not have a reference to this stage.
+        """
         self._resources.ends.append(end)
 
     def await_that(self, condition: Callable[[], object], program: Program) -> None:
         """Wait until `condition` is true; raises NodeFailed if `program` ends first, or after 10 s."""
 
         def settled() -> str:
-            # The order is important, because the program may fulfil the condition and then end.
+            # Read `over` first, because the program may fulfil the condition and then end.
             over = program.over
             return "met" if condition() else "over" if over else ""
 
@@ -212,7 +218,7 @@ class Stage:
 class _Resources:
     """The processes and files of a stage, which are ended and deleted after the stage is deleted.
 
-    This object has no reference to the stage.
+    This object has no reference to the stage, so that the stage can be deleted.
     """
 
     def __init__(self, uri: str, namespace: str) -> None:

@@ -201,7 +201,7 @@ def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Gra
 
 def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
     """Return the deadlines, with the extensions in the roster."""
-    # This call reports a wrong number before the grading begins.
+    # This call raises an error for an invalid number of days before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None

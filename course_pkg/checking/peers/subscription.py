@@ -149,7 +149,7 @@ def rate(arrivals: Sequence[Arrival]) -> float:
 
 def _header_of(connection: Value) -> dict[str, str]:
     """Return the header of a publisher's connection, or an empty dict before the headers are exchanged."""
-    md5sum = getattr(connection, "md5sum", None)  # rospy sets this attribute after all other attributes.
+    md5sum = getattr(connection, "md5sum", None)  # rospy sets `md5sum` last, so `type` exists, too.
     return {"type": connection.type, "md5sum": md5sum} if md5sum else {}
 
 

@@ -136,5 +136,5 @@ def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
         finally:
             timer.cancel()
     if weaker:
-        _, lock = users.reserve()  # The call also ends processes that a killed worker may have left.
+        _, lock = users.reserve()  # This call ends all processes that a killed worker has left.
         lock.close()

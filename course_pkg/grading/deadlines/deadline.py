@@ -26,7 +26,8 @@ class Deadlines:
     def due(self, student: str, chapter: str) -> datetime | None:
         """Return a student's deadline for a chapter without the grace period, or None without a deadline.
 
-        With an extension, the deadline is at the same time of day, even if the clocks change in between.
+        With an extension, the deadline stays at the same time of day, even if summer time begins or ends
+        before it.
         """
         deadline = self.by_chapter.get(chapter, self.by_chapter.get(""))
         if deadline is None:

@@ -15,7 +15,7 @@ from course_pkg.grading.grade import Flag, Grade, Submission
 from course_pkg.grading.plan import plan
 
 Find = Callable[[Group], Iterator[Found]]
-Key = tuple[str, str, str]  # A key contains the student, the chapter and the origin.
+Key = tuple[str, str, str]  # A key contains the student, the chapter, and the path of the submission.
 NONE = "none"
 
 
@@ -30,7 +30,9 @@ def title_of(kind: str) -> str:
 
 
 def wanted_kinds(names: Sequence[str]) -> list[str]:
-    """Return the kinds in the option --flags: all kinds if the option is empty, and no kind for "none".
+    """Return the kinds that the option --flags selects.
+
+    An empty option selects all kinds, and "none" selects no kind.
 
     Raises GradingError for a name that is not a kind.
     """

@@ -60,7 +60,7 @@ class Client:
         context.require("a client object can be created", holds=made.returned() is None)
 
     def measure(self, hints: Hints) -> Result:
-        """Call the client's measure() with random sides; every second call uses the sides of the call before.
+        """Call the method measure with random sides; every second call uses the sides of the call before.
 
         If the client returns a complete response, the result is a dict with the volume.
         """
