@@ -29,7 +29,7 @@ from course_pkg.site import commands as site
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-INSIDE = "COURSE_INSIDE"  # This variable is set while the course's own interpreter runs this module.
+INSIDE = "COURSE_INSIDE"  # This variable is set if the environment's interpreter runs this module.
 COMMANDS: dict[str, Command] = {
     **lab.COMMANDS,
     **overview.COMMANDS,

@@ -115,7 +115,7 @@ class Results:
         return (self.marked | self._goals.keys()) - self.failed_goals
 
     def goal_ended(self, goal: str, *, fulfilled: bool) -> None:
-        """Record whether the assertions of `goal` hold; after one failure, a goal remains failed."""
+        """Record whether the assertions of `goal` hold; a goal that has failed once remains failed."""
         self._goals[goal] = fulfilled and self._goals.get(goal, True)
 
     def passes(self, assertion: str) -> None:
@@ -123,7 +123,7 @@ class Results:
         self._assertions.setdefault(assertion, Assertion(assertion, holds=True))
 
     def fails(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:
-        """Record that `assertion` does not hold, and end the check or the goal by raising AssertionFailed.
+        """Record that `assertion` does not hold, and raise AssertionFailed, which ends the check or the goal.
 
         If an assertion fails several times, the report shows the first failure.
         """

@@ -127,8 +127,7 @@ class CheckContext:
         """Return the service `name` of type `kind`, ready to be called; each call takes at most `timeout` s.
 
         `kind` is a type's name, or a class. Asserts that a server of this type is registered and responds.
-        `hints` are for the error message of a failed call; ROS's own error messages are explained even
-        without hints.
+        `hints` are for the error message of a failed call; for ROS's own error messages, no hints are needed.
         """
         self.doing = f"waiting for {name}"
         label = "the service" if self.random.made(name) else name
@@ -202,7 +201,7 @@ class CheckContext:
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Unregister the server of `name` until the check ends.
 
-        If `stale` is true, register the address of a closed port instead.
+        If `stale` is true, register an address with a closed port instead.
         """
         return self._open.enter_context(Absent(self._node, name, stale=stale))
 

@@ -76,10 +76,10 @@ def part(
 ) -> Callable[[Callable[[CheckContext], None]], Part]:
     """Return a decorator that declares the check of the part with the id `check`, such as "05.1".
 
-    `goals` are the goals among which the points are divided: a sequence divides the points equally, and a
-    mapping contains weights. The check marks a goal with `context.fulfilled` or `context.goal`. The last goal
-    may be unmarked: it is then fulfilled if the check passes. Without goals, a part earns its points only if
-    the check passes.
+    `goals` are the goals of the part: the points are divided equally for a sequence, and by weight for a
+    mapping. The check marks a goal with `context.fulfilled` or `context.goal`. The last goal need not be
+    marked: it is fulfilled if the check passes. Without goals, a part earns its points only if the check
+    passes.
     """
     divided = goals_of(check, points, goals)
 
@@ -112,7 +112,7 @@ def folder_of(chapter: str) -> Path:
 def folders_for(chapter: str) -> list[Path]:
     """Return the folder of a chapter, such as "14", and of each chapter that it imports from, sorted.
 
-    Indirect imports count, too. For an unknown chapter, the list is empty.
+    Indirect imports are included. For an unknown chapter, the list is empty.
     """
     modules, found, new = _modules(), set[str](), {chapter}
     while new := (new & modules.keys()) - found:
@@ -191,7 +191,7 @@ def start_of(check: str) -> str:
 def find(check: str) -> Part:
     """Return the part with the id `check`; only its own chapter is imported.
 
-    Raises UnknownCheck, with similar ids, if there is no such part.
+    Raises UnknownCheck if there is no such part; the message contains similar ids.
     """
     chapter = str(check).partition(".")[0]
     if chapter in chapters():

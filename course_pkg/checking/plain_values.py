@@ -52,7 +52,7 @@ def plain(value: Value, depth: int = DEPTH) -> Json:
 
 
 def fields_of(message: Message) -> Fields:
-    """Return the fields of a message, request or response as plain data, by name."""
+    """Return a dict with the fields of a message, request or response as plain data."""
     return {name: plain(getattr(message, name)) for name in message.__slots__}
 
 

@@ -31,11 +31,11 @@ class RandomInputs:
         return found
 
     def integer(self, low: int, high: int) -> int:
-        """Return a random integer from `low` to `high`; both limits are possible."""
+        """Return a random integer from `low` to `high`, including both limits."""
         return self._random.randint(low, high)
 
     def integers(self, count: int, low: int, high: int) -> list[int]:
-        """Return `count` different random integers from `low` to `high`; both limits are possible."""
+        """Return `count` different random integers from `low` to `high`, including both limits."""
         return self._random.sample(range(low, high + 1), count)
 
     def choice(self, items: Sequence[Item]) -> Item:

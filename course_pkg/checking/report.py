@@ -1,6 +1,6 @@
 """The report of a check, as data, as text and as HTML.
 
-The report of a failed check shows the assertions that hold, then the assertion that failed, and then the
+The report of a failed check shows first the assertions that hold, then the failed assertion, and then the
 goal. The report of a passed check contains no values, times or random texts, so it is the same in every run.
 """
 
@@ -114,7 +114,7 @@ class Report:
         ]
 
     def sections(self) -> list[tuple[str, tuple[Assertion, ...]]]:
-        """Return the assertions with their headings, first the assertions that hold.
+        """Return the assertions with their headings; the assertions that hold come first.
 
         A passed check has no headings.
         """

@@ -1,4 +1,7 @@
-"""Run a short program of a case in a separate process, which starts early and waits for begin()."""
+"""Run a short program of a case in a separate process.
+
+The process starts early, and runs the program after begin().
+"""
 
 from __future__ import annotations
 

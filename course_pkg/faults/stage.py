@@ -163,7 +163,7 @@ class Stage:
         return master
 
     def hang(self, master: PrivateMaster) -> None:
-        """Suspend this fault's own master with SIGSTOP; undo() lets the master continue, and then ends it."""
+        """Suspend this fault's own master with SIGSTOP; undo() continues the master, and then ends it."""
         pid = master.pid
         self.later(partial(os.kill, pid, signal.SIGCONT))
         os.kill(pid, signal.SIGSTOP)
@@ -199,9 +199,9 @@ class Stage:
         return {**local_environment(), **own, **more}
 
     def local(self, text: str) -> str:
-        """Return `text` with this stage's namespace instead of /lab.
+        """Return `text` with the real namespace and the real port.
 
-        The port of the stage's master replaces MASTER_PORT.
+        This stage's namespace replaces /lab, and the port of its master replaces MASTER_PORT.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
@@ -216,7 +216,9 @@ class Stage:
 
 
 class _Resources:
-    """The processes and files of a stage, which are ended and deleted after the stage is deleted.
+    """The processes and files of a stage.
+
+    When the stage is deleted, the processes end and the files are deleted.
 
     This object has no reference to the stage, so that the stage can be deleted.
     """

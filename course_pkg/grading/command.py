@@ -238,7 +238,7 @@ def _handed_in(options: Options, selected: Selection) -> list[Submission]:
 def _graded(
     options: Options, found: Sequence[Submission], extras: Extras, store: Store, regrade: Regrade
 ) -> Iterator[Grade]:
-    """Yield a grade for each submission: first earlier grades, then each new grade when it is ready."""
+    """Yield a grade for each submission: first the stored grades, and later each new grade when ready."""
     todo: dict[tuple[str, tuple[str, ...]], list[Submission]] = {}
     progress = Progress(total=len(found), unit="notebooks")
     for submission in found:

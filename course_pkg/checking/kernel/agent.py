@@ -102,7 +102,7 @@ class KernelAgent:
         return there if there.exists() and not here.exists() else here
 
     def _find(self, name: str) -> Value:
-        """Return the value of `name`, which may contain dots."""
+        """Return the value of `name`; `name` may be a dotted name, such as "robot.speed"."""
         first, *rest = name.split(".")
         value = self._namespace[first] if first in self._namespace else self._prepared[first]
         for attribute in rest:
@@ -163,7 +163,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; otherwise, the log's handler would print to an earlier stream."""
+    """Let rospy's log print to `stream`; by default, rospy keeps the stream that existed earlier."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -262,7 +262,7 @@ def _nothing() -> None: ...
 
 
 def _look_at_file(path: Path) -> Reply:
-    """Return the kind of a file, and for a missing file also the similar names in its folder."""
+    """Return the kind of a file; if the file is missing, also return similar names in its folder."""
     kind = _kind_of_file(path)
     beside = [each.name for each in path.parent.glob("*")] if kind == "missing" else []
     return {"kind": kind, "alike": [*difflib.get_close_matches(path.name, beside, n=2)]}

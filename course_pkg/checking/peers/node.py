@@ -22,7 +22,7 @@ PROBE = 2.0  # A server has to reply with its type within this time in s.
 
 @dataclass(frozen=True)
 class Registration:
-    """The master's entry for a service: the node that offers it, and the addresses of service and node."""
+    """The master's entry for a service: the node of the server, and the addresses of service and node."""
 
     node: str
     uri: str

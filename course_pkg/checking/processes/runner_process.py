@@ -28,7 +28,7 @@ class RunnerStopped(BaseException):
 
 
 def main() -> None:
-    """Run one check over the socket whose descriptor is the first argument, and exit at once."""
+    """Run one check, and exit at once; the first argument is the file descriptor of the socket."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     with suppress(RunnerStopped), _stopped_by(channel):
         run_check(channel, _store)

@@ -89,7 +89,7 @@ def built(
     If `alone` is true, only the file `examined` comes from the student. `drawn` contains files that replace
     the student's files; the keys are paths in the package. The content of these files is random, so that a
     student's CMakeLists.txt cannot contain it in advance. Raises CheckError if the build takes more than
-    `within` s; a build with C++ needs more than the default.
+    `within` s. A build with C++ needs more time than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}

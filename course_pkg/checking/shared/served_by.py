@@ -1,4 +1,4 @@
-"""Assert which process offers a service, because another process could replace the student's code.
+"""Find the process that offers a service, because another process could replace the student's code.
 
 A report shows these assertions only if they fail.
 """

@@ -2,9 +2,9 @@
 
 Gradescope starts the script `run_autograder` as root in a new container for each submission:
 
-    /autograder/source                     the unpacked zip; settings.json, and perhaps the folder private
+    /autograder/source                     the unpacked zip, with settings.json and an optional folder private
     /autograder/submission                 what the student handed in
-    /autograder/submission_metadata.json   the time of handing in, and the deadline
+    /autograder/submission_metadata.json   the time of the submission, and the deadline
     /autograder/results/results.json       the result, which the script has to write
 
 Layout: https://gradescope-autograders.readthedocs.io/en/latest/specs/.

@@ -17,7 +17,7 @@ DAY = 86_400.0  # s
 
 @dataclass(frozen=True)
 class Deadlines:
-    """The deadlines by chapter; the key "" applies to each chapter without its own deadline."""
+    """The deadline of each chapter; the key "" is for each chapter without its own deadline."""
 
     by_chapter: Mapping[str, datetime]
     grace: timedelta = timedelta()
@@ -53,7 +53,7 @@ def deadlines(
 ) -> Deadlines:
     """Return the deadlines of the options --deadline and --grace-minutes.
 
-    Each of `given` is a time, or a chapter and its time, such as 05=2026-11-01T23:59+01:00. Raises
+    Each item of `given` is a time, or a chapter and a time, such as 05=2026-11-01T23:59+01:00. Raises
     GradingError if a deadline has no time zone, is not a time, or is given twice.
     """
     if grace_minutes and not given:

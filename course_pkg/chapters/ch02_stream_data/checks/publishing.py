@@ -60,7 +60,7 @@ LATCHED = "Send the last value to every node that subscribes later."
     goals={COUNTS: 3, "Begin to publish after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
-    """Let the student's function publish at two different rates; then start it without a subscriber."""
+    """Run the student's function at two different rates, and then on a topic without a subscriber."""
     for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
         topic = f"/{context.random.word()}"
         subscription = context.subscribe(topic, "std_msgs/UInt32")
@@ -197,7 +197,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     """Assert that the average rate is right, and that the messages arrive at equal intervals."""
     seen = rate(arrivals)
     # On a busy machine, each pause takes longer, so the rate may be lower. The limit stays above half of the
-    # rate, because a program that pauses twice for each number publishes at half of the rate.
+    # required rate: a program with two pauses for each number publishes at half of this rate.
     lowest = max(0.75 / at_this_load(1.0), 0.55)
     context.require(
         "the average rate is the given rate",

@@ -83,7 +83,7 @@ def _speaks(context: CheckContext, topic: str, number: int = 7) -> Publisher:
 
 
 def _runs(context: CheckContext, topic: str) -> None:
-    """Publish for some time; then publish no more messages, but stay registered as a publisher."""
+    """Publish for some time; then stay registered as a publisher, but publish nothing."""
     publisher = _speaks(context, topic, number=0)
     time.sleep(0.5)
     assertion = 'while messages arrive, the state is "running"'

@@ -75,7 +75,7 @@ MOVED = "In the field `success`, return whether the switch moved."
     goals={COUNTED: 3, SUCCESS: 1},
 )
 def a_counter_that_resets(context: CheckContext) -> None:
-    """Call /count to read the current count; then reset it, and count to more than 9."""
+    """Call /count, reset the counter, and call /count until the count has two digits."""
     count = context.service(
         "/count",
         "std_srvs/Trigger",

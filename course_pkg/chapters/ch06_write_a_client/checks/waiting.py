@@ -27,7 +27,7 @@ THERE = "Return True for a service that exists, and False for a service that doe
     goals=[THERE, "Return True for a service that starts in time."],
 )
 def is_anybody_there(context: CheckContext) -> None:
-    """Try a running server, and two names without a running server.
+    """Ask for a running server, and for two names without a running server.
 
     After that, start a server while the client waits.
     """

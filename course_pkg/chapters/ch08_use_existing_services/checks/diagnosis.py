@@ -87,7 +87,7 @@ WHY = {
     deadline=20.0,
 )
 def find_the_cause(context: CheckContext) -> None:
-    """Prepare one service name for each result that diagnose() can return; repeat this in random order."""
+    """Call diagnose() with one service for each possible result; then call it in a random order."""
     context.prepare(KINDS)
     kind, other = context.random.shuffled(list(TYPES))[:2]
     changed = compile_service(TYPES[kind], CHANGED).cls

@@ -47,7 +47,10 @@ IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtl
     goals=IMPROVED_GOALS,
 )
 def change_speed_and_stop(context: CheckContext) -> None:
-    """Set speeds, stop and start the turtle in both directions, and compare the published velocities."""
+    """Set speeds, stop and start the turtle, and compare the published velocities.
+
+    The check does this while the turtle moves straight ahead, and while it turns.
+    """
     is_improved(context, PROGRAM)
 
 

@@ -81,7 +81,7 @@ RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
     goals=RATE_GOALS,
 )
 def change_the_rate(context: CheckContext) -> None:
-    """Set rates and measure them; then try impossible rates."""
+    """Set rates and measure them; then set rates that are not allowed."""
     changes_its_rate(context, PROGRAM)
 
 
@@ -113,7 +113,7 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
-    """Set allowed rates and measure some of them, try forbidden rates, and return the last allowed rate.
+    """Set allowed and forbidden rates, and measure some of the allowed rates; return the last allowed rate.
 
     One rate is below 1 Hz, and its period is not close to a whole number of seconds. The number of rates is
     random.

@@ -21,7 +21,9 @@ LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
 # The function must return within this many s after the last response. A function that sleeps for a fixed time
 # may take longer than a function that joins its threads.
 PROMPT = 0.3
-LONGER = 1.0  # If a round ends later than PROMPT, the calls of the next round take this many s longer.
+# The calls of the first round take this many s. If the function returns too late, another round has longer
+# calls.
+LONGER = 1.0
 
 # This code reports each call through a persistent proxy, on the thread that makes the call.
 KERNEL_CODE = (

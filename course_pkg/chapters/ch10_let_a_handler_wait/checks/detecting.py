@@ -15,14 +15,14 @@ from course_pkg.waiting import wait_until
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
 SLACK = 1.5  # On a busy machine, a call may take this many s longer.
-# If no customer comes, request.patience has this value in s. A handler that waits twice as long exceeds
-# SLACK.
+# This value of `patience` (s) is for calls without a customer. A handler that waits twice as long exceeds the
+# limit.
 LONG = 2.0
 LATER = 0.6  # A customer comes after this many s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
 CHANGE = 2.2  # After this many s, the customers change although no client waits.
 # A handler that waits for notifications makes few calls of watch.next(). If a handler does not wait for
-# notifications, and calls watch.next() less often than this in LONG s, then its pauses are too long.
+# notifications, and makes fewer calls of watch.next() than this in LONG s, its pauses are too long.
 SELDOM = 8
 LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
 

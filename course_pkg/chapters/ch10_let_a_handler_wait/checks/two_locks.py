@@ -16,7 +16,8 @@ THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES 
 RUN = 14.0  # This time limit in s for all threads is enough for three consecutive deadlocks and all moves.
 
 MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
-FIRST_MEETING = 0.3  # After its first lock, the first thread waits at most this many s for the other threads.
+# The thread that acquires the first lock waits at most this many s for the other threads.
+FIRST_MEETING = 0.3
 
 # This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
 KERNEL_CODE = """
@@ -52,7 +53,7 @@ class Deadlock(Exception):
 
 
 class CheckedLock:
-    """A lock; after `acquire`, the thread waits shortly until another thread has acquired the other lock.
+    """A lock; `acquire` also waits for a short time, so that another thread can acquire the other lock.
 
     Therefore, two threads that acquire the two locks in opposite order always block each other. A thread that
     waits too long gets an error, so that all threads end.

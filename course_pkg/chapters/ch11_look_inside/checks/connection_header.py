@@ -94,7 +94,7 @@ RECEIVED = "Return exactly `count` bytes, even if the bytes arrive in pieces."
     needs=["pack_header"],
 )
 def packed_header(context: CheckContext) -> None:
-    """Compare the returned bytes with right headers for several dicts of fields.
+    """Compare the returned bytes with the correct headers for several dicts of fields.
 
     The fields are random fields, a letter that needs two bytes, no fields, and a field longer than 255 bytes.
     """

@@ -117,7 +117,7 @@ ANSWERED = "Return the response, even if its bytes arrive one after the other."
     goals={ANSWERED: 3, "Raise ServiceException if the server refuses the call.": 1},
 )
 def call_over_a_socket(context: CheckContext) -> None:
-    """Serve calls in five ways: the server responds at once or byte by byte, or refuses in different ways."""
+    """Call a server that responds at once, responds byte by byte, or refuses the connection or a call."""
     context.require(
         "the function uses only a socket",
         holds=not ROS_CLIENTS & _names(context.source("ask")),

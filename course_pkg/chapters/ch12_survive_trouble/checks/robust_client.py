@@ -274,8 +274,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         actual=f"{pauses[2]:.2f} s",
         hints=SLOW_GROWTH,
     )
-    # The third pause does not prove fast growth. MOST failing attempts take little time, so test the growth
-    # with them.
+    # The pauses grow slowly, so MOST attempts can fail before the deadline.
     if pauses[2] < 8 * PAUSE:
         before = len(till.arrivals)
         till.plan.extend([Fault(HangUp())] * MOST)

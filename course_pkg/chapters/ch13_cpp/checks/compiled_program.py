@@ -49,7 +49,7 @@ def compiled(context: CheckContext, file: str) -> Folder:
 def started(context: CheckContext, folder: Folder, service: str, name: str) -> Running:
     """Start ./program as a node with a random name.
 
-    The service that the program calls `service`, such as "box", gets the name `name`.
+    The program's service `service`, such as "box", is remapped to the name `name`.
     """
     line = ["./program", f"/{service}:={name}", f"__name:={context.random.word()}"]
     return folder.start(*line, worded=f"the program that serves /{service}")

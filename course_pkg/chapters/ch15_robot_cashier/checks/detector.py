@@ -264,7 +264,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
     found = True
     if vision.silent_for() < 0.8:
         found = detect(patience=0.0).found
-    if vision.silent_for() > 1.0:  # The machine is too busy for this assertion.
+    if vision.silent_for() > 1.0:  # Skip this assertion, because the machine is too busy.
         found = True
     context.expect("a message is valid for one second", expected=True, actual=found, hints=FRESH)
 
@@ -272,7 +272,7 @@ def _counts_for_a_second(context: CheckContext, name: str, vision: SeenCustomers
 def _counts_before_the_call(context: CheckContext, name: str, vision: SeenCustomers) -> None:
     """Make one call shortly after the last message, which reported that no customer was there."""
     if vision.silent_for() > 0.5:
-        return  # The machine is too busy for this assertion.
+        return  # Skip this assertion, because the machine is too busy.
     detect = context.service(name, AWAIT, timeout=LONG, hints=[(matches("camera"), BEFORE), *FAILED[1:]])
     found = detect(patience=0.0).found
     context.expect("a message is valid for one second", expected=False, actual=found, hints=REMEMBERED)

@@ -18,7 +18,7 @@ START = f"%%writefile {FILE}\n..."
 HARDWARE = ("counter_camera", "robot", "receipt_printer")
 READING = 20.0  # READING is the time limit in s for roslaunch to read the file on a busy machine.
 OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
-# This code reads a launch file with the given arguments, and prints its nodes and parameters.
+# This code lets roslaunch read a launch file with the given arguments, and prints its nodes and parameters.
 READER = """
 import re, sys
 from roslaunch.config import load_config_default

@@ -37,7 +37,7 @@ NEXT_CALL = 6.0  # NEXT_CALL is the time limit in s for the next call on a busy 
 
 
 class Step(NamedTuple):
-    """One call that the node must make: its `patience`, the response, and the name of this response."""
+    """One call that the node must make: the required `patience`, the response, and the response's name."""
 
     waits: bool  # If `waits` is True, `patience` must be ~wait; otherwise, `patience` must be 0.
     act: Act

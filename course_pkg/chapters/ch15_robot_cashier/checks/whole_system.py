@@ -131,7 +131,7 @@ def the_whole_system(context: CheckContext) -> None:
 class Counter:
     """The camera of the counter.
 
-    The camera publishes a frame every 0.1 s, even if no customer is there; it can also publish no frames.
+    The camera publishes a frame every 0.1 s, with or without a customer. A check can also stop the frames.
     """
 
     def __init__(self, context: CheckContext, topic: str) -> None:

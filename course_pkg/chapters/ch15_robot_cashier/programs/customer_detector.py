@@ -27,7 +27,7 @@ class CustomerDetector:
     def handle_detect(self, request: AwaitCustomerRequest) -> bool:
         """Return True as soon as there is a customer, and False after `patience` s.
 
-        Raise ServiceException if `patience` is out of range, or if the camera sends no messages.
+        Raises ServiceException if `patience` is out of range, or if the camera sends no messages.
         """
         # NaN is refused, too, because a comparison with NaN is False.
         if not 0.0 <= request.patience <= LONGEST:

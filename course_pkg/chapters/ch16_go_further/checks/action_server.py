@@ -140,7 +140,7 @@ def _wrong_feedback(things: int) -> Hints:
 
 
 def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
-    """Send a quick goal; if it was too slow, the machine may be busy, so send the goal again."""
+    """Send a quick goal. If the goal takes too long, send it again, because the machine may be busy."""
     things = context.random.integer(3, 4)
     each = context.random.number(*QUICK, digits=3)
     limit = Deadline(BUSY)

@@ -1,6 +1,6 @@
 """16.4: a whole node with a topic, a service, an action and a parameter.
 
-The student decides which name is a topic, a service or an action.
+The student decides for each name whether it is a topic, a service or an action.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ FEW = 4  # The first robot has the capacity for this many parcels, which is less
 PARCELS = 3  # Each delivery has this many parcels, which both robots can carry.
 EACH = 0.2  # A robot needs this many s for one parcel.
 PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
-LONG = 2.5  # In the last goal with too many parcels, each parcel would take this many s.
+LONG = 2.5  # In the last goal, which has too many parcels, each parcel would need this many s.
 ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
 SETTLING = 1.0  # After a delivery, the right charge must be published within this many s.
 NOT_AT_ONCE = 0.9  # A goal that took at least this fraction of its full time was not aborted immediately.
