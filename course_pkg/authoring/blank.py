@@ -138,7 +138,7 @@ class _Cell:
     def _end_of_signature(self, node: Function) -> int:
         """Return the position after the colon that ends the signature.
 
-        This colon is the first colon outside brackets and annotations.
+        The signature ends with the first colon that is outside of brackets and annotations.
         """
         after = (node.returns or node).end_lineno or 0, self._column(node.returns) if node.returns else 0
         depth = 0

@@ -98,6 +98,6 @@ class ClassModel:
     def _shuffled(self) -> list[tuple[str, str]]:
         """Return the students in an order that looks random, but is always the same.
 
-        Therefore, a student's position on the page does not reveal the name.
+        With this order, a student's position on the page does not reveal the student's name.
         """
         return sorted(self._names.items(), key=lambda each: hashlib.sha256(each[0].encode()).digest())

@@ -75,7 +75,7 @@ class Handler(PageHandler):
     async def student(self) -> str | None:
         """Return the student who owns the request's token.
 
-        If there is none, refuse the request and return None.
+        If the token belongs to no student, refuse the request and return None.
         """
         token = self.request.headers.get("Authorization", "").removeprefix("token ")
         try:

@@ -201,7 +201,7 @@ class Stage:
     def local(self, text: str) -> str:
         """Return `text` with the real namespace and the real port.
 
-        This stage's namespace replaces /lab, and the port of its master replaces MASTER_PORT.
+        The stage's namespace replaces /lab, and the port of the stage's master replaces MASTER_PORT.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
@@ -220,7 +220,7 @@ class _Resources:
 
     When the stage is deleted, the processes end and the files are deleted.
 
-    This object has no reference to the stage, so that the stage can be deleted.
+    No attribute refers to the stage; otherwise, the stage could not be deleted.
     """
 
     def __init__(self, uri: str, namespace: str) -> None:

@@ -1,8 +1,8 @@
 """Find a student's function or class that is older than the code in its cell.
 
-In this case, a check would examine other code than the cell shows. One cause is a syntax error in the changed
-cell. Another cause is that the student has run the handler's cell again, but not the cell that creates the
-service.
+If a function is older than its cell, a check would examine other code than the cell shows. One cause is a
+syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but not
+the cell that creates the service.
 """
 
 from __future__ import annotations

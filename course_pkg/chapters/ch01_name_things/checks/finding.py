@@ -28,8 +28,8 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
     """Serve a service with a random name, and other services with similar names, in three runs.
 
-    The namespace of the service has a different depth in each run. At the end, call the student's function
-    with the name of a service that does not exist.
+    The namespace of the service has a different depth in each run. Later, call the student's function with
+    the name of a service that does not exist.
     """
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()

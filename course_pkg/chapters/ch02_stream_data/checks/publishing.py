@@ -231,7 +231,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
 def a_notice(context: CheckContext) -> None:
     """Call set() while there is no subscriber, while there is one, and before a late one connects.
 
-    One of the values may be 0.
+    On one topic, the first value is 0.
     """
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))

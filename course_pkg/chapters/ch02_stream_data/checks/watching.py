@@ -127,7 +127,7 @@ def _says(
 ) -> None:
     """Call state() `times` times, and assert that each call returns `word`.
 
-    There is a pause of `pause` s between two calls. If a call ends after the time `before`, each of the three
+    Two calls are separated by a pause of `pause` s. If a call ends after the time `before`, each of the three
     possible strings is accepted. Only the fastest call has to be fast, because the machine may be busy.
     """
     took = []

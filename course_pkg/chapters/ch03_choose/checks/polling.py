@@ -62,7 +62,7 @@ FOUND = "Return the number of a customer who is there, or who comes later."
 def poll_with_a_deadline(context: CheckContext) -> None:
     """Call poll() with a detector whose customer is present, and with one whose customer comes later.
 
-    After that, call it with a fast and with a slow detector that never has a customer.
+    At the end, call poll() with a fast and with a slow detector that never have a customer.
     """
     _one_who_is_there(context)
     _one_who_comes(context)

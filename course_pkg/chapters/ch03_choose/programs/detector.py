@@ -45,7 +45,7 @@ class Detector:
     def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
         """Return the first customer whose number is above `after`.
 
-        If there is none within `patience` s, the response says that no customer was detected.
+        If no such customer comes within `patience` s, the field `detected` of the response is False.
 
         Raises ServiceException if `patience` is out of range, if too many callers are waiting, or if the
         camera sends no messages.

@@ -217,7 +217,7 @@ def _follows(before: str) -> Callable[[str], bool]:
 def a_switch_that_tells(context: CheckContext) -> None:
     """Call /switch with data=False, and then ten more times.
 
-    After that, try a new Switch(), which must be off.
+    At the end, create a new Switch(), which must be off.
     """
     turn = context.service(
         "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]

@@ -23,7 +23,7 @@ NUMBERS = "Return the three numbers as a list, and ignore arguments for ROS."
 def read_the_arguments(context: CheckContext) -> None:
     """Call the function with valid arguments, also together with arguments for ROS.
 
-    Then try too few arguments, too many arguments, and an argument that is not a number.
+    Later, call the function with too few arguments, with too many arguments, and with a word.
     """
     name_first = (
         "The first item of the list is the name of the program. Read the sides from the second item on."

@@ -36,7 +36,7 @@ def interrupted(function, *args):
 def stops(context: CheckContext, function: str, *args: Value, catch: str) -> None:
     """Assert that an interrupt ends the student's function while it waits.
 
-    The function should catch only the error `catch`.
+    The student's function should catch only the error `catch`.
 
     If the student's function ends correctly, the report does not contain this assertion.
     """

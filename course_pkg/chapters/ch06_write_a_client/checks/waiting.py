@@ -29,7 +29,7 @@ THERE = "Return True for a service that exists, and False for a service that doe
 def is_anybody_there(context: CheckContext) -> None:
     """Ask for a running server, and for two names without a running server.
 
-    After that, start a server while the client waits.
+    Later, start a server while the client waits.
     """
     here, nowhere, killed, later = (f"/{context.random.word()}" for _ in range(4))
     server = context.serve(here, GEOMETRY, lambda _: {})

@@ -128,8 +128,8 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
 def _never_ends(done: Finished) -> bool:
     """Return True if an import that reached its time limit would never end.
 
-    Such an import waits for ever, or is in an endless loop. Return False if the import was only slow on a
-    busy machine: in this case, it waited for a CPU most of the time.
+    An import that never ends waits for ever, or is in an endless loop. An import that is only slow on a busy
+    machine waits for a CPU most of the time.
     """
     return done.ran + done.queued < done.took / 2 or done.ran > MUCH
 

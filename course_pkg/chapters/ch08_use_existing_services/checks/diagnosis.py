@@ -115,7 +115,8 @@ def find_the_cause(context: CheckContext) -> None:
 def _services(context: CheckContext, kind: str, other: str, changed: ServiceClass) -> dict[str, str]:
     """Prepare one service name for each result that diagnose() can return; return these names and results.
 
-    The first result is "ok". The names are random, so that a name does not reveal its result.
+    The first item is the service for the result "ok". The names are random, so that a name does not reveal
+    its result.
     """
     works, missing, gone, typed, copied, renewed = (f"/{context.random.word()}" for _ in range(6))
     package = f"{context.random.word()}_pkg"

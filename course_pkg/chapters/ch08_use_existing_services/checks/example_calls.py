@@ -20,7 +20,7 @@ class ExampleCall:
     def given(self, received: Value) -> Value:
         """Return the values in `received`, but only those of the fields that this call sends.
 
-        This also applies to nested messages.
+        In nested messages, fields that this call does not send are also omitted.
         """
         return _given(self.fields, received)
 

@@ -49,7 +49,7 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
 def find_by_type(context: CheckContext) -> None:
     """Serve services of two types, and services of types whose names are similar.
 
-    After that, serve another service, and register a service whose server is dead.
+    Later, serve another service, and register a service whose server is dead.
     """
     kind, other = context.random.shuffled(KINDS)[:2]
     short = kind.partition("/")[2]

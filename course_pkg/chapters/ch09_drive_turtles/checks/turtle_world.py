@@ -91,9 +91,9 @@ class World:
         return running.stop()
 
     def serves(self, running: Running, *names: str) -> None:
-        """Wait until the student's program serves all these services.
+        """Wait until the student's program serves all services in `names`.
 
-        Otherwise, report what happened.
+        If a service is missing, report what happened.
         """
         assertion = f"{self._program.line} starts a node that offers {_listed(names)}"
         began, seen = time.monotonic(), 0.0

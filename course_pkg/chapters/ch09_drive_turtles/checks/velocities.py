@@ -99,7 +99,7 @@ class Stream:
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
         """Assert that `wanted` messages per second arrive.
 
-        The first messages may still arrive at the old rate.
+        After a change of the rate, the first messages may still arrive at the old rate.
         """
         count = max(2, int(wanted))
         measured = rate(self.next(count + 2)[1:])

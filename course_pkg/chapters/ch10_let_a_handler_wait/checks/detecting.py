@@ -111,7 +111,7 @@ FOUND = (
 def wait_for_a_customer(context: CheckContext) -> None:
     """Call without a customer, with a customer who is there, and with a customer who comes later.
 
-    Then make several calls at the same time.
+    At the end, make several calls at the same time.
     """
     counter, name = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(A_SHOP)

@@ -55,7 +55,7 @@ class Deadlock(Exception):
 class CheckedLock:
     """A lock; `acquire` also waits for a short time, so that another thread can acquire the other lock.
 
-    Therefore, two threads that acquire the two locks in opposite order always block each other. A thread that
+    Two threads that acquire the two locks in opposite order therefore always block each other. A thread that
     waits too long gets an error, so that all threads end.
     """
 
@@ -254,7 +254,7 @@ MOVED = "Move a thing in one thread, but do not move a thing from an empty shelf
 def move_without_deadlock(context: CheckContext) -> None:
     """Move things in one thread, even from an empty shelf.
 
-    After that, move things in both directions at the same time.
+    At the end, let several threads move things in both directions at the same time.
     """
     context.prepare(KERNEL_CODE)
     numbers = sorted(context.random.integers(2, 1, 99))

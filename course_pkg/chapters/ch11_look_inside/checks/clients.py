@@ -314,7 +314,7 @@ def _finds_it_after_a_reset(
 ) -> None:
     """Start another program at the server's port, and start the server at another address.
 
-    Then stop the server. After that, the registered address belongs to a program that resets each connection.
+    At the end, stop the server. Its registered address then belongs to a program that resets each connection.
     """
     former.leave()
     assertion = "a server that moved is found again"

@@ -247,7 +247,7 @@ NOT_RAISED: Hints = [
 def exact_read(context: CheckContext) -> None:
     """Send the bytes in one piece, in several pieces, and with additional bytes.
 
-    After that, close the connection before all bytes are sent.
+    At the end, close the connection before all bytes are sent.
     """
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()

@@ -88,7 +88,7 @@ FAILED = "Charge again after the purse has failed. Refuse a request without an i
 def charge_once(context: CheckContext) -> None:
     """Send new requests, repeated requests, requests for which the purse fails, and one without an id.
 
-    After that, send 50 requests at the same time.
+    Later, send 50 requests at the same time.
     """
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)

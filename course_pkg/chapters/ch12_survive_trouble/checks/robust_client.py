@@ -251,7 +251,7 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
 def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
     """Let three attempts fail, and assert that the third pause is long enough.
 
-    If it is not clearly long enough, test the growth of the pauses with more failed attempts.
+    If the pauses grow slowly, test their growth with more failed attempts.
     """
     before = len(till.arrivals)
     till.plan.extend([Fault(HangUp())] * 3)

@@ -98,8 +98,8 @@ def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
 def _prints_a_volume_of_0(context: CheckContext, folder: Folder) -> None:
     """Respond with the volume 0.
 
-    In this case, the value does not show whether there was a response, so the program has to use the return
-    value of call().
+    The volume 0 does not show whether there was a response, so the program has to use the return value of
+    call().
     """
     name, sides, _ = _random_box(context)
     context.serve(name, BOX, lambda _: {"volume": 0.0})

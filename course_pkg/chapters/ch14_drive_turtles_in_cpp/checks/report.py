@@ -145,8 +145,8 @@ def _code(context: CheckContext, program: TurtleProgram) -> str:
 def _leaves_battery_in_the_global_queue(code: str) -> bool:
     """Return whether /battery certainly uses the global queue.
 
-    The result is True if the NodeHandle that creates /battery is declared without arguments, never gets
-    another queue, and is never copied or passed to a function.
+    For the result True, three conditions must hold for the NodeHandle that creates /battery: it is declared
+    without arguments, it never gets another queue, and it is never copied or passed to a function.
     """
     created = re.search(r'(\w+)\s*\.\s*advertiseService\s*\(\s*"/?battery"', code)
     if created is None or not re.search(rf"NodeHandle\s+{created[1]}\s*;", code):

@@ -186,7 +186,7 @@ class Run:
 class _Detector:
     """A detector that finds a customer only if `patience` is equal to `wait`.
 
-    It refuses a call if `patience` is REFUSED.
+    The detector refuses a call if `patience` is REFUSED.
     """
 
     def __init__(self, wait: float) -> None:

@@ -87,7 +87,7 @@ SILENT_CAMERA = "Refuse a call if no message has arrived yet, or if no message a
     goals={WAITED: 3, SEVERAL: 2, "Refuse an impossible value of `patience`.": 1},
 )
 def the_detector(context: CheckContext) -> None:
-    """Publish on customer_seen; call with and without a customer; then make several simultaneous calls."""
+    """Publish on customer_seen; call with a customer, without a customer, and several times at once."""
     with student_node(context, NAME, INTERFACE) as space:
         vision = SeenCustomers(f"{space}/{SEEN}")
         vision.is_heard(context)

@@ -68,8 +68,8 @@ class JointState:
 def joint_states(context: CheckContext) -> list[JointState]:
     """Return joint states.
 
-    Some of them are invalid. The first and the last joint state are valid, and each invalid joint state is
-    followed by a valid joint state.
+    Some of these joint states are invalid. The first and the last joint state are valid, and each invalid
+    joint state is followed by a valid joint state.
     """
     states = [_joint_state(context, number) for number in range(COUNT)]
     states[3].position = states[3].position[:2]

@@ -229,7 +229,7 @@ ORDER = (
 def the_printed_till(context: CheckContext) -> None:
     """Set items with a printer that works or refuses; then set many items at the same time.
 
-    After that, set an item without a printer.
+    Later, set an item while no printer is running, and again with a new printer.
     """
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
@@ -399,7 +399,7 @@ LEFT = (
 def the_reset(context: CheckContext) -> None:
     """Reset a till with items, a till without items, and a till with an item that costs 0 cents.
 
-    After that, call till/reset while a line is being printed.
+    Later, call till/reset while a line is being printed, and after the printer has ended.
     """
     with running_till(context, TOTAL, RESET) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)

@@ -200,7 +200,7 @@ def the_visits(context: CheckContext) -> None:
 class Alone:
     """A detector for a test in which no till is running.
 
-    It reports a customer in the first call, and no customer in later calls.
+    The detector reports a customer in the first call, and no customer in later calls.
     """
 
     def __init__(self) -> None:

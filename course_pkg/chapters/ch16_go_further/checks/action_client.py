@@ -110,7 +110,8 @@ CANCELLED = "Cancel the goal when the time limit is over, and return the number 
 def bounded_goal(context: CheckContext) -> None:
     """Run the function without a robot, and with robots that behave differently.
 
-    There is a fast robot, a slow robot, a robot that starts late, and a robot that ignores cancellations.
+    The robots are a fast robot, a slow robot, a robot that starts late, and a robot that ignores
+    cancellations.
     """
     _in_time(context)
     context.fulfilled(FETCHED)

@@ -269,7 +269,7 @@ def _cancels(
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
     """Assert that a goal with too many parcels did not change the charge.
 
-    This goal came before the last goal.
+    The goal with too many parcels came before the last goal.
     """
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     battery.during(3 * PERIOD)  # Wait for further messages, because a wrong charge may follow.

@@ -1,6 +1,6 @@
 """Functions that start the student's parcel robot.
 
-They also find out whether each name is a topic, a service or an action.
+The functions also find out whether each name is a topic, a service or an action.
 """
 
 from __future__ import annotations
