@@ -63,8 +63,9 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
     """Run all `notebooks`, several at the same time; the keys of the mapping are the notebooks' names.
 
-    Calls `finished` with the name and the outputs of each notebook that ran to its last cell. Returns the
-    errors of all other notebooks, by name. A KeyboardInterrupt ends all kernels.
+    Calls `finished` with the name and the outputs of each notebook that ran to its last cell. Returns a dict
+    with the error of each other notebook; the keys are the notebooks' names. A KeyboardInterrupt ends all
+    kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
     # In the main thread, nbclient would handle SIGINT itself, and would interrupt only one kernel. Therefore,

@@ -193,7 +193,7 @@ class CheckContext:
         return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
 
     def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
-        """Serve `name` with `work`, and with the faults in `plan` (peers/faulty_server.py)."""
+        """Serve `name`: `work` handles requests, and `plan` contains faults (see peers/faulty_server.py)."""
         server = FaultyServer(self._node, name, self.service_class(kind), work)
         self._open.enter_context(server)
         return server

@@ -110,7 +110,7 @@ def folder_of(chapter: str) -> Path:
 
 
 def folders_for(chapter: str) -> list[Path]:
-    """Return the folder of a chapter, such as "14", and of each chapter that it imports from, sorted.
+    """Return a sorted list: the folder of a chapter, such as "14", and of each chapter that it imports from.
 
     Indirect imports are included. For an unknown chapter, the list is empty.
     """

@@ -35,7 +35,8 @@ class Hint:
 class ClassModel:
     """The state of a class.
 
-    `version` is the number of results. `epoch` is random; a new value means that results were deleted.
+    `version` is the number of results that were added. `epoch` is random; a new value means that results were
+    deleted.
     """
 
     def __init__(self, names: Mapping[str, str], results: Iterable[Result] = ()) -> None:

@@ -56,7 +56,7 @@ class Playable(Protocol):
 
     @property
     def timeout(self) -> float:
-        """The time limit in s for the visitor."""
+        """The time limit in s for the program or command that shows the symptom."""
 
 
 class Stage:

@@ -67,7 +67,10 @@ class CommandFolders:
         return {"status": self._running[process].status}
 
     def stop(self, process: int) -> Reply:
-        """End a command as Ctrl-C does; return its result, with the status null if it was still running."""
+        """End a command with SIGINT, like Ctrl-C; return its result.
+
+        The status is null if the command was still running.
+        """
         return self._running[process].stop()
 
     def ports(self, process: int) -> Reply:
@@ -80,7 +83,7 @@ class CommandFolders:
 
 
 class _Running:
-    """A command that runs at most until the kernel ends."""
+    """A running command; it ends at the latest when the kernel ends."""
 
     def __init__(self, command: Sequence[str], folder: Path) -> None:
         self._started = time.monotonic()

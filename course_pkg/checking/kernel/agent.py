@@ -90,7 +90,7 @@ class KernelAgent:
         return {"answer": request.get("ask"), **reply}
 
     def close(self) -> None:
-        """End the commands that the check started here, delete its folders, and close its proxies."""
+        """End the commands of the check in this kernel, delete the check's folders, and close its proxies."""
         self._handler_errors.close()
         if self._proxies is not None:
             self._proxies.close()
@@ -215,7 +215,7 @@ def _defined_here(name: str, value: Value) -> bool:
 
 
 def is_blank(value: Value) -> bool:
-    """Return whether an exercise is unchanged: its value or its body is `...`."""
+    """Return whether an exercise is unchanged: its value is `...`, or the body of its function is `...`."""
     if isinstance(value, type):
         # `inspect` cannot find the source of a class in a notebook, so each method is examined instead.
         methods = [inspect.unwrap(method) for method in _methods(value)]

@@ -40,7 +40,7 @@ class TimeLimit:
     def call(self, function: Callable[[], Value]) -> Value:
         """Return the result of `function`.
 
-        Raises TimesUp after the time limit, and KeyboardInterrupt after the Stop button.
+        Raises TimesUp after the time limit, and KeyboardInterrupt after the user has pressed Stop.
         """
         alarm = signal.signal(signal.SIGALRM, self._end)
         interrupt = signal.signal(signal.SIGINT, self._stop)
@@ -71,7 +71,7 @@ class TimeLimit:
             self._raised = now
             raise self._error
         try:
-            raise self._error  # SIGALRM comes again later, so the library can first clean up.
+            raise self._error  # SIGALRM is pending again, but the library can first clean up.
         except BaseException:  # noqa: BLE001
             return
 

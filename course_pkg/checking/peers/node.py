@@ -106,7 +106,7 @@ def on_the_graph(check: str) -> Iterator[Node]:
 
 @contextmanager
 def held_back(number: int) -> Iterator[list[int]]:
-    """Delay a signal until the block has ended; yield a list, to which each arriving signal is added."""
+    """Ignore a signal until the block has ended; yield a list with the signals that have arrived."""
     came: list[int] = []
     before = signal.signal(number, lambda *_: came.append(number))
     try:

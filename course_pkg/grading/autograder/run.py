@@ -114,7 +114,7 @@ def _grade(submission: Submission, points: PointsTable, run: Run) -> Grade:
 
 @contextmanager
 def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
-    """Yield a function that runs a part.
+    """Yield a function that runs one part of the submission.
 
     After the deadline, the function stops the part and runs no other part.
     """

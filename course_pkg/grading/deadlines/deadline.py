@@ -24,7 +24,7 @@ class Deadlines:
     extensions: Extensions = field(default_factory=Extensions)
 
     def due(self, student: str, chapter: str) -> datetime | None:
-        """Return a student's deadline for a chapter without the grace period, or None without a deadline.
+        """Return a student's deadline for a chapter, or None; the grace period is not included.
 
         With an extension, the deadline stays at the same time of day, even if summer time begins or ends
         before it.

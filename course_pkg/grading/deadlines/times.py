@@ -41,7 +41,7 @@ When = Callable[[Submission], datetime | None]
 
 
 def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
-    """Return a function that returns the time of a submission, or None if the time is not known.
+    """Return a function; for a submission, it returns the time, or None if the time is unknown.
 
     `option` is the value of --times: the path of a table, "nbgrader", "gradescope", or "". With "", the times
     come from times.csv in the folder of the submissions, or from Gradescope's metadata. `zone` applies to

@@ -50,10 +50,10 @@ def wanted_kinds(names: Sequence[str]) -> list[str]:
 def with_flags(
     grades: Sequence[Grade], submissions: Sequence[Submission], names: Sequence[str]
 ) -> list[Grade]:
-    """Return the grades with the flags of these kinds; the flags are found in the graded submissions.
+    """Find the flags of these kinds in the graded submissions; return the grades with their flags.
 
-    Submissions that do not count, such as earlier attempts, get no flags. A grade without a submission in
-    this run has the flags of an earlier run.
+    Submissions that do not count, such as earlier attempts, get no flags. If a grade has no submission in
+    this run, it keeps the flags of an earlier run.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

@@ -1,4 +1,4 @@
-"""Checks of functions that find services and running publishers; some names only have dead registrations."""
+"""Checks of functions that find services and running publishers; some registered nodes are dead."""
 
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part

@@ -88,7 +88,7 @@ def count_aloud(context: CheckContext) -> None:
 
 
 def _counts_alone(context: CheckContext, topic: str) -> None:
-    """Start the function without a subscriber; subscribe at a time when the function must already publish."""
+    """Start the function without a subscriber; subscribe later, when the function must be publishing."""
     late: list[Subscription] = []
 
     def come() -> None:

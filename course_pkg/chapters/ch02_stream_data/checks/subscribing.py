@@ -192,8 +192,8 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 def _stances(context: CheckContext, count: int) -> list[Fields]:
     """Return `count` messages.
 
-    The last states have fewer joints, so the student's node must not keep the values of earlier states. One
-    state has no velocities.
+    The last states have fewer joints. If the student's node keeps values of earlier states, its messages are
+    then wrong. One state has no velocities.
     """
     names = [context.random.word() for _ in range(4)]
     counts = [4 if number < count / 2 else 3 for number in range(count)]
@@ -227,7 +227,7 @@ def _of_both_signs(context: CheckContext, count: int) -> list[float]:
 def _begun(
     context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
 ) -> Iterator[None]:
-    """Call the student's function, which returns the subscribers of `topics`; unregister them at the end."""
+    """Call the student's function, which returns its subscribers; at the end, unregister them."""
     context.prepare(KEEPER)
     try:
         started = context.run(

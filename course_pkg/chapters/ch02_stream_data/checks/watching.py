@@ -64,7 +64,7 @@ def watch_a_stream(context: CheckContext) -> None:
         time.sleep(1.3)
         _says(context, topic, 'before the first message, the state is "waiting"', "waiting", _BEFORE)
         publisher = _speaks(context, unasked)
-        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # At this time, the watch has received messages.
+        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # Then the watch has received messages.
         _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
         _says(context, topic, "two watches are independent", "waiting", _APART)
         _runs(context, topic)

@@ -58,7 +58,8 @@ class Greetings:
     """Records the calls of say_good_day(), and the number of simultaneous calls."""
 
     def __init__(self) -> None:
-        # `said` contains the argument of each call: a number, or the name of a wrong type.
+        # `said` contains the argument of each call. If an argument is not a number, the list contains the
+        # name of its type.
         self.said: list[Value] = []
         self.at_once = 0
         self._busy = 0

@@ -11,7 +11,8 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# The relative error of a float32 is less than 1e-7; a number with two digits after the point differs more.
+# The relative error of a float32 is less than 1e-7. The error of a number that was rounded to two decimals is
+# usually larger than this limit.
 NEAR = 1e-5
 # A message may contain at most this many numbers. If a message contains many numbers, one of them may equal
 # the right value by chance.
@@ -129,7 +130,8 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    # A float32 stores these numbers exactly. No number is an integer, so a message must contain the fraction.
+    # A float32 stores these numbers exactly. No number is an integer, so a message must contain the decimals,
+    # too.
     depths = [*(-depth - 0.5 for depth in context.random.integers(2, 1, 49)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})

@@ -270,7 +270,7 @@ def a_switch_that_tells(context: CheckContext) -> None:
     context.fulfilled(POSITION)
     context.fulfilled(MOVED)
     context.prepare(A_NEW_SWITCH)
-    if not context.has("Switch"):  # Without this name, the handler is not a method of a class Switch.
+    if not context.has("Switch"):  # The student may use a function as the handler, without a class.
         return
     for stands, hint in ((False, STARTS_ON), (True, SHARES)):
         turn(data=stands)

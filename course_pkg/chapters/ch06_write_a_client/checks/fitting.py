@@ -1,4 +1,4 @@
-"""06.6: a client as a program; its exit status tells a script the result."""
+"""06.6: a client program; a script can use its exit status as the result."""
 
 from __future__ import annotations
 
@@ -36,7 +36,8 @@ class Case:
 
     title: str  # `title` is the name of the case in the titles of assertions.
     arguments: list[str]
-    script: Script | None  # `script` contains the responses of the service, or None without a service.
+    # `script` chooses the responses of the service; None means that there is no service.
+    script: Script | None
     status: int
     prints: str  # The program's output must contain this text, in lower case.
     calls: int = 1

@@ -9,7 +9,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
-# A right function may wait 1 s for each of the two services; LONGEST is the maximum delay in s.
+# A service that does not respond may delay the result by at most this many s; a correct function waits 1 s
+# for it.
 LONGEST = 1.75
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (

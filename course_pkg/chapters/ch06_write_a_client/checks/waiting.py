@@ -7,8 +7,8 @@ from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.waiting import at_this_load
 
-# The function gets this time limit in s, for existing and for missing services; a busy machine connects
-# within this time.
+# This is the function's time limit in s, for existing and for missing services. It is long enough for a
+# connection on a busy machine.
 SAME = 1.5
 # The service starts STARTS s after the beginning of the call, and the call has a time limit of LATER s.
 STARTS, LATER = 1.3, 4.0

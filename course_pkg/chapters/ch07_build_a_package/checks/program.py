@@ -203,7 +203,7 @@ def why_not(
 
 
 def own_line(program: Program, printed: str) -> str:
-    """Return a sentence with the wrong line of the student's script.
+    """Return a sentence that quotes the wrong line of the student's script.
 
     If the line is not known, return "".
     """

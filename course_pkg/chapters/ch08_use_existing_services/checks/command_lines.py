@@ -173,7 +173,7 @@ def _complaint(line: str, output: str) -> str:
 
 
 def _decisive_lines(output: str) -> str:
-    """Return the first line with an error and the line after it; without an error, return the last line."""
+    """Return the first line with an error and the next line, or the last line if no line has an error."""
     lines = output.splitlines()
     first = next((number for number, text in enumerate(lines) if matches("^error|error:").search(text)), -1)
     return "\n".join(lines[first:][:2])

@@ -115,7 +115,7 @@ class FakeSwitch:
     message: str
 
     def handle_set(self, request: Message) -> Fields:
-        """Move or do not move, and return the response that the case describes."""
+        """Behave as the case describes: move or do not move, and return its response."""
         self.is_open = bool(request.data) if self.case.obeys else self.is_open
         return {"success": self.case.success, "message": self.message}
 

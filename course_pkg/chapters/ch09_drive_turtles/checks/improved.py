@@ -55,7 +55,7 @@ def change_speed_and_stop(context: CheckContext) -> None:
 
 
 def is_improved(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of improved_pubvel_toggle."""
+    """Assert that a program meets the requirements of the exercise about improved_pubvel_toggle."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, *SERVICES)
@@ -102,7 +102,7 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: Service) -> Service:
-    """Set speeds, and try impossible speeds; return a proxy of the service that sets the speed."""
+    """Set allowed and impossible speeds; return a proxy of the service that sets the speed."""
     change = world.service(
         "change_speed",
         CHANGE_SPEED,

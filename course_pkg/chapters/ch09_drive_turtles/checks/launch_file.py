@@ -72,7 +72,7 @@ def two_turtles_or_one(context: CheckContext) -> None:
 
 
 def launches(context: CheckContext, file: LaunchFile) -> None:
-    """Assert that a launch file does what the exercise requires of exercise3.launch."""
+    """Assert that a launch file meets the requirements of the exercise about exercise3.launch."""
     copy = _copy(context, file)
     for argument, wanted in (("addturtle:=false", False), ("", False), ("addturtle:=true", True)):
         listed = copy.run(f"roslaunch --nodes {file.path} {argument}", within=20.0)

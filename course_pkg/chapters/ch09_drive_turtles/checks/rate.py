@@ -12,7 +12,7 @@ from course_pkg.checking.peers.service_calls import Service
 
 PROGRAM = script("pubvel_toggle_plus")
 KIND = "course_pkg/ChangeRate"
-AT_FIRST = 2.0  # The first rate is in messages per second.
+AT_FIRST = 2.0  # The program starts with this rate in messages per second.
 # At the end, the check sets this rate in messages per second. The program then publishes its next message
 # only after 1000 s.
 TINY = 0.001
@@ -86,7 +86,7 @@ def change_the_rate(context: CheckContext) -> None:
 
 
 def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of pubvel_toggle_plus."""
+    """Assert that a program meets the requirements of the exercise about pubvel_toggle_plus."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, "toggle_forward", "change_rate")
@@ -188,9 +188,9 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
-    """Assert that the node refuses a request on purpose.
+    """Assert that the handler refuses a request; an unexpected exception does not count.
 
-    With rospy, the node does this with a ServiceException.
+    With rospy, the handler refuses a request with a ServiceException.
     """
     (number,) = fields.values()
     why = (

@@ -65,7 +65,7 @@ def wait_and_spawn(context: CheckContext) -> None:
 
 
 def spawns(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of spawn_turtle.
+    """Assert that a program meets the requirements of the exercise about spawn_turtle.
 
     The runs overlap, because one run takes 5 s.
     """

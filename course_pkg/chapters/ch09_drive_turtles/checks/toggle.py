@@ -93,7 +93,7 @@ def toggle_direction(context: CheckContext) -> None:
 
 
 def toggles(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of pubvel_toggle."""
+    """Assert that a program meets the requirements of the exercise about pubvel_toggle."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, "toggle_forward")

@@ -26,7 +26,7 @@ MANIFEST = """\
   <buildtool_depend>catkin</buildtool_depend>
 </package>
 """
-# With this path, ROS finds the package before the package is built.
+# With this path, ROS finds the package without a build.
 SETUP = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 
 

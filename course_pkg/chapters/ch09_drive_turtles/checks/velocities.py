@@ -69,7 +69,7 @@ class Stream:
     def becomes(self, wanted: tuple[float, float], assertion: str, hints: Hints) -> None:
         """Assert that the velocity is `wanted` (m/s, rad/s) from now on.
 
-        The assertion ignores messages that arrived earlier.
+        Messages that arrived before the call of this method are ignored.
         """
         now = time.monotonic()
         arrival = self.next(1)[-1]

@@ -21,7 +21,7 @@ LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
 # The function must return within this many s after the last response. A function that sleeps for a fixed time
 # may take longer than a function that joins its threads.
 PROMPT = 0.3
-# The calls of the first round take this many s. If the function returns too late, another round has longer
+# The calls of the first round take this many s. If the function returns too late, a third round has longer
 # calls.
 LONGER = 1.0
 
@@ -70,7 +70,7 @@ class Proxies:
 
     @remote
     def called(self, proxy: Value) -> None:
-        """Record a call through the persistent proxy with the id `proxy`, on the current thread."""
+        """Record that the current thread makes a call through the persistent proxy with the id `proxy`."""
         self._threads.setdefault(str(proxy), set()).add(threading.current_thread())
         self.calls += 1
 
@@ -94,7 +94,7 @@ class Gate:
         self._changed = threading.Condition()
 
     def __call__(self, _: Message) -> dict[str, Json]:
-        """Handle a request: wait for the other clients, and return a different text for each client."""
+        """Handle a request: wait for the other clients, and return the next text in the list."""
         with self._changed:
             word = self._words[self.requests % len(self._words)]
             self.requests += 1
@@ -150,7 +150,7 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Respond only after all clients have called; use two different numbers of clients.
+    """Run the function with two numbers of clients; the server responds only after all of them have called.
 
     The calls of the first round take longer. If a function uses join() with a short timeout, it therefore
     returns too early.

@@ -76,7 +76,7 @@ class Client:
 class ResettingPort:
     """A program that listens at the old address of a server.
 
-    The program is not a ROS server, and resets each connection.
+    The program does not implement TCPROS, and resets each connection.
     """
 
     def __init__(self, uri: str) -> None:

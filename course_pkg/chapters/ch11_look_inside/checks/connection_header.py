@@ -52,7 +52,7 @@ WITHIN = 3.0  # WITHIN is the time limit in s for one call.
 # The check waits at most this many s until the client has read a piece. A client that only peeks at the bytes
 # does not remove them from the socket.
 PEEKING = 0.4
-PAUSE = 0.5  # Two consecutive pieces of a message are sent with this pause in s.
+PAUSE = 0.5  # Two consecutive pieces of a message are separated by a pause of this many s.
 CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 
 
@@ -140,7 +140,7 @@ def _packed(
     lengths: bool = True,
     code: str = "utf-8",
 ) -> bytes:
-    """Return the bytes of the right header, or of a header with the mistake that the arguments describe."""
+    """Return the bytes of a correct header; with other arguments, the header contains a mistake."""
     texts = [f"{name}{joint}{value}" for name, value in fields.items()]
     coded = [(count(text), text.encode(code)) for text in texts]
     body = b"".join((struct.pack(order, length) if lengths else b"") + data for length, data in coded)

@@ -304,7 +304,7 @@ def _sends_the_header(context: CheckContext, conversation: Conversation, name: s
 
 
 def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: bool) -> None:
-    """Refuse with an error message that contains `reason`."""
+    """Let the server refuse with an error message that contains `reason`."""
     name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
     with TcprosServer(kind, (0.0, 0.0), refusal=message, in_handshake=in_handshake) as server:
         result = context.run("ask", server.uri, name, *context.random.numbers(3, 0.5, 9.0), within=3.0)

@@ -1,4 +1,4 @@
-"""Measures times for 12.3; each result is the shortest of several times, because the machine may be busy."""
+"""Measures times for 12.3; each time is measured repeatedly, because the machine may be busy."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TRY = 0.5  # TRY is the time limit in s for one attempt.
 PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
 # The shortest first pause, together with the time for a new connection, may take at most this many s.
 FIRST = 1.8 * PAUSE
-PAYMENTS = 5  # The check makes at most this many payments; the fastest payment counts.
+PAYMENTS = 5  # Each time is measured in at most this many payments.
 # The deadline of a payment is this many s after its start. At this time, the client is in its fourth pause,
 # which would end after 1.5 s.
 AT_END = 0.9

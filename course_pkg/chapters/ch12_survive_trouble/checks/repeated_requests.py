@@ -247,7 +247,7 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
 
 
 def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send a request twice at the same time, and let the purse fail once.
+    """Send the same request twice at the same time; one call of take() fails.
 
     A till that returns a receipt must have charged the request exactly once.
 

@@ -223,7 +223,7 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
 def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
     """If the till is slow, assert that the client made several attempts.
 
-    At a till that responds in time, the client must make only one attempt.
+    If the till responds in time, the client must make only one attempt.
     """
     context.require(
         "the receipt is returned at the end",
@@ -319,7 +319,7 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
 
 
 def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the till respond after the deadline, but within the 0.5 s of an attempt.
+    """Let the till respond after the deadline, but within the time limit of an attempt (0.5 s).
 
     On a busy machine, even a right client may sometimes end after its deadline. Therefore, the check repeats
     the payment until a payment ends in time.

@@ -135,7 +135,7 @@ def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) ->
 
 
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
-    """Mix responses, refusals and missing responses in a random order.
+    """Call a server that responds, refuses or does not respond, in a random order.
 
     The limit is always the same. Therefore, a function fails if it has a fixed list of results, or if it
     chooses the result by the limit.

@@ -60,7 +60,8 @@ class CheckedMaster:
     """
 
     def __init__(self, uri: str, slow: float) -> None:
-        # `addresses` contains the service's address and the node's address of each registration call.
+        # For each registration call, `addresses` contains the address of the service and the address of the
+        # node.
         self.addresses: list[list[str]] = []
         # `registered` contains the times of the registrations (s, time.monotonic()).
         self.registered: list[float] = []

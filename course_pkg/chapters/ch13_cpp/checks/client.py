@@ -60,7 +60,7 @@ REPEATS = "Call the service at most 3 times, with pauses. End with exit status 1
 def patient_client(context: CheckContext) -> None:
     """Run the client with servers that respond, refuse twice, always refuse or start late.
 
-    Also run the client without a server.
+    Run the client also without a server.
     """
     folder = compiled(context, FILE)
     shapes = _prints_the_answer(context, folder)

@@ -16,8 +16,8 @@ THINKING, COUNTING = 0.4, 0.05  # These times in s are the same as in the file t
 # The time between two responses may be at most this many s. If all calls overlap, this time is shorter. If a
 # call has to wait for a thread, this time is longer.
 APART = 0.15
-# The check makes six simultaneous calls repeatedly, for at most this many s, until all six overlap. Several
-# rounds can be necessary, because a call may start late on a busy machine.
+# The check makes six simultaneous calls. If they do not all overlap, the check repeats them for at most this
+# many s. Several rounds can be necessary, because a call may start late on a busy machine.
 OVERLAPPING = 3.0
 
 START = f"""%%writefile {FILE}

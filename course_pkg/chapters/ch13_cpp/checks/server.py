@@ -1,4 +1,4 @@
-"""13.2: a repaired C++ server; the given handler and main function contain mistakes."""
+"""13.2: a C++ server that the student repairs; its handler and its main function contain mistakes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""15.7, 15.8 and 15.9: a till that adds prices, prints each item first, and can be reset."""
+"""15.7, 15.8 and 15.9: a till that prints each item, adds its price, and can be reset."""
 
 from __future__ import annotations
 

@@ -33,7 +33,8 @@ STARTING = 40.0
 COMPLETE = 6.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 REACTION = 5.0  # A greeting, a reset, or the detector's reaction to a change may take this many s.
-# Killed nodes must run again within this many s, or within twice the start time if this is longer.
+# Killed nodes must run again within this many s. If the system needed more than half of this time to start,
+# they get twice the start time.
 BACK = 8.0
 EVERY = 0.1  # EVERY is the time in s between two frames.
 WAIT = 1.5  # The argument `wait` has this value in s.
@@ -335,7 +336,7 @@ class Shop:
 
 
 def _restarts_killed_nodes(context: CheckContext, package: BuiltPackage, space: str, within: float) -> None:
-    """Kill the four nodes; each node must run again within `within` s, as a new process."""
+    """Kill the four nodes; each node must run again as a new process within `within` s."""
     before = {node: _pid(context.look(), f"{space}/{node}") for node in NODES}
     package.folder.command("kill", "-9", *map(str, before.values()), worded="kill -9 for each node")
 
