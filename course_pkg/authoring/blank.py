@@ -200,8 +200,8 @@ def _dots(target: ast.expr) -> str:
 def _parsed(source: str) -> tuple[str, ast.Module]:
     """Parse `source`; return the text that was parsed, and its syntax tree.
 
-    If `source` is not valid Python, each part that only IPython understands is first replaced by a name of
-    the same length. Raises AuthoringError if this text is not valid Python either.
+    If `source` is not valid Python, a name of the same length first replaces each part that only IPython
+    understands. Raises AuthoringError if this text is not valid Python either.
     """
     try:
         return source, ast.parse(source)

@@ -91,7 +91,7 @@ class Results:
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
         self.marked: set[str] = set()  # The check has marked these goals as fulfilled.
-        # The keys are the goals that were examined with `goal_ended`; a value is True if the goal holds.
+        # This dict contains each goal that was examined separately, and whether the goal holds.
         self._goals: dict[str, bool] = {}
 
     @property

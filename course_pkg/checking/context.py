@@ -289,9 +289,9 @@ class CheckContext:
     def prepare(self, code: str, within: float = 5.0) -> None:
         """Run the check's own `code` in the kernel, separately from the student's names.
 
-        The names that `code` defines can be arguments of the student's function: `context.run("close",
-        Its("service"))`. The student's code can modify these objects, so store the data of the check in an
-        object of `place` instead. Raises CheckError if the code fails.
+        The names that `code` defines can be arguments of the student's function, such as `service` in
+        `context.run("close", Its("service"))`. The student's code can modify these objects, so store the data
+        of the check in an object of `place` instead. Raises CheckError if the code fails.
         """
         error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:

@@ -90,7 +90,7 @@ def part(
 
 
 def exercise_of(check: str) -> str:
-    """Return the id of the exercise that a part examines: "05.1" for "05.1" and for "05.1.1"."""
+    """Return the id of the exercise that a part examines, such as "05.1" for "05.1" and for "05.1.1"."""
     return ".".join(check.split(".")[:2])
 
 

@@ -42,7 +42,7 @@ class Assertion:
     hint: str = ""
 
     def details(self) -> list[tuple[str, str]]:
-        """Return the lines about an assertion that does not hold: (label, text)."""
+        """Return a pair (label, text) for each line about an assertion that does not hold."""
         return [
             (label, text)
             for label, text in (

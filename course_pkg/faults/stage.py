@@ -94,7 +94,10 @@ class Stage:
             raise
 
     def symptom(self) -> Seen:
-        """Run the visitor, and return its result. Raises NodeFailed if the visitor does not start."""
+        """Run the program or command that shows the symptom, and return its result.
+
+        Raises NodeFailed if the program does not start.
+        """
         self.expect_visitor()
         visitor, self._visitor = self._visitor, None
         assert visitor is not None

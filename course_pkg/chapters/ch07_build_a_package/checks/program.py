@@ -1,4 +1,7 @@
-"""Assertions about the programs of chapter 07: Linux can execute them, rosrun finds them, and they serve."""
+"""Assertions about the programs of chapter 07.
+
+Linux must be able to execute a program, rosrun must find it, and it must serve its service.
+"""
 
 from __future__ import annotations
 

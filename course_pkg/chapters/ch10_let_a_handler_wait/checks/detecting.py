@@ -20,7 +20,7 @@ SLACK = 1.5  # On a busy machine, a call may take this many s longer.
 LONG = 2.0
 LATER = 0.6  # A customer comes after this many s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
-CHANGE = 2.2  # After this many s, the customers change although no client waits.
+CHANGE = 2.2  # After this many s, the customers at the counter change again.
 # A handler that waits for notifications makes few calls of watch.next(). If a handler does not wait for
 # notifications, and makes fewer calls of watch.next() than this in LONG s, its pauses are too long.
 SELDOM = 8
@@ -328,7 +328,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
 
 
 def _at_once(context: CheckContext, assertion: str, took: float, after: float = 0.0, hint: str = "") -> None:
-    """Assert that the response came immediately after the customer.
+    """Assert that the response came immediately after the customer had come.
 
     The customer came `after` s after the request.
     """

@@ -241,7 +241,7 @@ def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
 def _refusing(
     context: CheckContext, name: str, times: int, volume: float
 ) -> tuple[ScriptedServer, list[float]]:
-    """Start a server that refuses the first calls; return the server and the times of all calls (s)."""
+    """Start a server that refuses its first calls; return the server, and a list of call times (s)."""
     calls: list[float] = []
 
     def act(_: object) -> Refuse | dict[str, float]:

@@ -199,7 +199,7 @@ def _number(text: str) -> float | None:
 def starts_programs(
     context: CheckContext, printed: str, assertion: str = "each node has its own program"
 ) -> None:
-    """Assert that each node in the output of READER runs the program with the node's name."""
+    """Assert that each node in READER's output runs the program that has the same name as the node."""
     for node, started in re.findall(r"^node /(\S+) (.*\S)", printed, re.MULTILINE):
         wanted = f"my_cashier {node}.py" if node in NODES else f"course_pkg {node}"
         context.require(

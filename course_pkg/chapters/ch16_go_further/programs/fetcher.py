@@ -17,7 +17,10 @@ LONGEST = 60.0  # LONGEST is the maximum time in s for a single thing.
 
 
 def fetch(goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
-    """Execute `goal`; stop after the current thing if the goal is cancelled; abort an impossible goal."""
+    """Execute `goal`; a goal with invalid numbers is aborted.
+
+    If the goal is cancelled, the robot stops after the current thing.
+    """
     if goal.things < 0 or not 0.0 <= goal.seconds <= LONGEST:
         server.set_aborted(FetchResult(), f"no robot fetches {goal.things} things in {goal.seconds:g} s each")
         return
