@@ -19,13 +19,13 @@ LAB = "JupyterLab"  # All tests with JupyterLab belong to this group.
 
 
 def pytest_configure() -> None:
-    """Enable the signals that a shell ignores for background commands."""
+    """Reset the handlers of the signals that a shell ignores in background commands."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
-# pytest-xdist uses the same hook to read the groups, so this function must run first.
+# pytest-xdist has a hook of the same name, which reads the groups, so this function must run first.
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put tests into groups. pytest-xdist runs each group on one worker.
@@ -67,7 +67,7 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture(scope="module")
 def master(tmp_path_factory: pytest.TempPathFactory) -> Iterator[PrivateMaster]:
-    """Start a real master on a free port for the tests of one module, and set the variables for it."""
+    """Start a real master for the tests of one module, and set the ROS variables for this master."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_LOG_DIR", str(tmp_path_factory.mktemp("ros")))
         patch.setenv("ROS_HOSTNAME", "localhost")

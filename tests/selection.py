@@ -6,8 +6,8 @@ A test in tests/NAME depends on this folder, on the package course_pkg/NAME, and
 course_pkg/NAME may import. The import-linter contract in pyproject.toml lists these packages. A test of a
 chapter depends on the chapter's folder and on the chapters that the chapter imports.
 
-A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group if the group
-has passed and its files have not changed since then.
+A group contains the tests of one file, or of one file and one chapter. `--changed` omits a group if the files
+on which it depends have not changed since the group passed.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class SelectionPlugin:
     def pytest_collection_modifyitems(self, config: pytest.Config, items: list[pytest.Item]) -> None:
         """Deselect the slow tests. With `--slow`, deselect all other tests.
 
-        With `--changed`, also deselect unchanged groups.
+        With `--changed`, also deselect the tests of unchanged groups.
         """
         named = any("::" in word for word in config.args)
         left = {
@@ -157,9 +157,9 @@ def digest_of(group: str) -> str:
 
 
 def _packages_below(folder: str) -> list[str]:
-    """Return the packages on which a folder of tests depends.
+    """Return the packages on which the folder tests/`folder` depends.
 
-    The result contains the packages in the import layer of the package `folder`, and in all lower layers.
+    These are the packages in the import layer of course_pkg/`folder`, and in all lower layers.
 
     If no package has the name of the folder, return all packages.
     """
@@ -172,7 +172,7 @@ def _packages_below(folder: str) -> list[str]:
 
 
 def chapter_paths(chapter: str) -> Iterator[str]:
-    """Yield the paths on which the tests of a chapter depend; for "", yield the paths of all chapters."""
+    """Yield the paths on which a chapter's tests depend; if `chapter` is "", yield those of all chapters."""
     for number in [chapter] if chapter else chapters():
         yield from (str(folder.relative_to(ROOT)) for folder in folders_for(number))
     for pattern in (f"solutions/{chapter}*", f"notebooks/{chapter}*"):

@@ -167,7 +167,7 @@ class CheckContext:
             self._results.fails(assertion, expected="a server", actual=actual, hint=hint)
         if not probe.answered:
             hint = (
-                "The service is registered, but its server has ended or stopped. Run the cell "
+                "The service is registered, but its server does not respond. Run the cell "
                 "that creates the service again."
             )
             actual = f"a server that is {probe.reach.value}"

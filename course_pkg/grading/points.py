@@ -77,7 +77,7 @@ def read_points(path: Path | None) -> PointsTable:
     if EVERY in given and given[EVERY] != ALL_OR_NOTHING:
         raise _wrong(
             path,
-            f'{EVERY!r} can only be "{ALL_OR_NOTHING}". For other points, write the points of each part.',
+            f'{EVERY!r} can only be "{ALL_OR_NOTHING}". To change the points, write a number for each part.',
         )
     worth = {
         check: _worth(part, given[check], path)

@@ -103,7 +103,9 @@ def _compile(places: Places) -> None:
 
 def _explained(error: OSError, prefix: Prefix) -> SetupError:
     if error.errno == errno.ENOSPC:
-        return SetupError(f"The disk of {prefix.path} is full. Delete other files, and start again.")
+        return SetupError(
+            f"The disk of {prefix.path} is full. Delete files that you do not need, and start again."
+        )
     if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
         return SetupError(
             f"{error.filename or prefix.path} cannot be written ({error.strerror}). Use sudo,"

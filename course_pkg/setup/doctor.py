@@ -96,7 +96,7 @@ def _disk(places: Places) -> Finding:
     advice = (
         ""
         if free > NEEDED or places.environment.exists()
-        else f"Delete other files: a set-up needs {NEEDED >> 20} MB."
+        else f"Delete files that you do not need: a set-up needs {NEEDED >> 20} MB."
     )
     return Finding("disk", f"{free >> 20} MB free for {places.cache}", advice)
 

@@ -65,7 +65,9 @@ class Journal:
     def _failure(self, command: Sequence[str | Path], status: int, start: int) -> SetupError:
         lines = self._tail(start, 400)
         if self._is_full() or any(message in line for line in lines for message in FULL):
-            return SetupError(f"The disk is full ({self.path}). Delete other files, and start again.")
+            return SetupError(
+                f"The disk is full ({self.path}). Delete files that you do not need, and start again."
+            )
         shown = "\n".join(f"  {line}" for line in lines[-TAIL_LINES:])
         name = " ".join(str(part) for part in command if not str(part).startswith("-"))[:80]
         return SetupError(f"`{name}` ended with status {status}:\n{shown}\nThe whole output: {self.path}")

@@ -61,9 +61,7 @@ def ensure(places: Places, *, grade: bool = False, hub: bool = False, test: bool
     except OSError as error:
         raise _explained(error, places) from error
     except KeyboardInterrupt:
-        progress.note(
-            "The set-up was interrupted. The next start continues with the steps that are not done."
-        )
+        progress.note("The set-up was interrupted. The next set-up continues with the unfinished steps.")
         raise
 
 
@@ -158,5 +156,7 @@ def _run_stage(steps: Sequence[Step], journal: Journal, progress: Progress) -> N
 
 def _explained(error: OSError, places: Places) -> SetupError:
     if error.errno == errno.ENOSPC:
-        return SetupError(f"The disk of {places.cache} is full. Delete other files, and start again.")
+        return SetupError(
+            f"The disk of {places.cache} is full. Delete files that you do not need, and start again."
+        )
     return SetupError(f"The set-up stopped: {error}. Correct the cause, and start again.")

@@ -38,7 +38,7 @@ _TABLE: tuple[tuple[str, str, str], ...] = (
     (
         r"no return statement in function returning|control reaches end of non-void",
         "This function must return a value, but the function can end without a return statement.",
-        "Write return true or return false at the end of every branch of the function.",
+        "Write `return true;` or `return false;` at the end of every branch of the function.",
     ),
     (
         r"expected .*[';]",

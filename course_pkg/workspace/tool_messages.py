@@ -156,7 +156,7 @@ FROM_TOOLS: tuple[Row, ...] = (
         r"No module named '(?P<name>\w+)'",
         "",
         "Python cannot find the package {name}.",
-        "Source devel/setup.bash of the package's workspace. If you have done this, look for "
+        "Source devel/setup.bash of the package's workspace. If this does not help, look for "
         "generate_messages in the CMakeLists.txt of the package.",
     ),
     (

@@ -75,13 +75,13 @@ def spot(timeline: Locator, time: float, lane: int) -> tuple[float, float]:
 
 
 def click(page: Page, timeline: Locator, time: float, lane: int) -> None:
-    """Click in the row of the node with the index `lane`, at `time` in s."""
+    """Click at the time `time` (in s) in the row of the node with the index `lane`."""
     x, y = spot(timeline, time, lane)
     drawing(timeline).click(position={"x": x, "y": y})
 
 
 def ticks(timeline: Locator) -> bytes:
-    """Return a picture of the time axis."""
+    """Return a screenshot of the time axis."""
     return timeline.locator("canvas.ros-axis").screenshot()
 
 
@@ -164,7 +164,8 @@ def test_look_up_and_connection_become_bars(page: Page, tmp_path: Path) -> None:
     picture(timeline, "timeline-zoomed")
     box: FloatRect | None = drawing(timeline).bounding_box()
     assert box is not None
-    share = (0.2 / LENGTH + EDGE) / (1 + 2 * EDGE)  # The zoom does not move the start of the look-up.
+    # Before and after the zoom, the look-up starts at this fraction of the width.
+    share = (0.2 / LENGTH + EDGE) / (1 + 2 * EDGE)
     wide = box["width"] / (LENGTH * (1 + 2 * EDGE)) * 2**7 * 0.001
     assert wide > 50
     y = spot(timeline, 0, 2)[1]
@@ -198,7 +199,7 @@ def test_wheel_and_drag(page: Page, tmp_path: Path) -> None:
 
 
 def test_the_same_as_a_table(page: Page, tmp_path: Path) -> None:
-    """A table lists all events, and sentences describe the nodes."""
+    """The page describes each node in sentences, and lists all events in a table."""
     timeline = show(page, tmp_path, recording())
     expect(timeline.get_by_text("/customer waited for /cashier on /detect: 500 ms.")).to_be_visible()
     expect(timeline.get_by_text("/robot published 19 messages on /joints")).to_be_visible()

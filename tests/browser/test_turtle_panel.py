@@ -89,7 +89,7 @@ def test_without_a_simulator(lab: Lab, lab_page: Page) -> None:
 
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_a_recording_is_played_without_a_kernel(page: Page, tmp_path: Path, theme: str) -> None:
-    """A saved recording first shows its last moment, and the reader can play the recording."""
+    """A saved page first shows the end of the recording, and the reader can play the recording."""
     widget = TurtlePanel()
     widget.publish(recorded=recorded().state())
     page.set_viewport_size({"width": 390, "height": 900})

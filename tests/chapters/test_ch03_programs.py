@@ -150,7 +150,7 @@ def test_number_of_waiting_calls_is_limited() -> None:
 def test_calls_fail_without_a_camera_and_recover(camera: NodeProcess, detector: NodeProcess) -> None:
     """Calls fail after the camera is killed, and succeed again with a new camera.
 
-    The numbers of the new camera's customers are higher than all earlier numbers.
+    After the camera starts again, new customers have higher numbers than all earlier customers.
     """
     first = let_in(0.0).first
     assert detect(patience=10.0).number == first
@@ -314,10 +314,10 @@ def test_the_nodes_wait_for_a_master(name: str, monkeypatch: pytest.MonkeyPatch)
 
 @pytest.mark.parametrize("name", ["shop_camera", "detector", "cashier", "polled_camera"])
 def test_an_end_that_comes_during_the_start(name: str, master: PrivateMaster) -> None:
-    """After Ctrl-C during the start, a node exits and is not registered."""
+    """If Ctrl-C arrives during the start, a node exits and is not registered."""
     client = MasterClient(master.uri)
     with NodeProcess(["rosrun", "course_pkg", name, f"__name:=new_{name}"]) as process:
-        # The next condition becomes true during init_node().
+        # The node registers at the master during init_node(), so SIGINT arrives during the start.
         eventually(partial(client.lookup_node, f"/new_{name}"), interval=0.001)
         os.kill(process.pid, signal.SIGINT)
         assert process.wait(20) == 0

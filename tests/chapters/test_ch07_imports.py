@@ -30,7 +30,10 @@ class Replying:
         self.reply = reply
 
     def command(self, *_argv: str, within: float, worded: str) -> Finished:
-        """Return the result of a command. A time in `reply` is a fraction of the time limit `within`."""
+        """Return `reply` as the result of a command.
+
+        The times in `reply` are fractions of `within`, the time limit in s.
+        """
         times = {name: value * within for name, value in self.reply.items() if isinstance(value, float)}
         assert worded == "import server.py"
         return Finished({**self.reply, **times, "took": within})
@@ -39,7 +42,7 @@ class Replying:
 def imported(**reply: float | int | str | None) -> CheckContext:
     """Check that a script can be imported; return the check's context.
 
-    A fake returns `reply` as the result of the import.
+    No script runs: the check receives `reply` as the result of the import.
     """
     context = CheckContext("07.4", cast("Channel", None), cast("Node", None), 1)
     folder = cast("Folder", Replying(dict(reply)))
@@ -81,7 +84,7 @@ def folders(tmp_path: Path) -> Iterator[CommandFolders]:
 
 
 def test_the_times_of_a_command_that_was_still_running_are_known(folders: CommandFolders) -> None:
-    """A sleeping command uses no CPU time, but a computing command uses CPU time."""
+    """The result of a command that reached its time limit contains its CPU time."""
     number = folders.folder([], {})["folder"]
     assert isinstance(number, int)
     sleeping = Finished(folders.run(["sleep", "60"], number, 1.0))

@@ -193,7 +193,7 @@ def test_reset_closes_the_switch_with_an_empty_response() -> None:
 
 
 def test_log_level_debug_shows_calls_without_effect(switch: NodeProcess) -> None:
-    """The node logs calls without effect only at the log level debug."""
+    """If a call does not move the switch, the node logs this call only at the log level debug."""
     move(True)
     move(True)
     eventually(lambda: "Opened" in switch.output())
@@ -240,7 +240,7 @@ def test_servers_end_after_ctrl_c(program: str, service: str, master: PrivateMas
 
 @pytest.mark.parametrize("attempt", range(4))
 def test_an_end_that_comes_during_the_start(attempt: int, master: PrivateMaster) -> None:
-    """After Ctrl-C during the start, a server exits and is not registered."""
+    """If Ctrl-C arrives during the start, a server exits and is not registered."""
     with NodeProcess(["rosrun", "course_pkg", "switch"]) as process:
         eventually(lambda: "Serving" in process.output(), interval=0.001)
         os.kill(process.pid, signal.SIGINT)

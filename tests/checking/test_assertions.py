@@ -60,9 +60,9 @@ def test_hint_of_the_first_matching_condition() -> None:
 
 
 def test_assertion_is_reported_once_and_may_fail_later() -> None:
-    """The report shows an assertion about three inputs as one line.
+    """If a check uses an assertion several times, the report contains the assertion once.
 
-    The assertion fails if one input fails.
+    An assertion that fails once fails for the whole check.
     """
     results = Results()
     results.passes("a")

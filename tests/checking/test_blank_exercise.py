@@ -33,7 +33,7 @@ def made(source: str, name: str = "it", *, keep_source: bool = True) -> Value:
     ],
 )
 def test_stubs(source: str) -> None:
-    """A function, class or variable with only a docstring and `...` is blank."""
+    """A function with only a docstring or `...`, a class of such functions, and the value `...` are blank."""
     assert is_blank(made(source))
 
 
@@ -57,6 +57,6 @@ def test_attempts(source: str) -> None:
 
 
 def test_without_source_the_code_decides() -> None:
-    """Without the source, a function counts as blank if its code does nothing."""
+    """If the source of a function is not available, the function is blank if its code does nothing."""
     assert is_blank(made("def it(x):\n    ...", keep_source=False))
     assert not is_blank(made("def it(x):\n    return x + 1", keep_source=False))

@@ -53,7 +53,7 @@ def report(notebook: NotebookKernel, part: str = "05.1") -> str:
 
 
 def test_class_that_serves_in_init(notebook: NotebookKernel) -> None:
-    """A class that creates its service in __init__ passes, and the student's own object still responds."""
+    """A class that creates its service in __init__ passes; after the check, the student's object responds."""
     notebook.run(SWITCH, "class")
     notebook.run("switch = Switch()", "object")
     for _ in range(2):
@@ -84,8 +84,8 @@ def test_service_with_the_former_handler(notebook: NotebookKernel) -> None:
     notebook.run(HANDLER.replace("area *", "2 * area *"), "handler")
     text = " ".join(report(notebook).split())
     assert text == (
-        "05.1 not examined A version of handle_geometry that is older than the last run of its cell answers "
-        "the calls of /getGeometry. Run the cell that creates the service, and then run this cell "
+        "05.1 not examined The service /getGeometry uses a version of handle_geometry that is older than "
+        "the last run of its cell. Run the cell that creates the service, and then run this cell "
         "again."
     )
     notebook.run(SERVICE, "service")
@@ -104,7 +104,7 @@ def test_function_that_its_cell_no_longer_defines(notebook: NotebookKernel) -> N
     """If the student renames a function, the report says that the old name is from an earlier run."""
     notebook.run(HANDLER, "handler")
     notebook.run(HANDLER.replace("handle_geometry", "handle_box"), "handler")
-    assert "This last run did not define handle_geometry." in " ".join(report(notebook).split())
+    assert "because this run did not define handle_geometry." in " ".join(report(notebook).split())
 
 
 ENDLESS = """

@@ -96,5 +96,5 @@ def test_tests_of_a_chapter_depend_on_what_it_imports() -> None:
 
 
 def test_check_client_waits_longer_than_every_deadline() -> None:
-    """The kernel waits longer for the result than the longest deadline of a check."""
+    """The kernel's time limit for the result is longer than the deadline of every check."""
     assert max(part.deadline for part in every_part()) * MOST < TIMEOUT

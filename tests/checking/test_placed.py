@@ -38,7 +38,7 @@ class Drawer:
 
     @remote
     def add(self, count: int, *, twice: bool = False) -> int:
-        """Add `count` to `things`; with `twice`, add it two times."""
+        """Add `count` to `things`, or add it two times if `twice` is true; return the sum."""
         self.threads.add(threading.get_ident())
         self.things += count * (1 + twice)
         return self.things
@@ -162,7 +162,7 @@ def test_a_changed_class_changes_nothing_in_the_real_object(placed: PlacedObject
 def test_an_error_comes_with_its_class_and_text(placed: PlacedObjects, drawer: Drawer) -> None:
     """If the method raises a built-in error, the kernel gets an error of the same class.
 
-    Any other error gets a new class with the same name.
+    For an error that is not built in, the kernel creates a class with the same name.
     """
     other = proxy(placed, drawer)
     with pytest.raises(KeyError, match="the drawer is stuck"):

@@ -44,7 +44,7 @@ assert (folder / "05.1.json").read_text() == before
 
 @pytest.fixture
 def record(tmp_path: Path) -> StudentRecord:
-    """Return a record in a folder that does not exist."""
+    """Return an empty record; its folder does not exist yet."""
     return StudentRecord(tmp_path / "state" / "results")
 
 

@@ -42,7 +42,7 @@ def test_failure_contains_call_expected_and_actual_value_and_hint() -> None:
 
 
 def test_a_failure_starts_with_what_is_right_and_then_names_one_thing_to_fix() -> None:
-    """A failure first shows the assertions that hold, then what to correct, and then the goal."""
+    """The report on a failure shows the assertions that hold, then what to correct, and then the goal."""
     lines = str(FAILED).splitlines()
     assert lines[:4] == [
         "05.1 not yet: 0 of 2 points",
@@ -72,7 +72,7 @@ def test_a_part_that_is_not_attempted_has_one_thing_to_do() -> None:
 
 
 def test_the_html_of_a_pass_has_no_heading() -> None:
-    """The HTML of a pass does not change, because the stored solutions contain this HTML."""
+    """The report on a pass has the same HTML as in the stored solutions, without a heading."""
     report = Report("05.1", Verdict.PASSED, "Answer.", 2, 2, FAILED.assertions[:1])
     assert report.html() == (
         '<section class="course-report" style="border-left:4px solid #2e7d32;padding:0.2em 1em">'

@@ -1,6 +1,6 @@
 """Tests of the command `course class`.
 
-It prints one clear message for each wrong input, and loses no results after SIGKILL.
+The command prints one clear message for each wrong input, and SIGKILL does not delete stored results.
 """
 
 from __future__ import annotations

@@ -117,5 +117,5 @@ def test_a_hub_that_does_not_answer_is_not_a_refusal(tmp_path: Path) -> None:
 
 
 def test_without_a_hub_there_is_no_hub() -> None:
-    """The environment variables of a user's server are not sufficient to run as a service of the hub."""
+    """In a user's server, the variables of a hub's service are missing, and HubService.of() returns None."""
     assert HubService.of({"JUPYTERHUB_API_TOKEN": "x", "JUPYTERHUB_API_URL": "x"}) is None

@@ -74,7 +74,7 @@ def test_the_page_follows_the_class(browser: Browser, tmp_path: Path) -> None:
 def test_the_page_is_accessible_and_fits(browser: Browser, tmp_path: Path, colours: Colours) -> None:
     """axe-core finds no problem, no script in a result runs, and nothing overflows.
 
-    The page is tested without results and with results.
+    The test opens the page before any result was sent, and after a class has sent results.
     """
     with serving(tmp_path, 8) as url:
         for state in ("empty", "class"):

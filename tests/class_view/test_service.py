@@ -1,7 +1,4 @@
-"""Tests of the service.
-
-They test the permissions to send and see results, the stored results, and the data for the page.
-"""
+"""Tests of the service: permissions to send and see results, stored results, and the data for the page."""
 
 from __future__ import annotations
 
@@ -77,7 +74,7 @@ def test_bad_requests_are_refused(tmp_path: Path, body: object, status: int) -> 
 def test_what_is_not_a_result_is_left_out(tmp_path: Path) -> None:
     """The service stores only the valid results of a request.
 
-    Its response lists all ids, so that the sender can delete the invalid results too.
+    The response lists the ids of all results, so that the sender can delete the invalid results too.
     """
     wrong = [
         *({"id": "a"}, result("b", check="../x"), result("c", verdict="best"), result("d", time="now")),

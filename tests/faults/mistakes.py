@@ -13,9 +13,9 @@ from dataclasses import dataclass
 class Shows:
     """The symptom of a fault.
 
-    `said` must occur in the client's output, and `server` in the server's output. If `hangs` is true, the
-    client waits forever. `cause` must occur in the explanation from `explain`; "" means that there is no
-    explanation.
+    The client's output must contain `said`, and the server's output must contain `server`. If `hangs` is
+    true, the client waits forever. The explanation from `explain` must contain `cause`; if `cause` is "",
+    there is no explanation.
     """
 
     fault: str
@@ -29,8 +29,8 @@ class Shows:
 class Builds:
     """A mistake that makes a build fail.
 
-    `slip` is the name of the wrong build in test_mistakes.py. `said` must occur in the build's output, and
-    `cause` in the explanation.
+    `slip` is the name of the wrong build in test_mistakes.py. The build's output must contain `said`, and the
+    explanation of this output must contain `cause`.
     """
 
     slip: str

@@ -114,7 +114,7 @@ def test_a_mistake_in_a_build_is_explained(built: Builds, workspace: Path, tmp_p
 
 
 def test_two_cases_run_on_one_graph(master: PrivateMaster) -> None:
-    """Two cases can run at the same time in different namespaces."""
+    """Two faults can be caused at the same time in different namespaces."""
     client = MasterClient(master.uri)
     with caused("stale") as one, caused("returns_none") as other:
         assert one.namespace != other.namespace

@@ -34,7 +34,7 @@ def nodes(master: PrivateMaster) -> list[str]:
 
 @pytest.mark.parametrize("name", ["stale", "stopped", "hung_master", "two_providers"])
 def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, name: str) -> None:
-    """After SIGKILL of the kernel, the processes, registrations and folders of its open case are removed."""
+    """If the kernel that caused a fault is killed, the fault's processes, nodes and folder are removed."""
     (folder,) = kernel.run(CAUSE.format(names=[name]))
     pids = descendants(kernel.pid)
     assert pids
@@ -45,7 +45,7 @@ def test_a_killed_kernel_leaves_nothing(master: PrivateMaster, kernel: Kernel, n
 
 
 def test_a_kernel_that_ends_undoes_its_case(master: PrivateMaster, kernel: Kernel) -> None:
-    """When a kernel ends, the nodes of its case end."""
+    """When a kernel that caused a fault exits, the nodes of the fault exit too."""
     kernel.run(CAUSE.format(names=["stale"]))
     assert nodes(master)
     kernel.exit()
@@ -90,7 +90,7 @@ def test_a_fault_can_be_repaired_by_hand(master: PrivateMaster) -> None:
 
 
 def test_the_tools_show_the_real_state(master: PrivateMaster) -> None:
-    """Each tool shows the output of a real command."""
+    """After the server was killed, each tool shows the real state of the graph."""
     assert master.uri
     with caused("stale") as stage:
         said = {tool: probe(stage, tool).said for tool in TOOLS if tool != "again"}

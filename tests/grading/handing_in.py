@@ -38,7 +38,7 @@ def folder(root: Path, files: Mapping[str, bytes]) -> Path:
 
 
 def zipped(path: Path, files: Mapping[str, bytes], **changes: int | str | bytes) -> Path:
-    """Write `files` into a zip. `changes` are attributes of each ZipInfo."""
+    """Write `files` into a zip. `changes` contains attributes that are set in each ZipInfo."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, content in files.items():
             member = zipfile.ZipInfo("placeholder", (2026, 1, 1, 0, 0, 0))

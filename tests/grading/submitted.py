@@ -25,7 +25,7 @@ def hand_in(
 ) -> Path:
     """Write a student's notebook that contains the solution of a chapter.
 
-    `answers` maps parts to different answers; for "", the exercise is blank.
+    `answers` maps parts to other answers; if an answer is empty, the exercise is blank.
     """
     notebook = reference(chapter)
     for cell in code_cells(notebook):

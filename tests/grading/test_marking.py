@@ -45,7 +45,7 @@ BREAKERS = {
         "import os, xmlrpc.client\nhandle_geometry = 1\n"
         'xmlrpc.client.ServerProxy(os.environ["ROS_MASTER_URI"]).shutdown("/x", "")'
     ),
-}  # Each key describes what the student's program does or sends.
+}  # Each value is a student's program; its key describes how the program disturbs the check.
 
 
 @pytest.fixture(scope="module")
@@ -161,7 +161,7 @@ def test_answer_may_use_cells_above(worker: SandboxWorker, tmp_path: Path) -> No
 
 
 def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
-    """A deleted exercise loses only its own points; the other exercises keep theirs."""
+    """If an exercise was deleted, only the points of this exercise are lost."""
     path = hand_in(tmp_path, "s01")
     notebook = json.loads(path.read_text())
     gone = next(cell for cell in code_cells(notebook) if "def handle_checked" in cell["source"])
@@ -174,7 +174,7 @@ def test_notebook_without_a_cell(worker: SandboxWorker, tmp_path: Path) -> None:
 
 
 def test_what_is_no_notebook_earns_nothing_and_says_why(worker: SandboxWorker, tmp_path: Path) -> None:
-    """For a file that is not a notebook, the grade contains each part with the reason."""
+    """For a file that is not a notebook, each part has no points and a note with the reason."""
     path = tmp_path / "05.ipynb"
     path.write_text("<html>not a notebook</html>")
     grade = graded(worker, path)

@@ -27,7 +27,7 @@ MINE = ("07.1", "07.2", "07.3", "07.4", "07.5", "07.6", "07.7")
 
 @pytest.fixture(scope="module")
 def seven() -> Plan:
-    """Return the plan of chapter 07."""
+    """Return the plan for grading chapter 07."""
     return plan("07")
 
 
@@ -93,7 +93,7 @@ def test_a_file_that_is_not_in_the_package(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_package_and_no_notebook(tmp_path: Path, seven: Plan) -> None:
-    """The parts of the package are examined. The reports on all other parts say that there is no notebook."""
+    """The parts that need the package are examined. All other reports say that there is no notebook."""
     write_package(tmp_path, "s01/my_geometry", my_geometry())
     grade = graded(tmp_path, seven, Jobs())
     assert [check for check, each in verdicts(grade).items() if each is Verdict.PASSED] == list(MINE)
@@ -111,7 +111,7 @@ def test_a_notebook_that_cannot_be_read(tmp_path: Path, seven: Plan) -> None:
 
 
 def test_a_grade_belongs_to_one_state_of_the_package(tmp_path: Path) -> None:
-    """If a file of the package is removed or loses a permission, the key of the grade changes."""
+    """If a file of the package is removed or loses a permission, the grade is stored with another key."""
     package = write_package(tmp_path, "s01/my_geometry", my_geometry())
     keys = set()
     for change in (lambda: None, lambda: (package / SERVER).chmod(0o644), (package / "README.md").unlink):
@@ -139,14 +139,14 @@ def test_the_solution_as_a_package_earns_full_marks(
 
 
 def only_part(planned: Plan, check: str) -> Plan:
-    """Return the plan of one part."""
+    """Return a plan that contains only the part `check`."""
     return Plan(
         planned.chapter, planned.rebuilder, tuple(each for each in planned.parts if each.part.check == check)
     )
 
 
 def test_a_wrong_server_in_a_package_loses_points(tmp_path: Path, seven: Plan, worker: SandboxWorker) -> None:
-    """A package with a wrong server fails the part that examines the server."""
+    """If the server in a package is wrong, the part that examines the server fails."""
     write_package(tmp_path, "s01/my_geometry", my_geometry({SERVER: NO_SERVER}))
     [report] = graded(tmp_path, only_part(seven, "07.4"), worker).reports
     assert report.verdict is Verdict.FAILED, report

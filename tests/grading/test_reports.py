@@ -158,7 +158,7 @@ def test_gradescope(tmp_path: Path) -> None:
 
 
 def test_canvas(tmp_path: Path) -> None:
-    """The file has Canvas's format, and no grade for missing work."""
+    """The file has Canvas's format, and the cell of a missing submission is empty."""
     canvas = replace(
         _two()[0], student="lastfirst_4711", origin="lastfirst_LATE_4711_99_05_write_a_server.ipynb"
     )
@@ -206,7 +206,7 @@ def test_junit(tmp_path: Path) -> None:
 
 
 def test_feedback_teaches(tmp_path: Path) -> None:
-    """The feedback page shows the assertion, the inputs, both values and the hint."""
+    """The feedback page shows the assertion, the inputs, the expected and the actual value, and the hint."""
     write_reports(_two(), tmp_path)
     page = " ".join("".join(Outline((tmp_path / "feedback/s02.html").read_text()).text).split())
     for words in (
@@ -267,7 +267,7 @@ def test_a_hint_counts_once_for_a_student(tmp_path: Path) -> None:
 
 
 def test_failed_assertion_without_a_hint_is_counted(tmp_path: Path) -> None:
-    """The page also lists failed assertions without a hint."""
+    """The class page lists a failed assertion even if it has no hint."""
     failed = report("05.1", Verdict.FAILED)
     plain = replace(failed, assertions=tuple(replace(rule, hint="") for rule in failed.assertions))
     write_reports([Grade("s01", "05", (plain,))], tmp_path)

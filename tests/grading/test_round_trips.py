@@ -1,7 +1,7 @@
 """Tests of all steps from a platform's submissions to the file that the platform imports.
 
-Sources: Moodle's importgradeslib.php and locallib.php, Canvas's gradebook_importer.rb, and the
-specification of Gradescope's autograder.
+The tests imitate Moodle's importgradeslib.php and locallib.php, and Canvas's gradebook_importer.rb. They also
+follow the specification of Gradescope's autograder.
 """
 
 from __future__ import annotations
@@ -322,7 +322,7 @@ def test_a_roster_can_do_no_harm(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("with_roster", [False, True])
 def test_gradescope(tmp_path: Path, notebook: bytes, with_roster: bool) -> None:
-    """results.json and the table contain the students' names and ids."""
+    """results.json and gradescope.csv contain the students' names and ids."""
     source = folder(
         tmp_path / "in",
         {

@@ -34,7 +34,7 @@ WANTED = Wanted(["05", "06", "07"])
 
 @pytest.fixture
 def homes() -> Iterator[Path]:
-    """Create a folder for home folders that every user can enter."""
+    """Create a folder for home folders; every user can enter this folder."""
     folder = Path(tempfile.mkdtemp(prefix="course-homes-"))
     folder.chmod(0o755)
     yield folder
@@ -150,7 +150,7 @@ def test_only_what_the_student_may_read_is_read(homes: Path, tmp_path: Path) -> 
     anna = add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     ben = add_home(homes, "ben", {"notebooks/06_write_a_client.ipynb": b"2"})
     secret = ben / "ros-course" / "notebooks" / NOTEBOOK
-    # A student can create such a link to another student's file on some file systems.
+    # On some file systems, a student can create a hard link to another student's file.
     os.link(anna / "ros-course" / "notebooks" / NOTEBOOK, secret)
     [home] = [each for each in homes_in(homes) if each.student == "ben"]
     files, problems = read_home(home, "ros-course", WANTED.notebooks, WANTED.packages)
@@ -263,7 +263,7 @@ def test_a_time_that_is_no_date_does_no_harm(homes: Path, tmp_path: Path) -> Non
 
 
 def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """If no student has any work, the command returns 1 and asks for the folder's name."""
+    """If no student has any work, the command returns 1, and a message asks to check the folder's name."""
     add_home(homes, "anna", {}, "other")
     assert run(homes, tmp_path / "out") == 1
     assert "Check that ros-course is the course's folder in each home folder." in capsys.readouterr().out
@@ -272,7 +272,7 @@ def test_no_work_at_all_is_an_error(homes: Path, tmp_path: Path, capsys: pytest.
 def test_a_folder_that_no_collection_made_is_refused(homes: Path, tmp_path: Path) -> None:
     """The collection writes no file to a folder that contains other files."""
     (tmp_path / "thesis.txt").write_text("")
-    with pytest.raises(HandoutError, match=r"did not create it.*Give a new or an empty folder"):
+    with pytest.raises(HandoutError, match=r"Nothing was collected, because .* contains no "):
         run(homes, tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
 
@@ -290,7 +290,7 @@ def test_the_folder_is_inside_of_the_home(folder: str, homes: Path, tmp_path: Pa
 def test_a_list_of_students(
     text: str, homes: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Only the listed students are collected, and a listed student without a home folder is reported."""
+    """Only work of listed students is collected, and a listed student without a home folder is reported."""
     (tmp_path / "students").write_text(text)
     add_home(homes, "anna", {f"notebooks/{NOTEBOOK}": b"1"})
     add_home(homes, "teacher", {f"notebooks/{NOTEBOOK}": b"1"})

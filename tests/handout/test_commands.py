@@ -14,7 +14,7 @@ def test_chapters_have_two_digits() -> None:
 
 
 def test_a_path_and_chapters_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
-    """A path and `--chapters` cannot be used together."""
+    """`--path` and `--chapters` cannot be used together."""
     with pytest.raises(SystemExit):
         parse(["release", "out", "--chapters", "05", "--path", "The lab session"])
     assert "not allowed with argument" in capsys.readouterr().err

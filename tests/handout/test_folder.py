@@ -147,7 +147,7 @@ def test_without_git_the_same_files_are_found(tmp_path: Path) -> None:
 
 
 def test_paths_and_chapters() -> None:
-    """A path is selected by its name, and the error message for an unknown path lists all names."""
+    """A learning path is selected by its name; for an unknown name, the error message lists all names."""
     assert chosen_chapters("the lab session") == chosen_chapters("Lab-Session") == ("00", "05", "06", "07")
     assert chosen_chapters("The turtle tutorial") == ("00", "02", "05", "06", "07", "09", "13", "14")
     assert chosen_chapters("The whole course") == chosen_chapters()
@@ -161,7 +161,7 @@ def test_paths_and_chapters() -> None:
 def test_the_link_for_nbgitpuller() -> None:
     """The link for nbgitpuller contains the repository, the branch and the notebook.
 
-    The format is described in nbgitpuller's documentation.
+    nbgitpuller's documentation describes the format of such a link.
     """
     link = urlsplit(pull_link(HUB, REPOSITORY, "main", "notebooks/05_write_a_server.ipynb"))
     assert (link.netloc, link.path) == ("hub.example.edu", "/hub/user-redirect/git-pull")
@@ -184,7 +184,7 @@ def test_an_address_that_nbgitpuller_cannot_use_is_refused(hub: str, repository:
 def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
     """The record in the folder lists the released chapters.
 
-    If a folder has neither this record nor solutions, the error message says that the solutions are needed.
+    If a folder has neither a record nor solutions, the error message says that the solutions are needed.
     """
     assert released_chapters(tmp_path) is None
     with pytest.raises(SetupError, match=r"there are none in .*solutions.* Get this folder"):
@@ -196,7 +196,7 @@ def test_which_edition_a_folder_holds(tmp_path: Path) -> None:
 
 
 def test_a_packed_module_is_the_same_module(tmp_path: Path) -> None:
-    """A packed module has the same names, but a text search does not find its source."""
+    """A module that pack() has encoded defines the same names, but a search does not find its text."""
     source = '"""Text."""\n\nfrom __future__ import annotations\n\nANSWER = "lock order"\n'
     module: dict[str, object] = {"__file__": "x.py", "__name__": "x"}
     exec(compile(pack(source), "x.py", "exec"), module)  # noqa: S102 -- it is the text above

@@ -59,7 +59,7 @@ def answers(edition: Path) -> dict[str, list[str]]:
 
 
 def test_no_file_contains_the_answer_to_an_exercise(edition: Path) -> None:
-    """No released file contains a solution, except in lines that a goal of an exercise shows."""
+    """No released file contains a solution; only lines that the exercise's goal contains are allowed."""
     wanted = {part: lines for part, lines in answers(edition).items() if lines}
     assert len(wanted) > 95
     found = {}
@@ -173,12 +173,12 @@ def test_a_check_passes_a_right_answer(edition: Path, master: PrivateMaster, tmp
 
 
 def test_some_chapters(tmp_path: Path) -> None:
-    """--chapters releases only these notebooks, and README contains no links to other notebooks."""
+    """--chapters releases only the given chapters, and README contains no links to other notebooks."""
     edition = make_release(tmp_path / "some", chapters=("05", "06"))
     names = [path.name for path in sorted((edition / "notebooks").iterdir())]
     assert names == ["05_write_a_server.ipynb", "06_write_a_client.ipynb"]
     text = (edition / "README.md").read_text("utf-8")
-    assert "It has chapters 05 and 06." in text
+    assert "This edition has chapters 05 and 06." in text
     assert re.findall(r"^\| (\d\d) \|", text, re.MULTILINE) == ["05", "06"]
     linked = {name for path in (edition / "notebooks").iterdir() for name in links(read(path))}
     assert linked <= set(names)

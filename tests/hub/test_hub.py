@@ -57,7 +57,7 @@ def address(folder: Path) -> Iterator[str]:
 def test_a_student_logs_in_once_and_passes_a_check(address: str, folder: Path) -> None:
     """The password can be used only once; the server has the released notebooks.
 
-    A check passes in a kernel.
+    In a kernel of the student's server, a check passes.
     """
     password = passwords(folder)["anna"]
     with Student(address, "anna") as anna:

@@ -1,7 +1,4 @@
-"""Tests of a hub on a machine that lacks something.
-
-The machine has no private networks, no free disk space, or no home folder of a student.
-"""
+"""Tests of a hub on a machine without private networks, free disk space or a student's home folder."""
 
 from __future__ import annotations
 
@@ -23,7 +20,7 @@ from tests.hub.running import hub, passwords
 from tests.hub.student import Student
 from tests.support import terminal
 
-# A new user namespace has its own limits for namespaces, and a new mount namespace has its own mounts.
+# This script runs in new namespaces, so it does not change the limits and mounts of the machine.
 POOR = """
 echo 0 > /proc/sys/user/max_user_namespaces
 echo 0 > /proc/sys/user/max_net_namespaces
@@ -77,9 +74,9 @@ def test_a_full_disk_is_named_on_the_students_page(address: str, folder: Path) -
 
 
 def test_a_missing_home_is_reported_for_this_student_only() -> None:
-    """The test uses an account without a home folder, such as `nobody` on Debian.
+    """An account without a home folder, such as `nobody` on Debian, causes a problem.
 
-    The account that runs this test has a home folder and gets no message.
+    The account that runs this test has a home folder, so it causes no problem.
     """
     missing = next(each for each in pwd.getpwall() if not os.path.exists(each.pw_dir))
     own = pwd.getpwuid(os.getuid()).pw_name
@@ -99,7 +96,7 @@ def test_a_shared_installation_keeps_the_passwords(tmp_path: Path) -> None:
 def test_a_certificate_is_for_the_name_that_students_type(tmp_path: Path) -> None:
     """The certificate contains the machine's name as a subjectAltName.
 
-    Students type this name in the address if a hub listens on all addresses.
+    If a hub listens on 0.0.0.0, students use the machine's name in the hub's URL.
     """
     assert reached_at("127.0.0.1") == "127.0.0.1"
     assert reached_at("0.0.0.0") == socket.getfqdn()  # noqa: S104 -- no server listens here

@@ -71,7 +71,7 @@ def test_a_control_group_gets_the_limits(tmp_path: Path) -> None:
 
 
 def test_without_control_groups_rlimits_hold(tmp_path: Path) -> None:
-    """The text for the teacher says which mechanism limits the servers."""
+    """Without control groups, describe() returns a text about rlimits, and rlimits limit the memory."""
     assert limits.group_of_hub(tmp_path) is None
     assert "rlimits" in limits.describe(LIMITS, None, own_account=True)
     program = "from tests.hub.test_parts import *; limits.set_rlimits(LIMITS, True); bytearray(400 << 20)"
@@ -110,7 +110,7 @@ def test_the_proxy_is_pinned() -> None:
 def test_the_files_for_containers_can_be_read() -> None:
     """The files for Kubernetes and Docker contain a memory limit and start JupyterLab.
 
-    The test does not start a container.
+    This test only reads the files, and starts no container.
     """
     deploy = Path(__file__).parents[2] / "deploy"
     values = yaml.safe_load((deploy / "kubernetes" / "values.yaml").read_text())

@@ -1,11 +1,12 @@
 """Tests of the container image.
 
-They build the image without an existing base image, and run the quick tests of the suite in a container of
-the new image.
+The tests build the image without an existing base image, and run the quick tests of the suite in a container
+of the new image.
 
-mmdebstrap creates the base, and buildah runs the Dockerfile in a chroot, so the test needs no registry. All
-files are in a temporary folder, which needs 4 GB and is removed at the end; COURSE_IMAGE_FOLDER selects its
-parent folder.
+mmdebstrap creates the base, and buildah runs the Dockerfile in a chroot, so the test needs no registry.
+
+The image and its container need 4 GB in a temporary folder, which is removed at the end. The variable
+COURSE_IMAGE_FOLDER selects the parent folder of this temporary folder.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ class Image:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        # If this machine uses a proxy or a mirror, the container also needs its address.
+        # The container uses the certificates and the local package indexes of this machine.
         settings = [Path("/etc/ssl/certs/ca-certificates.crt"), folder / "pip.conf"]
         self._volumes = [
             f"--volume={settings[0]}:{settings[0]}:ro",
@@ -139,7 +140,7 @@ def image() -> Iterator[Image]:
 
 
 def test_jupyterlab_and_ros_are_on_the_path_of_an_ordinary_user(image: Image) -> None:
-    """Binder starts python3 to import jupyterlab, and then starts jupyter-lab. No set-up runs."""
+    """Without a set-up, python3 can import jupyterlab, and jupyter-lab and ROS can be started."""
     seen = image.run(
         "id -un; command -v jupyter-lab; python3 -c 'import jupyterlab'; ./course run rosnode list"
     )
@@ -155,7 +156,7 @@ def test_the_course_works_without_namespaces(image: Image) -> None:
 
 
 def test_the_course_works_with_namespaces(image: Image) -> None:
-    """The same tests pass with namespaces, and the sandbox checks answers of two chapters."""
+    """In a container with namespaces, the quick tests pass, and the sandbox checks answers."""
     image.run_with_namespaces("unshare -Urn true")
     assert "passed" in image.run_with_namespaces(f"{PYTEST} {QUICK} {STARTED}")
     assert "passed" in image.run_with_namespaces(f"{PYTEST} {ANSWERS}")

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 def make_version(prefix: Path) -> Path:
     """Write a version with the notebooks of two chapters to `prefix`, and return its folder.
 
-    Its catkin workspace is a link to the workspace of this checkout, so the test needs no build.
+    The catkin workspace of the version is a link to the workspace of this checkout, so tests need no build.
     """
     version, built = prefix / "versions" / "1", Places.of().cache
     checkout = version / "course"

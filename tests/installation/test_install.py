@@ -58,9 +58,9 @@ def test_an_upgrade_keeps_a_version_that_is_in_use(prefix: Prefix) -> None:
 
 
 def test_an_uninstall_removes_what_the_installation_made(prefix: Prefix) -> None:
-    """Even without --bin, the uninstall finds and removes the links.
+    """Even without --bin, uninstall() finds and removes the links.
 
-    It does not remove files of other programs.
+    uninstall() does not remove files of other programs.
     """
     (prefix.bin / "other").touch()
     assert uninstall(prefix.path, force=False) == 0
@@ -104,7 +104,7 @@ def test_unfit_prefixes_are_refused(tmp_path: Path) -> None:
 def test_a_full_disk_leaves_the_current_version(
     prefix: Prefix, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """The installer removes the new version, and `course` still starts the old version."""
+    """If the disk is full, the installer removes the new version, and `course` still starts the old one."""
     edition = tmp_path / "edition"
     edition.mkdir()
     for name in ("package.xml", "course"):

@@ -30,7 +30,7 @@ def test_an_upgrade_adds_notebooks_and_never_overwrites_the_users_work(
 ) -> None:
     """An upgrade adds new notebooks, and replaces notebooks that the user has not changed.
 
-    For a changed notebook, it prints one message and keeps the user's version.
+    If the user has changed a notebook, the upgrade prints one message and keeps the user's version.
     """
     make_own_files(places)
     (places.own / "notebooks" / "05.ipynb").write_text("my work")

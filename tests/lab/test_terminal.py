@@ -81,7 +81,8 @@ def terminal(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
             request = Request(f"http://{parts.netloc}/api/terminals", data=b"", headers=headers)
             urlopen(request, timeout=20).close()  # noqa: S310
             shells = eventually(lambda: having(b"bash\0--rcfile\0", below(process)))
-            terminal = Terminal(min(shells))  # While the shell starts, it has child processes with this name.
+            # A shell that starts has child processes with the same command line, but with higher ids.
+            terminal = Terminal(min(shells))
             rosout = eventually(lambda: having(b"rosout/rosout\0", below(process)))
             assert rosout  # If a test starts another node /rosout, the master's own /rosout exits.
             try:
@@ -144,7 +145,7 @@ def test_a_package_is_built_sourced_and_run(terminal: Terminal) -> None:
 
 
 def test_roscore_starts_a_new_master_after_the_lab_master_has_ended(terminal: Terminal) -> None:
-    """If the master of the lab is killed, roscore starts a new master at the same address, with /rosout."""
+    """If the master of the lab is killed, roscore starts a new master and /rosout at the same address."""
     master = "python3 -c 'from course_pkg.ros import *; print(MasterClient(master_uri()).pid())'"
     former = int(terminal.run(master))
     os.kill(former, signal.SIGKILL)

@@ -72,7 +72,7 @@ def test_fulfilled_goals_are_counted() -> None:
 def test_parts_points_and_predictions_are_counted() -> None:
     """The overview counts passed parts, points and predictions.
 
-    Only predictions that the student made before the comparison count.
+    A prediction without an answer, such as 05.late, does not count.
     """
     store("passed", "05.1", "05.2")
     store("not yet", "05.2", "05.3")

@@ -202,7 +202,7 @@ def test_each_panel_is_one_module_without_imports(entry: Path) -> None:
 
 
 def test_there_are_panels_to_join() -> None:
-    """The build finds the script of each of these panels."""
+    """The build finds the scripts of the panels."""
     panels = {"choices", "graph", "prediction", "service", "timeline", "topic", "turtles"}
     assert panels <= {entry.stem for entry in ENTRIES}
 

@@ -26,7 +26,7 @@ CHOICES = ("an empty reply", "an error", "it waits for ever")
 
 @pytest.fixture
 def store(tmp_path: Path) -> PredictionStore:
-    """Return a store in a folder that does not exist."""
+    """Return an empty store of predictions; its folder does not exist yet."""
     return PredictionStore(tmp_path / "state" / "predictions.json")
 
 
@@ -166,7 +166,7 @@ def test_the_widgets_show_what_is_stored(store: PredictionStore) -> None:
 
 @pytest.fixture
 def choice_store(tmp_path: Path) -> ChoiceStore:
-    """Return a store of choices in a folder that does not exist."""
+    """Return an empty store of choices; its folder does not exist yet."""
     return ChoiceStore(tmp_path / "state" / "choices.json")
 
 
@@ -212,7 +212,7 @@ def test_choices_cannot_change_while_the_reasons_are_shown(choices_model: Choice
 
 
 def test_the_first_time_counts(choices_model: ChoicesModel) -> None:
-    """A second attempt does not change the stored first choice."""
+    """If the student makes new choices after again(), the stored first choices do not change."""
     decide(choices_model, "a topic", "a topic", "a service")
     assert choices_model.compare().fit == 1
     assert choices_model.again().shown is False

@@ -132,7 +132,7 @@ def test_a_deadline_is_a_number_of_seconds(harness: Harness, deadline: str) -> N
 
 
 def test_the_commands_follow_the_draft(harness: Harness) -> None:
-    """Both commands contain the typed values. With a wrong value, there are no commands."""
+    """Both commands contain the typed values. If a value is wrong, the panel shows no commands."""
     harness.model.edit(GOOD)
     check = harness.state["check"]
     assert check["shell"] == "rosservice call /getGeometry 1.2 5.2 8.9"

@@ -203,7 +203,7 @@ def test_a_picture_is_complete(name: str) -> None:
 
 
 def test_values_that_differ_in_each_run_are_left_out() -> None:
-    """A kind of picture without the attribute `measured` contains no port, time of day or process id."""
+    """Pictures contain no port, time of day or process id; only two kinds of pictures show measured times."""
     graph = STILLS["graph"].draw(graph_state())
     assert "1700000000000" not in graph
     assert "1 topic" in graph

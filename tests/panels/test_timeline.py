@@ -145,7 +145,7 @@ def test_the_state_is_bounded() -> None:
 
 
 def test_too_many_calls() -> None:
-    """If there are too many calls, the first calls are shown."""
+    """If there are too many events, only the first events are shown, and a note contains the numbers."""
     calls = [event for n in range(1000) for event in call(f"call {n}", float(n))]
     kept = state(recording(*calls, length=1001.0))
     assert len(kept["columns"]["kind"]) == MOST
@@ -207,7 +207,7 @@ def test_in_plain_sentences() -> None:
 
 
 def test_messages_without_a_subscriber() -> None:
-    """The description says whether a message had no subscriber."""
+    """If no node received a message, the description says whether a subscriber was connected."""
     (sent,) = message(1, 1.0)
     assert timeline_text(recording(sent)).endswith("no recorded node received it.")
     lost = replace(sent, note="no subscriber was connected")

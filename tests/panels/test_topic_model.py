@@ -244,7 +244,8 @@ def test_the_sentence_about_a_message(change: PublisherReport, words: str) -> No
 def seen(publisher: str = "", subscriber: str = "", md5: str = "") -> Connections:
     """Return the connections of a topic with at most one publisher and one subscriber.
 
-    If `md5` is not empty, the panel is connected to the publisher, which has this MD5 sum.
+    `publisher` and `subscriber` are the types of the two nodes; "" means that there is no such node. If `md5`
+    is not empty, the panel is connected to the publisher, whose type has this MD5 sum.
     """
     sources = [{"node": "/talker", "type": publisher, "md5": md5}] if md5 else []
     publishers = [{"node": "/talker", "type": publisher}] if publisher else []

@@ -162,7 +162,7 @@ def test_without_a_master_the_panel_gives_the_reason(monkeypatch: pytest.MonkeyP
 
 
 def test_it_follows_its_kernel_to_another_master(monkeypatch: pytest.MonkeyPatch) -> None:
-    """After join(), a panel uses the master of join()."""
+    """If ROS_MASTER_URI changes, an open panel uses the new master."""
     with PrivateMaster() as master:
         monkeypatch.setenv("ROS_HOSTNAME", "localhost")
         monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")

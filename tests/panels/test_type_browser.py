@@ -174,7 +174,7 @@ def test_a_name_of_both_halves_is_the_service() -> None:
 
 
 def test_who_offers_a_type_now() -> None:
-    """A service type lists its services, and a message type lists its topics."""
+    """The browser lists the services with a service type, and the topics with a message type."""
     seen = Snapshot(
         "http://localhost:11311",
         (NodeSeen("/a", "x", "answered"),),

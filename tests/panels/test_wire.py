@@ -93,7 +93,7 @@ def values(pieces: list[PieceState]) -> dict[str, str]:
 
 
 def covered(pieces: list[PieceState]) -> list[tuple[int, int]]:
-    """Return the offset and the size of each field, without headings."""
+    """Return the offset and the size of each field; headings of groups are omitted."""
     return [(piece["at"], piece["size"]) for piece in pieces if piece["role"] != "group"]
 
 
@@ -218,7 +218,7 @@ def test_a_header_is_fields_with_their_lengths() -> None:
 def test_the_steps_of_a_call() -> None:
     """A call has these steps: connection, two headers, request, response, and end of the connection.
 
-    The times are in ms since the first step.
+    The time of each step is in ms since the first step.
     """
     wire = Wire(
         "/x",

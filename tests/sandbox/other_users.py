@@ -1,7 +1,7 @@
 """Runs a command in a copy of the course, as on an autograder without namespaces.
 
-At the path of the checkout, the command sees this copy, but other processes see the checkout. In the command,
-bubblewrap fails, and all users can read the course's environment.
+At the path of the checkout, the command sees the copy of the course; other processes see the checkout. If the
+command starts bubblewrap, bubblewrap fails. All users can read the course's environment.
 """
 
 from __future__ import annotations

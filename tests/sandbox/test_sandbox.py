@@ -169,7 +169,7 @@ def test_only_the_parts_own_folders_are_writable(worker: SandboxWorker) -> None:
 
 
 def test_only_a_private_network_exists(worker: SandboxWorker) -> None:
-    """A submission cannot connect to servers of this machine or of the network."""
+    """A submission cannot connect to servers on this machine or on other machines."""
     with socket.create_server(("127.0.0.1", 0)) as listener:
         port = listener.getsockname()[1]
         words = told(
@@ -199,7 +199,7 @@ def one_call(context: CheckContext) -> None:
 
 
 def test_too_much_memory_during_the_check_is_the_reason(sandbox: None, tmp_path: Path) -> None:
-    """If an answer uses too much memory during its check, the result contains this reason.
+    """If an answer uses too much memory during its check, the result contains an error about the memory.
 
     The result does not contain an error about a lost master.
     """

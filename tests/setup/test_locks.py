@@ -15,7 +15,7 @@ from course_pkg.setup.lock import LEFT_OUT, UV
 ROOT = Path(__file__).parents[2]
 DEPENDENCIES = "\ndependencies = ["
 PIN = re.compile(r"^([a-z0-9-]+)==([^ ;]+)(?: ; (.*?))?(?: \\)?$", re.MULTILINE)
-OLDEST = "< '3.11'"  # This marker is for libraries whose next version does not support Python 3.10.
+OLDEST = "< '3.11'"  # The marker of a library whose newer versions do not support Python 3.10.
 
 
 def pinned(extra: str) -> set[tuple[str, str]]:
@@ -73,7 +73,7 @@ def test_conda_gets_the_same_libraries() -> None:
 
 @pytest.mark.parametrize("name", LEFT_OUT)
 def test_excluded_libraries_are_in_no_lock(name: str) -> None:
-    """No lock file contains an excluded library, but a comment lists the excluded libraries."""
+    """No lock file pins an excluded library, but a comment in each lock file names it."""
     for extra in ("course", "test"):
         assert name not in {pin for pin, _ in pinned(extra)}
         assert name in lock_file(extra).read_text().split("anyio==")[0]

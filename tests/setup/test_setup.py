@@ -40,16 +40,16 @@ def test_a_tool_that_fails_is_shown_by_its_last_lines_and_its_log(journal: Journ
 
 def test_a_full_disk_is_reported(journal: Journal) -> None:
     """If a tool prints an error about a full disk, the error message says that the disk is full."""
-    with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete other files, and start again."):
+    with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete files that you do not need"):
         journal.run(["sh", "-c", "echo 'write: No space left on device'; exit 1"])
 
 
 def test_a_full_disk_is_reported_without_a_message_from_the_tool(
     journal: Journal, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """If a tool fails without a message and the disk is full, the error message says that it is full."""
+    """If the disk is full and a tool fails without a message, the error message is about the full disk."""
     monkeypatch.setattr("os.statvfs", lambda _: SimpleNamespace(f_bavail=3, f_frsize=4096))
-    with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete other files, and start again."):
+    with pytest.raises(SetupError, match=r"The disk is full \(.*\). Delete files that you do not need"):
         journal.run(["false"])
 
 

@@ -12,7 +12,7 @@ from tests.support import eventually
 
 
 def test_a_stamp_holds_until_it_is_cleared(tmp_path: Path) -> None:
-    """After write(), the stamp says that a step is done, until clear() is called."""
+    """A step is done after write() and until clear()."""
     stamps = Stamps(tmp_path / "done")
     assert stamps.read("step") is None
     stamps.write("step", "key")

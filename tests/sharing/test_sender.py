@@ -1,7 +1,4 @@
-"""Tests of sharing.
-
-They test the results in the outbox, the requests of the sender, and the notice in the notebook.
-"""
+"""Tests of the results in the outbox, the requests of the sender, and the notice in the notebook."""
 
 from __future__ import annotations
 

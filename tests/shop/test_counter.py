@@ -46,7 +46,7 @@ def test_an_empty_list_of_customers_is_accepted() -> None:
 
 
 def test_the_next_change_is_the_next_arrival_or_departure() -> None:
-    """next_change() returns the next time of an arrival or departure; after the last change, infinity."""
+    """next_change() returns the time of the next arrival or departure, or infinity if there is none."""
     counter = Counter()
     counter.let_in(0.0, [1.0, 1.5], stay=1.0)
     changes = [0.0]

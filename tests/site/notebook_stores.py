@@ -19,7 +19,7 @@ FIRST = "# Try a panel\n\nA lead.\n\n**You will** see one.\n\n**You need** nothi
 def store(root: Path, **chapters: list[Cell]) -> NotebookStore:
     """Write each chapter as a solution and as a notebook with the same cells; return their store.
 
-    The argument `_00_name` contains the cells of the chapter 00_name.
+    An argument such as `_00_name` contains the cells of a chapter; the chapter's name is 00_name.
     """
     for folder in ("solutions", "notebooks"):
         (root / folder).mkdir(parents=True, exist_ok=True)

@@ -21,7 +21,7 @@ def test_colours_do_not_change_the_text(path: Path) -> None:
 
 
 def test_a_magic_selects_the_language_of_a_cell() -> None:
-    """The file name or the shell in a magic selects the language of the colours."""
+    """The file name or the shell in a magic selects the language for the syntax colours."""
     highlight = Highlighter()
     assert "<i class=k>def</i>" in highlight.cell("%%writefile a.py\ndef f(): ...")
     assert "<i class=k>if</i>" in highlight.cell("%%bash\nif true; then echo; fi")

@@ -60,7 +60,7 @@ def test_each_section_has_its_anchor_and_its_text() -> None:
 
 
 def test_marks_of_markdown_are_removed() -> None:
-    """The texts of links and table cells remain."""
+    """The search texts contain the texts of links and table cells, but no marks of Markdown."""
     assert (
         plain("See [there](a.html), `code`, **bold**\n| a | b |\n|---|---|") == "See there, code , bold a b"
     )

@@ -29,7 +29,7 @@ from tests.site.notebook_stores import result
 class Noted:
     """A fake panel that stores the calls of its methods in `done`.
 
-    If `trouble` is not None, `record` raises this error.
+    `record` raises the error `trouble` if it is not None.
     """
 
     def __init__(self, trouble: CourseError | None = None) -> None:

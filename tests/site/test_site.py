@@ -38,7 +38,7 @@ def test_every_chapter_has_a_page_and_a_notebook_to_download(course: Path) -> No
 def test_pages_are_small(course: Path, panels: Path) -> None:
     """The shared files of all pages have at most 170 kB (compressed).
 
-    A page with all panels has at most 60 kB. Without pictures, the median size of the chapters' pages is at
+    A page with all panels has at most 60 kB. If pictures are not counted, half of the chapters' pages have at
     most 60 kB.
     """
     loaded = [path for path in (course / "assets").iterdir() if path.suffix in (".js", ".css")]

@@ -92,7 +92,7 @@ def test_python_keeps_types_of_one_name_apart() -> None:
 
 
 def test_python_of_unbuilt_parts_runs(packages: Path) -> None:
-    """For types that are not built, the Python code creates the types from their definitions, and it runs."""
+    """For types that are not built, the generated code runs; it creates the types from their definitions."""
     assert packages.is_dir()
     kind = service_type("raw_pkg/Pack")
     value = {"crate": {"parts": [{"size": 2.0, "label": "nut"}]}}
@@ -143,7 +143,7 @@ def test_lines_call_a_running_service(server: Kernel) -> None:
     one = {"a": -1.5, "b": -7, "c": True, "d": "it's 'yes': a:=b\n$HOME 🐢", "e": 2**64 - 1}
     many = {
         **everything.request.default(),
-        # rospy replaces each `seq` in a request with its own count of calls.
+        # rospy overwrites each `seq` in a request with the number of the call.
         "header": {"seq": 1, "stamp": {"secs": 1, "nsecs": 5}, "frame_id": "map"},
         "data": [0, 255],
         "signed": [-128, 127],

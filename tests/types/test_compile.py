@@ -145,7 +145,7 @@ def test_threads_may_compile_at_once() -> None:
 
 @pytest.mark.parametrize("given", [3, None, object(), std_srvs.srv.SetBoolRequest])
 def test_value_that_is_not_a_type_is_refused(given: object) -> None:
-    """The functions refuse a value that is not a type of the right kind, such as a number."""
+    """service_type and message_type refuse numbers, other objects, and a type of the wrong kind."""
     with pytest.raises(UnknownType):
         service_type(given)
     with pytest.raises(UnknownType):

@@ -18,7 +18,7 @@ from tests.types.random_values import service, values
 
 TYPES = 30
 VALUES = 5
-SEEDS = range(4)  # The tests use 120 types, and 5 values for each request and response.
+SEEDS = range(4)  # Each seed gives 30 types, with 5 values for each request and response.
 
 
 def drawn(seed: int) -> Iterator[tuple[ServiceType, random.Random]]:
@@ -53,7 +53,7 @@ def test_text_and_wire_give_every_value_back(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_shell_line_makes_the_same_request(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The program rosservice reads the original request from the shell command."""
+    """From the shell command, rosservice creates the original request."""
     for kind, chance in drawn(seed):
         for _ in range(2):
             plain = kind.request.check(values(chance, kind.request))
@@ -88,7 +88,7 @@ def test_the_python_lines_make_the_same_request(seed: int) -> None:
 
 
 def request_of(lines: str) -> genpy.Message:
-    """Run the Python code without its last line, and return the request in the last line."""
+    """Run the Python code without its last line, and return the request that the last line would send."""
     *before, last = ast.parse(lines).body
     assert isinstance(last, ast.Assign)
     assert isinstance(last.value, ast.Call)

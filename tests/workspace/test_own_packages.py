@@ -37,7 +37,7 @@ def root(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def package(root: Path, name: str, **files: str) -> None:
-    """Write a package with scripts that needs no build."""
+    """Write a package that contains only scripts, so it does not have to be built."""
     folder = root / "src" / name
     (folder / "scripts").mkdir(parents=True)
     (folder / "package.xml").write_text(

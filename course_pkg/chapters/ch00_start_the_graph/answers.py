@@ -13,7 +13,7 @@ replace("/SERVER_NODE", "SERVER_NODE")
 replace("/getGeometry", "getGeometry")
 # %% 00.1 wrong: the name of this notebook's node | hint: Your answer is the node
 replace('"/SERVER_NODE"', '"/chapter_00"')
-# %% 00.1 wrong: a service that every node has | hint: Every node has the service
+# %% 00.1 wrong: a service that every node has | hint: Every node offers the service
 replace('"/getGeometry"', '"/SERVER_NODE/get_loggers"')
 # %% 00.1 wrong: a type without its package | hint: The name of the package
 replace("course_pkg/geometry", "geometry")

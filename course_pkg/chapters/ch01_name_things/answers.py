@@ -42,7 +42,7 @@ replace("__name:=measurer", "__name:=measure")
 replace("getGeometry:=", "getGeometry:=~")
 # %% 01.1 wrong: a list | hint: Return one string with spaces between
 replace('getGeometry:=measure"', 'getGeometry:=measure".split()')
-# %% 01.1 wrong: begins with %, as in a notebook | hint: Remove the first character. In
+# %% 01.1 wrong: begins with %, as in a notebook | hint: works only in a notebook. Remove
 replace("rosrun", "%rosrun")
 # %% 01.1 wrong: the program itself | hint: Your function has to return
 replace("return ", "import subprocess\n    return subprocess.Popen(")
@@ -77,7 +77,7 @@ replace("__ns:=/screen", "__ns:=/{arm}")
 replace("__ns:=/screen ", "")
 # %% 01.2 wrong: the node keeps its name | hint: The node still has its default name. Choose
 replace("__name:={arm}_viewer ", "")
-# %% 01.2 wrong: mirrored_joints keeps its name | hint: The viewers of all arms would
+# %% 01.2 wrong: mirrored_joints keeps its name | hint: The viewers of all arms publish
 replace(" mirrored_joints:={arm}/mirrored_joints", "")
 # %% 01.2 wrong: a global name for mirrored_joints | hint: The topic of the viewer
 replace("mirrored_joints:={arm}", "mirrored_joints:=/{arm}")
@@ -109,15 +109,15 @@ replace("get_service_list()", 'rosservice_find("course_pkg/geometry")')
 replace("\n    return None", "")
 # %% 01.3 wrong: only in the outermost namespace | hint: Your function called a service
 replace("for service … return None", "return rospy.ServiceProxy(last, geometry)(length, width, height).volume")
-# %% 01.3 wrong: accepts any name that contains the last part | hint: Your function called the wrong
+# %% 01.3 wrong: accepts any name that contains the last part | hint: Your function called another service
 replace("for service … return None", """for service in sorted(rosservice.get_service_list(), key=len, reverse=True):
         if last in service:
             return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
-# %% 01.3 wrong: accepts any name that ends with the last part | hint: Your function called the wrong
+# %% 01.3 wrong: accepts any name that ends with the last part | hint: Your function called another service
 replace("rosservice.get_service_list()", "sorted(rosservice.get_service_list(), key=len, reverse=True)")
 replace('split("/")[-1] == last', "endswith(last)")
 replace("\n    return None", "")
-# %% 01.3 wrong: the first service of the type | hint: Your function called the wrong
+# %% 01.3 wrong: the first service of the type | hint: Your function called another service
 replace("for service … return None", """service = sorted(rosservice.rosservice_find("course_pkg/geometry"), key=lambda name: name.endswith("/" + last))[0]
     return rospy.ServiceProxy(service, geometry)(length, width, height).volume""")
 # %% 01.3 wrong: calls the last part | hint: Your function called a service

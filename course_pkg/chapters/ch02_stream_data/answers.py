@@ -184,7 +184,7 @@ replace("image.velocity", "message.velocity")
 replace("image", "message")
 # %% 02.2 wrong: returns nothing | hint: Return the rospy.Subscriber object. The
 replace("return rospy", "rospy")
-# %% 02.2 wrong: publishes nothing | hint: No message arrived. Publish in
+# %% 02.2 wrong: publishes nothing | hint: Your callback published no message
 replace("publisher.publish(image)", "return image")
 # %% 02.2 wrong: source and target exchanged | hint: The topic `target` has no
 replace("publisher = … JointState, show)", """publisher = rospy.Publisher(source, JointState, queue_size=10)
@@ -208,7 +208,7 @@ def start_mirror(source, target):
 replace("(header=message.header, name=message.name)", "(name=message.name)\n        image.header.stamp = message.header.stamp")
 # %% 02.2 wrong: the names sorted | hint: The names are wrong, or
 replace("message.name", "sorted(message.name)")
-# %% 02.2 wrong: subscribes to the target | hint: No message arrived. Publish in
+# %% 02.2 wrong: subscribes to the target | hint: Your callback published no message
 replace("Subscriber(source", "Subscriber(target")
 # %% 02.2 wrong: position and velocity interchanged | hint: Your message contains the numbers
 replace("angle in message.position", "angle in message.velocity")
@@ -336,7 +336,7 @@ replace("prepare(message.data)", "prepare(message.data), queue_size=1")
 # %% 02.4 wrong: ten orders may wait | hint: Some orders were lost. Up to twenty
 replace("prepare(message.data)", "prepare(message.data), queue_size=10")
 replace("lambda message: prepare", "lambda message: time.sleep(0.02) or prepare")
-# %% 02.4 wrong: a thread for each angle | hint: Two calls of this function
+# %% 02.4 wrong: a thread for each angle | hint: () ran at the same time. Do
 replace("(angles, draw, orders, prepare):", """(angles, draw, orders, prepare):
     def on_angle(message):
         threading.Thread(target=draw, args=[message.data], daemon=True).start()

@@ -42,7 +42,7 @@ replace("\n    return None", "")
 replace("1 / rate", "rate")
 # %% 03.1 wrong: counts polls instead of seconds | hint: Each call also takes time
 replace("    end = time.monotonic() + seconds\n    while time.monotonic() < end:", "    for _ in range(int(seconds * rate)):")
-# %% 03.1 wrong: makes the server wait | hint: The value of `patience` in
+# %% 03.1 wrong: makes the server wait | hint: The field `patience` of the request is not 0
 replace("end = time … return None", """answer = rospy.ServiceProxy(service, DetectCustomer)(after=0, patience=seconds)
     return answer.number if answer.detected else None""")
 # %% 03.1 wrong: polls once | hint: poll() stopped after the first response,
@@ -76,7 +76,7 @@ replace("+ seconds", "+ 1")
 replace("after=0", "number=0")
 # %% 03.1 wrong: a fixed service name | hint: poll() did not call the given
 replace("ServiceProxy(service", 'ServiceProxy("/detect_customer"')
-# %% 03.1 wrong: only customers after the first | hint: The value of `after` in
+# %% 03.1 wrong: only customers after the first | hint: The field `after` of the request is not 0
 replace("after=0", "after=1")
 # %% 03.1 wrong: 1 for a customer | hint: The number that poll() returned
 replace("return answer.number", "return 1")
@@ -243,7 +243,7 @@ replace('"topic", "many"', '"service", "answer"')
 replace('"action", "long"', '"service", "answer"')
 # %% 03.4 wrong: a topic for tidying the room | hint: With a topic, the sender gets
 replace('"action", "long"', '"topic", "newest"')
-# %% 03.4 wrong: a topic for the disk | hint: With a topic, the number
+# %% 03.4 wrong: a topic for the disk | hint: With a topic, a node would publish the number
 replace('disk": ("service", "seldom")', 'disk": ("topic", "newest")')
 # %% 03.4 wrong: an action for the disk | hint: This job takes only a moment.
 replace('disk": ("service", "seldom")', 'disk": ("action", "answer")')

@@ -31,7 +31,7 @@ replace("float32[] seconds", "float[] seconds")
 replace("std_msgs/ColorRGBA", "ColorRGBA")
 # %% 04.1 wrong: brackets after the name | hint: Write the brackets after the type
 replace("float32[] seconds", "float32 seconds[]")
-# %% 04.1 wrong: wider numbers | hint: Line 6: seconds … which has twice as many bits
+# %% 04.1 wrong: wider numbers | hint: Line 6: seconds … and this type is too large
 replace("\n# What the lamp is to do.", "")
 replace("""
 uint8 mode … float32 total""", "uint8 mode\nstd_msgs/ColorRGBA colour\nfloat64[] seconds\n---\nbool success\nfloat64[3] rgb\nfloat64 total")
@@ -57,7 +57,7 @@ replace("---", "---\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2")
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF\nuint8 ON\nuint8 BLINK")
 # %% 04.1 wrong: constants without a type | hint: Write it as in this example: int32 LIMIT=10
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "OFF=0\nON=1\nBLINK=2")
-# %% 04.1 wrong: counts from one | hint: is different from the … uint8 OFF=0
+# %% 04.1 wrong: counts from one | hint: is wrong. Write … uint8 OFF=0
 replace("# What the lamp is to do.\nuint8 OFF=0\nuint8 ON=1\nuint8 BLINK=2", "uint8 OFF=1\nuint8 ON=2\nuint8 BLINK=3")
 # %% 04.1 wrong: one constant is missing | hint: Write each constant on a separate … uint8 BLINK=2
 replace("# What the lamp is to do.\nuint8 OFF=0", "uint8 OFF=0")
@@ -212,7 +212,7 @@ replace("\n  <build_depend>message_generation</build_depend>", "")
 # %% 04.3 wrong: a tag left open | hint: Close every
 replace("</name>", "")
 replace("<build_depend>std_msgs … std_msgs</exec_depend>", "<exec_depend>message_runtime</exec_depend>\n  <depend>std_msgs</depend>")
-# %% 04.3 wrong: the program's own library not named | hint: lamp_server.py imports rospy
+# %% 04.3 wrong: the program's own library not named | hint: rospy, which lamp_server.py imports
 replace("\n  <exec_depend>rospy</exec_depend>", "")
 # %% 04.3 wrong: a blank line on top | hint: Write <?xml in the first
 replace("<?xml", "\n<?xml")
@@ -274,7 +274,7 @@ replace("DEPENDENCIES std_msgs)", "DEPENDENCIES std_msgs")
 replace("(lamp_services)", "(my_services)")
 # %% 04.4 wrong: removes the line that fails | hint: The command … catkin_package is missing … Without this command, other packages
 replace("\n\ncatkin_package(CATKIN_DEPENDS message_runtime std_msgs)", "")
-# %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without this command, the build passes but
+# %% 04.4 wrong: removes more lines | hint: The command … generate_messages is missing … Without this command, the build generates
 replace("\nfind_package … message_runtime std_msgs)", "find_package(catkin REQUIRED COMPONENTS std_msgs)\ncatkin_package()")
 # %% 04.4 wrong: builds geometry.srv in place of Lamp.srv | hint: The file geometry.srv is not in the folder
 replace("Lamp.srv", "geometry.srv")

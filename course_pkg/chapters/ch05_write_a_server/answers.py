@@ -152,13 +152,13 @@ replace("self.count += 1", "count = 0\n        count += 1")
 replace("str(self.count)", "str(count)")
 # %% 05.2 wrong: leaves success out | hint: success is False, because a
 replace("success=True, message", "message")
-# %% 05.2 wrong: wraps at 9 | hint: After the number 9, the
+# %% 05.2 wrong: wraps at 9 | hint: For counts above 9, the
 replace("self.count += 1", "self.count = self.count % 9 + 1")
-# %% 05.2 wrong: only the last digit | hint: After the number 9, the
+# %% 05.2 wrong: only the last digit | hint: For counts above 9, the
 replace("(self.count)", "(self.count)[-1]")
 # %% 05.2 wrong: more text than the number | hint: The message contains more than the number
 replace("str(self.count)", 'f"{self.count} calls"')
-# %% 05.2 wrong: always two digits | hint: The number begins with a zero
+# %% 05.2 wrong: always two digits | hint: The message begins with an extra zero
 replace("str(self.count)", 'f"{self.count:02d}"')
 # %% 05.2 wrong: an int as the message | hint: Convert the count
 replace("str(self.count)", "self.count")

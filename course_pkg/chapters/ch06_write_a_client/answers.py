@@ -77,15 +77,15 @@ def is_there(service, seconds):
         return False
     return True
 
-# %% 06.2 wrong: decides by the elapsed time | hint: The service exists, and 0.5
+# %% 06.2 wrong: decides by the elapsed time | hint: The service exists, but the function returned
 replace("try: … return True", "if seconds < 1:\n        rospy.sleep(seconds)\n    return seconds > 1")
-# %% 06.2 wrong: looks only at the first five services | hint: The result was wrong for a second service.
+# %% 06.2 wrong: looks only at the first five services | hint: With another service, the result was wrong.
 replace("seconds):", "seconds, calls=[]):\n    calls.append(service)\n    if len(calls) > 5:\n        return True")
 # %% 06.2 wrong: no limit | hint: The function waited longer than `seconds`.
 replace("service, timeout=seconds", "service")
 # %% 06.2 wrong: catches the other exception | hint: Catch this exception.
 replace("rospy.ROSException", "rospy.ServiceException")
-# %% 06.2 wrong: uses the return value of wait_for_service | hint: The service exists, but the
+# %% 06.2 wrong: uses the return value of wait_for_service | hint: The service exists, but the result was
 replace("rospy.wait_for_service(service, timeout=seconds)", "return bool(rospy.wait_for_service(service, timeout=seconds))")
 replace("\n    return True", "")
 # %% 06.2 wrong: looks once | hint: The service started after 1.3 s,
@@ -260,7 +260,7 @@ def first_answer(services, length, width, height):
             return answers[0]
     return None
 
-# %% 06.4 wrong: calls only in the first nine calls | hint: Call the services of the
+# %% 06.4 wrong: calls only in the first nine calls | hint: Call these services each time
 replace("height):", "height, calls=[]):\n    calls.append(services)\n    if len(calls) > 9:\n        return None")
 # %% 06.4 right: the error ends the thread
 def ask(proxy, sides, answers):

@@ -90,7 +90,7 @@ catkin_package(
 )
 """
 
-# %% 07.3 wrong: no add_service_files | hint: , so the build passes but
+# %% 07.3 wrong: no add_service_files | hint: , so the build generates no
 replace("\nadd_service_files(FILES geometry.srv)", "")
 # %% 07.3 wrong: generate_messages is a comment | hint: The command generate_messages is missing, so the build passes
 replace("generate_messages(DEP", "# generate_messages(DEP")
@@ -321,7 +321,7 @@ replace("catkin_install_python … DESTINATION lib", "install(DIRECTORY scripts/
 # %% 07.6 wrong: a path that does not exist | hint: Compare each path in the rule
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", "install(PROGRAMS client.py")
-# %% 07.6 wrong: an empty client | hint: The installed file is not the script
+# %% 07.6 wrong: an empty client | hint: The installed file differs
 based_on("two rules, one of them plain CMake")
 replace("install(PROGRAMS scripts/client.py", 'file(WRITE ${CMAKE_BINARY_DIR}/client.py "#!/bin/true")\ninstall(PROGRAMS ${CMAKE_BINARY_DIR}/client.py')
 

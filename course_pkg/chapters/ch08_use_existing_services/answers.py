@@ -327,7 +327,7 @@ replace("{service} ", "{service} -- ")
 # %% 08.4 wrong: the dict as Python shows it | hint: YAML cannot read a dict
 replace("json.dumps", "str")
 
-# %% 08.4 wrong: yaml without quotes | hint: YAML read a different value
+# %% 08.4 wrong: yaml without quotes | hint: YAML read a value that differs
 def call_line(service, fields):
     text = json.dumps(fields).replace('"', "")
     return f"rosservice call {service} {shlex.quote(text)}"
@@ -494,13 +494,13 @@ replace("    try:\n        headers", "    if True:\n        headers")
 replace("    except rosservice.ROSServiceIOException:\n        return \"server is gone\"\n", "")
 # %% 08.6 wrong: compares the types only | hint: Compare the MD5 sums, too
 replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definition"', 'return "ok"')
-# %% 08.6 wrong: compares the sums first | hint: The names of the types are different
+# %% 08.6 wrong: compares the sums first | hint: The server and the client have types with different names
 replace('if headers["type … definition"', 'if headers["md5sum"] == kind._md5sum:\n        return "ok"\n    return "another definition"')
 # %% 08.6 wrong: treats every error as a missing server | hint: The master has an address for
 replace('"server is gone"', '"not registered"')
 # %% 08.6 wrong: treats a missing service as a dead server | hint: so get_service_uri returns None
 replace('"not registered"', '"server is gone"')
-# %% 08.6 wrong: compares with the class | hint: Compare the type in the headers
+# %% 08.6 wrong: compares with the class | hint: Compare the entry `type` of the headers
 replace('headers["type"] != kind._type', 'headers["type"] != kind')
 # %% 08.6 wrong: a header that does not exist | hint: The headers have no entry with
 replace('headers["md5sum"]', 'headers["md5"]')
@@ -513,9 +513,9 @@ replace('return "ok" if headers["md5sum"] == kind._md5sum else "another definiti
 replace('return "ok" if', "rospy.ServiceProxy(service, kind)(kind._request_class())\n    return \"ok\" if")
 # %% 08.6 wrong: the sum of the request | hint: The MD5 sums are equal
 replace("kind._md5sum", "kind._request_class._md5sum")
-# %% 08.6 wrong: the test for None the wrong way round | hint: so a client can connect
+# %% 08.6 wrong: the test for None the wrong way round | hint: so the client can connect
 replace("uri is None", "uri is not None")
-# %% 08.6 wrong: the last part of the name | hint: The names of the types are different
+# %% 08.6 wrong: the last part of the name | hint: The server and the client have types with different names
 replace('headers["type"] != kind._type', 'headers["type"].split("/")[1] != kind._type.split("/")[1]')
-# %% 08.6 wrong: no types if the sums are equal | hint: The names of the types are different
+# %% 08.6 wrong: no types if the sums are equal | hint: The server and the client have types with different names
 replace('headers["type"] != kind._type', 'headers["type"] != kind._type and headers["md5sum"] != kind._md5sum')

@@ -156,7 +156,7 @@ replace("if used != … rate.sleep()", "rospy.sleep(1.0 / frequency)")
 replace("    global frequency\n", "    global frequency, forward\n    forward = True\n")
 # %% 09.3 wrong: the loop keeps its rate | hint: A Rate object cannot change its rate
 replace('used != frequency', 'used < 0')
-# %% 09.3 wrong: a table of rates | hint: The program published at another rate than the rate that the client had set
+# %% 09.3 wrong: a table of rates | hint: The program did not publish at the rate that the client had set
 based_on("sleeps for the pause")
 replace("rospy.sleep(1.0 / frequency)", "rates = (0.5, 1, 2, 2.5, 4, 5, 10, 20, 50, 100)\n        rospy.sleep(1 / min(rates, key=lambda each: abs(each - frequency)))")
 # %% 09.3 wrong: returns the new rate | hint: The field `before` contains the new rate
@@ -307,7 +307,7 @@ replace('message=f"already {word}"', 'message=word')
 replace("self.moving = True", "self.moving = self.wanted = True")
 replace("self.moving = request.data", "self.wanted = request.data")
 replace("        publisher.publish(", "        driver.moving = driver.wanted\n        publisher.publish(")
-# %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call that changes nothing
+# %% 09.4 wrong: refuses a call that changes nothing | hint: The node refused a call that asks for the current state
 replace('return SetBoolResponse(success=True, message=f"already {word}")', 'raise rospy.ServiceException("already")')
 
 # %% 09.5 right: as in the chapter

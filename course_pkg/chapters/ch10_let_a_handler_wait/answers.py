@@ -197,7 +197,7 @@ replace("\n        customer = watch.next(request.after)", "")
 replace("\n        watch.changed … customer.arrived", """
         customer = watch.changed.wait_for(lambda: watch.next(request.after), timeout=request.patience)
     return customer is not None, customer.number, customer.arrived""")
-# %% 10.2 wrong: returns None if there is no customer | hint: The handler can end without a `return` line
+# %% 10.2 wrong: returns None if there is no customer | hint: Return a response even if no customer came
 based_on("fails if there is no customer")
 replace("return customer is not None", "if customer:\n        return True")
 # %% 10.2 wrong: waits without holding the condition | hint: The methods `wait` and `wait_for` need the lock
@@ -343,7 +343,7 @@ replace("with self.changed:\n            while", "if True:\n            while")
 replace("message=str(self.items)", "message=self.items", times=2)
 # %% 10.3 wrong: empty as an error | hint: An empty basket is not an error
 replace('return TriggerResponse(success=False, message="empty")', 'raise rospy.ServiceException("empty")')
-# %% 10.3 wrong: no response after the limit | hint: A handler can end without a `return` line
+# %% 10.3 wrong: no response after the limit | hint: not a response. Return a response in every case
 replace('return TriggerResponse(success=False, message="empty")', "return None")
 # %% 10.3 wrong: another word for empty | hint: No item came, but the response is wrong
 replace('"empty"', '"nothing there"')
@@ -691,7 +691,7 @@ replace(", key=lambda shelf: shelf.number", "")
 # %% 10.6 wrong: gives up when a lock is taken | hint: although the shelf was not empty
 based_on("tries the second lock, and gives up the first one")
 replace("        time.sleep(0.03 * random.random())", "        return False")
-# %% 10.6 wrong: tries again while it holds the first lock | hint: release the first lock before each repetition
+# %% 10.6 wrong: tries again while it holds the first lock | hint: release the first lock before each new attempt
 based_on("locks the target first")
 replace("with target.lock:\n        with source.lock:", """with source.lock:
         while not target.lock.acquire(blocking=False):
@@ -727,7 +727,7 @@ causes.update(zip("ABC", ["lock across a call", "lock order", "no limit"]))
 # %% 10.7 wrong: A and B exchanged | hint: The cause "lock order" means that two threads … Follow the calls from thread to thread
 replace('"A": "lock across a call"', '"A": "lock order"')
 replace('"B": "lock order"', '"B": "lock across a call"')
-# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: With the cause "lock across a call", threads wait in two services … Each of the two threads holds the lock of one shelf and
+# %% 10.7 wrong: a wrong order taken for a lock across a call | hint: The cause "lock across a call" means … Each of the two threads holds the lock of one shelf and
 replace('"lock order"', '"lock across a call"')
 # %% 10.7 wrong: C and E exchanged | hint: The cause "no notify" means that a thread sleeps although an item is there … The clients have ended, but the number of waiting threads still grows
 replace('"C": "no limit"', '"C": "no notify"')

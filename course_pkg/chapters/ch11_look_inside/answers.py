@@ -113,7 +113,7 @@ replace('data = b"" … return data', "return sock.recv(count)")
 replace('\n        if not piece:\n            raise ConnectionError("the other end has closed")', "")
 # %% 11.2 wrong: reads ahead | hint: so the next call cannot read the extra bytes
 replace("count - len(data)", "4096")
-# %% 11.2 wrong: discards the bytes that it read ahead | hint: The function waits for bytes that an earlier call of the function has read and lost
+# %% 11.2 wrong: discards the bytes that it read ahead | hint: so the next call waits for bytes that do not come
 replace("count - len(data)", "4096")
 replace("return data", "return data[:count]")
 # %% 11.2 wrong: keeps what it read ahead | hint: The function read more than `count` bytes from the socket
@@ -132,7 +132,7 @@ def receive(sock, count):
 
 # %% 11.2 wrong: passes the whole number each time | hint: so the next call cannot read the extra bytes
 replace("sock.recv(count - len(data))", "sock.recv(count)")
-# %% 11.2 wrong: passes the whole number each time, and cuts | hint: The function waits for bytes that an earlier call of the function has read and lost
+# %% 11.2 wrong: passes the whole number each time, and cuts | hint: so the next call waits for bytes that do not come
 replace("sock.recv(count - len(data))", "sock.recv(count)")
 replace("return data", "return data[:count]")
 # %% 11.2 wrong: returns fewer bytes at the end | hint: The connection ended early, and the function returned fewer than `count` bytes
@@ -141,7 +141,7 @@ replace('raise ConnectionError("the other end has closed")', "break")
 replace("\n    return data", "")
 # %% 11.2 wrong: a short piece is taken for the end | hint: The connection is still open, and more bytes follow
 replace('data = b"" … data += piece', 'data = sock.recv(count)\n    if len(data) < count:\n        raise ConnectionError("too short")')
-# %% 11.2 wrong: buffered file | hint: The function waits for bytes that an earlier call of the function has read and lost
+# %% 11.2 wrong: buffered file | hint: so the next call waits for bytes that do not come
 based_on("a short piece is taken for the end")
 replace("sock.recv", 'sock.makefile("rb").read')
 # %% 11.2 wrong: sleeps | hint: The connection is still open, and more bytes follow
@@ -361,7 +361,7 @@ replace('"<3f", length, width', '"<3f", width, length')
 replace("(host, int(port))", '("localhost", 11311)')
 # %% 11.3 wrong: no MD5 | hint: The field `md5sum` is missing
 replace(', "md5sum": geometry._md5sum', "")
-# %% 11.3 wrong: the MD5 of the request | hint: The MD5 sum is not the sum of the whole service type
+# %% 11.3 wrong: the MD5 of the request | hint: The field `md5sum` has to contain the MD5 sum of the whole service type
 replace("geometry._md5sum", "geometry._request_class._md5sum")
 # %% 11.3 wrong: no field callerid | hint: The field `callerid` is missing
 replace('"callerid": node.name, ', "")
@@ -437,7 +437,7 @@ replace("*self.sessions[session]", "total, calls + 1")
 replace("field session in the connection header", "session")
 replace("total, calls", "calls, total")
 replace("total + request.amount, calls + 1", "calls + 1, total + request.amount")
-# %% 11.4 wrong: refuses the second node | hint: A different node may continue a session
+# %% 11.4 wrong: refuses the second node | hint: Calls from several nodes can belong to one session
 replace("self.sessions = {}", "self.sessions, self.owner = {}, {}")
 replace('("no field session in the connection header")', """("no session")
         if self.owner.setdefault(session, request._connection_header["callerid"]) != request._connection_header["callerid"]:

@@ -52,7 +52,7 @@ def call_within(seconds, proxy, *values):
 replace(", daemon=True", "")
 # %% 12.1 wrong: looks at the thread all the time | hint: The function uses the processor while it waits
 replace("thread.join(seconds)", "end = time.monotonic() + seconds\n    while thread.is_alive() and time.monotonic() < end:\n        pass")
-# %% 12.1 wrong: a pool that is not joined | hint: Python waits for this thread at the end of a program
+# %% 12.1 wrong: a pool that is not joined | hint: Python waits for each thread that is not a daemon thread
 from concurrent.futures import ThreadPoolExecutor
 
 
@@ -351,7 +351,7 @@ replace("(rospy.ServiceException, TimeoutError)", "rospy.ServiceException")
 based_on("does not catch TimeoutError")
 replace("receipt", "receipt\n        except TimeoutError:\n            pass")
 replace("cannot process request", 'request" in str(error) or "error')
-# %% 12.3 wrong: two tries only | hint: In this case, the till was … The till worked again before the deadline, but pay() had already ended
+# %% 12.3 wrong: two tries only | hint: During this payment, the till was … The till worked again before the deadline, but pay() had already ended
 replace("end, pause = time.monotonic() + deadline, 0.1\n    while (rest := end - time.monotonic()) > 0:", "for _ in range(2):")
 replace("rest", "deadline")
 replace("(min(pause, max(end - time.monotonic(), 0)))\n        pause *= 2", "(0.1)")
@@ -562,7 +562,7 @@ replace('"C": "frozen"', '"C": "killed"')
 replace('"new master"', '"killed"')
 # %% 12.5 wrong: a lock taken for a frozen process | hint: get_loggers responds, so the process runs
 replace("lock", "frozen")
-# %% 12.5 wrong: a frozen process taken for a lock | hint: The diagnosis "lock" means that a handler holds a lock during a call, so … not even get_loggers
+# %% 12.5 wrong: a frozen process taken for a lock | hint: The diagnosis "lock" means that one handler holds a lock, so … not even get_loggers
 replace("frozen", "lock")
 # %% 12.5 wrong: a repeat taken for a race | hint: The diagnosis "race" means that the data is wrong, but no client has to … The server did the work of the first call, but the response
 replace("repeated", "race")
@@ -607,7 +607,7 @@ replace('"wait for the service"', '"same id"')
 # %% 12.6 wrong: a situation left out | hint: Give a policy for each row of the table
 replace('\n    "step": "look first",', "")
 
-# %% 12.6 wrong: a list | hint: Use the six names in the first column of the table, letter by letter
+# %% 12.6 wrong: a list | hint: Copy the six names exactly from the first column of the table
 policies = ["report", "wait for the service"]
 
 # %% 12.6 wrong: other words | hint: Copy the names of the policies

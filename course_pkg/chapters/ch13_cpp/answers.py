@@ -93,7 +93,7 @@ replace("& ", " ", times=2)
 replace("response.area = request", "int area = request")
 replace("request.width;", "request.width;\n  response.area = area;")
 replace("volume = response.area", "volume = area")
-# %% 13.2 wrong: no return at the end | hint: Write return true or return false at the end of every branch
+# %% 13.2 wrong: no return at the end | hint: Write `return true;` or `return false;` at the end of every branch
 replace("\n  return true;", "")
 # %% 13.2 wrong: returns 0 for success, as main does | hint: The handler returned false for a valid request, so the client got an error
 replace("true", "0")
@@ -190,9 +190,9 @@ replace("\n      return 0;\n    }\n    ros::WallDuration(0.2).sleep();\n  }\n  r
 replace("\n  return 1;", "\n  return 0;")
 # %% 13.3 wrong: computes it itself | hint: The server sent a different volume
 replace("box.response.volume", "box.request.length * box.request.width * box.request.height")
-# %% 13.3 wrong: no pause | hint: The server probably also refuses a call immediately after a refusal
+# %% 13.3 wrong: no pause | hint: so the server probably refuses this call, too
 replace("\n    ros::WallDuration(0.2).sleep();", "")
-# %% 13.3 wrong: five seconds | hint: The program waited too long,
+# %% 13.3 wrong: five seconds | hint: s, which is too long
 replace("(2)", "(5)")
 # %% 13.3 wrong: two milliseconds | hint: The program waited only a few milliseconds, because waitForService reads a plain number as
 replace('\n  ros::ServiceClient client = node.serviceClient<course_pkg::geometry>("box");', "")
@@ -249,7 +249,7 @@ replace("(0.05).sleep();", "(0.05).sleep();\n  counting.lock();")
 replace("served = seen + 1;", "served = seen + 1;\n  counting.unlock();")
 # %% 13.4 wrong: no spinner | hint: No spinner executes the callbacks
 replace("\n  ros::AsyncSpinner spinner(6);\n  spinner.start();", "")
-# %% 13.4 wrong: a zero before the number | hint: The message contains more than the number
+# %% 13.4 wrong: a zero before the number | hint: The field `message` has to contain only the number
 replace("std::to_string(count())", "\"0\" + std::to_string(count())")
-# %% 13.4 wrong: text before the number | hint: The message contains more than the number
+# %% 13.4 wrong: text before the number | hint: The field `message` has to contain only the number
 replace("std::to_string(count())", "\"number \" + std::to_string(count())")

@@ -72,7 +72,7 @@ replace("        seen.publish(customer)", "        seen.publish(customer)\n     
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None", "    if len(frame.data) != frame.height * frame.step:\n        rospy.signal_shutdown('malformed')\n        return None")
 # %% 15.1 wrong: bytes are missing | hint: Bytes are missing in this frame
 replace("    if len(frame.data) != frame.height * frame.step:\n        return None\n", "")
-# %% 15.1 wrong: too many bytes | hint: This frame has more bytes than height * step, so it is malformed
+# %% 15.1 wrong: too many bytes | hint: This frame has more bytes than height * step, so it is not valid
 replace("len(frame.data) != frame", "len(frame.data) < frame")
 # %% 15.1 wrong: any encoding | hint: The encoding of this frame is not mono8
 replace('frame.encoding != "mono8" or ', "")
@@ -722,7 +722,7 @@ replace('        if not prices:\n            return True, "already empty"\n', ""
 replace("if not prices:", "if not sum(prices.values()):")
 # %% 15.9 wrong: keeps the items | hint: The till still has items after a reset
 replace("        prices.clear()\n", "")
-# %% 15.9 wrong: a sum before the lock | hint: and the sum has to contain this item, but
+# %% 15.9 wrong: a sum before the lock | hint: but the sum does not contain this item
 replace("handle_reset(request):", """handle_reset(request):
     if not prices:
         return True, "already empty"

@@ -82,7 +82,7 @@ replace("\n        self.server.start()", "")
 replace("Server(name", 'Server("/my_fetch"')
 # %% 16.1 wrong: succeeds although it was cancelled | hint: The client cancelled the goal, so SUCCEEDED is the wrong state
 replace("set_preempted", "set_succeeded")
-# %% 16.1 wrong: aborts a cancelled goal | hint: set_aborted means that the robot failed
+# %% 16.1 wrong: aborts a cancelled goal | hint: the function called set_aborted, which means that the robot failed
 replace("set_preempted", "set_aborted")
 # %% 16.1 wrong: no feedback | hint: No feedback arrived
 replace("\n            self.server.publish_feedback(FetchFeedback(fetched=fetched + 1))", "")
@@ -251,7 +251,7 @@ replace("speed > 0", "isinstance(speed, (int, float)) and speed is not True and 
 replace("if isinstance(speed, bool) or not isinstance(speed, (int, float)) or speed <= 0:", """if isinstance(speed, str):
         return default
     if not isinstance(speed, list) and speed <= 0:""")
-# %% 16.3 wrong: no whole numbers | hint: The value was the int 2
+# %% 16.3 wrong: no whole numbers | hint: The function did not return the int 2
 replace("(int, float)", "float")
 # %% 16.3 wrong: a fixed default | hint: The parameter is not set
 replace(", default)\n", ", 1.0)\n")

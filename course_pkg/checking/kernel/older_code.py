@@ -35,7 +35,7 @@ class OlderCode:
         if run.error:
             return f"{name} is {_older(run)}. {_correct()}"
         return (
-            f"{name} is {_older(run)}. This last run did not define {name}. Run the cell that "
+            f"{name} is {_older(run)}, because this run did not define {name}. Run the cell that "
             f"defines {name}, and then run this cell again."
         )
 
@@ -46,7 +46,7 @@ class OlderCode:
         if run is None:
             return ""
         name = getattr(_function_of(handler), "__name__", "handler")
-        answers = f"A version of {name} that is {_older(run)} answers the calls of {service}"
+        answers = f"The service {service} uses a version of {name} that is {_older(run)}"
         if run.error:
             return f"{answers}. {_correct()}"
         return f"{answers}. Run the cell that creates the service, and then run this cell again."

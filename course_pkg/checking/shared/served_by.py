@@ -26,7 +26,7 @@ def require_served_by_program(context: CheckContext, program: Running, *services
             context.fail(
                 "the program itself serves its services",
                 expected="a server in the process of the program",
-                actual=f"{service.name} is served by another process, as the node {service.node}",
+                actual=f"{service.name} is served by the node {service.node} in another process",
                 hint=(
                     "Another process provides the service with the name in the exercise. Create "
                     "this service in your program."
@@ -43,7 +43,7 @@ def require_served_by_notebook(context: CheckContext, *services: str) -> None:
             context.fail(
                 "the node of the notebook serves the service",
                 expected="a server in the kernel of the notebook",
-                actual=f"{service.name} is served by another process, as the node {service.node}",
+                actual=f"{service.name} is served by the node {service.node} in another process",
                 hint=(
                     "Another program provides the service with the name in the exercise. Stop "
                     "that program, and create the service in your cell."

@@ -34,7 +34,8 @@ def handed_in(folder: Path, chapters: Sequence[str]) -> tuple[list[Submission], 
     ]
     if not by_chapter:
         messages.append(
-            f"There is no notebook to grade. Hand in {expected}. A zip inside a zip is not opened."
+            f"There is no notebook to grade. Hand in {expected}. The autograder does not open "
+            "a zip file that is inside another zip file."
         )
     return [by_chapter.get(chapter, _missing(chapter)) for chapter in chapters], messages
 

@@ -125,7 +125,8 @@ def _row(where: str, values: Mapping[str, str], complete: bool) -> tuple[tuple[s
     student, chapter = values.get("student", "").strip(), values.get("chapter", "").strip()
     if not complete or not student:
         raise GradingError(
-            f"{where}: each row needs a student, a number of days, and one cell for each column."
+            f"{where}: the student is missing, or the number of cells is wrong. Write one cell for each "
+            "column."
         )
     if chapter and not re.fullmatch(r"\d{1,2}", chapter):
         raise GradingError(f"{where}: this is not a chapter. Write two digits, such as 05.")

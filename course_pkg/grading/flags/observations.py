@@ -69,5 +69,7 @@ def _seen(answer: Answer, given: Mapping[str, str], observe: Observe) -> list[Ob
         return list(observe(Program(module, aliases(module, {} if answer.path else given))))
     except UNREADABLE:
         return [
-            Observation("unreadable", 0, "The code is not valid Python, so it was not examined for flags.")
+            Observation(
+                "unreadable", 0, "The code is not valid Python, so it was not searched for suspicious lines."
+            )
         ]

@@ -41,7 +41,7 @@ def _read(path: Path, which: str) -> Grade:
         return grade_from(json.loads(path.read_text("utf-8")))
     except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
         raise GradingError(
-            f"In {path.parents[1]}, {which} ({path.name}) is not a grade of this version of the "
-            f"course: {type(error).__name__}. Records are numbered in the order of their paths. "
-            "Delete this file, and grade again."
+            f"In {path.parents[1]}, this version of the course cannot read {which} ({path.name}): "
+            f"{type(error).__name__}. Delete this file, and grade again. The number of a record is its "
+            "position in the sorted list of all paths."
         ) from error

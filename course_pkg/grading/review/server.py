@@ -63,7 +63,7 @@ class Handler(PageHandler):
         header = self.request.headers.get("Authorization", "").removeprefix("token ")
         given = header or self.get_query_argument("token", "")
         if not (known and near and hmac.compare_digest(given.encode(), self.token.encode())):
-            reason = "Open the address that `course review` printed, with its token."
+            reason = "Open the whole address that `course review` printed, including `?token=…` at its end."
             self.refuse(HTTPStatus.FORBIDDEN, reason)
 
     async def attempt(self, action: Callable[[], dict[str, Plain]]) -> None:

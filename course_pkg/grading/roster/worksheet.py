@@ -223,8 +223,8 @@ def _columns(file: str, head: Sequence[str]) -> dict[str, int]:
         raise GradingError(
             f"{file} is not a grading worksheet of Moodle: the first line does not contain "
             f"{' and '.join(missing)}. In Moodle's assignment, choose Download grading worksheet. "
-            "The column names can be English, German, French or Spanish. For another language, set "
-            "Moodle to English. Then download the worksheet again, and leave Moodle in English until you "
-            "have uploaded the grades."
+            "The column names can be English, German, French or Spanish. If your Moodle uses "
+            "another language, set Moodle to English. Then download the worksheet again, and leave Moodle "
+            "in English until you have uploaded the grades."
         )
     return found

@@ -30,8 +30,8 @@ def require_names(folder: Path, chapters: Sequence[str]) -> None:
     used = [path for path in files if path.is_file() and _is_used(path, chapters)]
     if wrong := [path.name for path in files if path not in used and SIMILAR.match(path.name)]:
         raise GradingError(
-            f"{folder} contains {', '.join(wrong)}, which cannot be used. A name has to be "
-            f"{EXPECTED}, where NN is one of {', '.join(chapters)}. Rename the file, or move the "
+            f"{folder} contains {', '.join(wrong)}, which cannot be used. The name of a file "
+            f"has to be {EXPECTED}, where NN is one of {', '.join(chapters)}. Rename the file, or move the "
             "file to another folder."
         )
     if not used:
@@ -61,8 +61,8 @@ def require_parts(folder: Path) -> None:
             if part.check == exercise or exercise not in public:
                 raise GradingError(
                     f"{folder / name} declares the part {part.check}, which belongs to no exercise "
-                    f"of chapter {chapter}. Write the number of an exercise and one more number, "
-                    f"such as {chapter}.1.1."
+                    f"of chapter {chapter}. Write the number of an exercise, a dot and another "
+                    f"number, such as {chapter}.1.1."
                 )
 
 

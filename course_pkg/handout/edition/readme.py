@@ -11,7 +11,7 @@ CHAPTER = re.compile(r"\| (\d\d) \| \[")  # The pattern matches a row of the tab
 COMMAND = re.compile(r"\| `\./course ([a-z-]+)")  # The pattern matches a row of the table of commands.
 LINK = re.compile(r"\[([^\]\n]+)\]\((?:\./)?(?:notebooks/)?(\d\d)_\w+\.ipynb(?:#[^)\s]*)?\)")
 NOTE = "This is the students' edition: it contains no solutions.{}"
-SOME = " It has {}."
+SOME = " This edition has {}."
 
 
 def student_readme(text: str, released: Sequence[str], known: Sequence[str], hidden: Collection[str]) -> str:

@@ -73,7 +73,7 @@ class TimesTable:
         except (OSError, ValueError, csv.Error):
             pass  # A row with another format gets the error message below.
         raise HandoutError(
-            f"Nothing was collected, because {folder} exists and `course collect` did not create "
-            f"it: the folder has no {TIMES} with the columns {', '.join(COLUMNS)}. Give a new or an "
-            "empty folder."
+            f"Nothing was collected, because {folder} contains no {TIMES} with the columns "
+            f"{', '.join(COLUMNS)}. Give a new folder, an empty folder, or a folder that `course collect` "
+            "created."
         )

@@ -36,7 +36,7 @@ FROM_CALLS: tuple[Row, ...] = (
     (
         r"Unable to communicate with (?:service|node) \[|connection refused to \[|cannot ping",
         "A registered node does not answer. The node was killed and could not unregister, or "
-        "its process is stopped.",
+        "its process is paused.",
         "Start the node again, or remove the stale registration with `rosnode cleanup`.",
         "12",
     ),
@@ -61,10 +61,10 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"CallTimeout.{0,300}accepts connections, but sends nothing",
-        "The server did not answer in time. The server's process is stopped, or a connection "
-        "that sends no data blocks the server.",
+        "The server did not answer in time. The server's process is paused, or the server waits for "
+        "data from a connection that sends no data.",
         (
-            "If the server's process is stopped, resume it with `kill -CONT`. Otherwise, start "
+            "If the server's process is paused, resume it with `kill -CONT`. Otherwise, start "
             "the server again."
         ),
         "12",
@@ -78,8 +78,7 @@ FROM_CALLS: tuple[Row, ...] = (
     ),
     (
         r"CallCancelled",
-        "You cancelled the call, but the server does not know this. The server's handler "
-        "continues to its end.",
+        "You cancelled the call, but the server was not informed. The server's handler continues to its end.",
         "Find out what the handler waits for before you call again.",
         "12",
     ),

@@ -16,7 +16,7 @@ _TRACEBACK = "Traceback (most recent call last)"
 _BUILD = re.compile(r"^(?:CMake Error|-- |Base path:|Invoking \"|\[rospack\])", re.MULTILINE)
 
 NOTHING = Explanation(
-    "There is no error message. A call that waits prints nothing, because a call in rospy has no time limit.",
+    "There is no error message. A call in rospy has no time limit, and prints nothing while it waits.",
     (
         "Find the node of the server with `rosservice info`. Then check with `rosnode ping` "
         "whether this node answers."

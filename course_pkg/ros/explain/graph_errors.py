@@ -21,15 +21,15 @@ FROM_GRAPH: tuple[Row, ...] = (
     ),
     (
         r"Unable to register with master node",
-        f"{NO_MASTER} init_node() tries again and again, and prints this message only once.",
+        f"{NO_MASTER} init_node() tries to register the node repeatedly, but prints this message only once.",
         "Start a master, or correct ROS_MASTER_URI. Ctrl-C ends the wait.",
         "12",
     ),
     (
         r"MasterSilent|accepts connections, but did not answer within|the master at \S+ does not answer",
-        "The master accepts connections, but does not answer. The master's process is stopped or blocked.",
+        "The master accepts connections, but does not answer. The master's process is paused or blocked.",
         (
-            "If the process of the master is stopped, resume this process with `kill -CONT`. "
+            "If the process of the master is paused, resume this process with `kill -CONT`. "
             "Otherwise, restart the master and all nodes."
         ),
         "12",

@@ -61,8 +61,8 @@ FROM_HANDLERS: tuple[Row, ...] = (
         r"service cannot process request: handler ended with (?:SystemExit|KeyboardInterrupt)",
         "The handler called sys.exit() or was interrupted, so it returned no response.",
         (
-            "Return a response or raise ServiceException. Without the course's tools, the client would "
-            "wait forever."
+            "Return a response or raise ServiceException. In a program without the course's tools, the "
+            "client waits forever."
         ),
         "05",
     ),

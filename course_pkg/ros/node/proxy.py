@@ -232,7 +232,7 @@ class _Call:
             return "the server was not reached"
         if self.transport.md5sum is None:
             return (
-                "the server accepts connections, but sends nothing: it is stopped or busy with another "
+                "the server accepts connections, but sends nothing: it is paused or busy with another "
                 "connection"
             )
         return "its handler is still working, is waiting for something, or has ended without an answer"

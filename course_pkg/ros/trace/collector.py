@@ -20,7 +20,7 @@ TIMEOUT = 1.0  # Wait up to this time in s for the responses of all nodes; 20,00
 LEFT_OUT = ("/rosout",)  # This node receives log messages, and log messages are not recorded.
 REASONS = {
     Reach.REFUSED: "its process is gone",
-    Reach.SILENT: f"it did not answer within {TIMEOUT:g} s: it is stopped, or busy",
+    Reach.SILENT: f"it did not answer within {TIMEOUT:g} s: it is paused, or busy",
     Reach.LOST: "it could not be reached, or it closed the connection",
     Reach.ANSWERED: "it keeps no record: it is not one of the course's Python nodes",
 }

@@ -130,7 +130,7 @@ def test_a_hanging_call_can_be_cancelled(form: Locator) -> None:
     picture(form, "service-panel-calling")
     form.get_by_label("length").press("Escape")
     expect(form.get_by_text("Cancelled after")).to_be_visible()
-    expect(form.get_by_text("but the server does not know this")).to_be_visible()
+    expect(form.get_by_text("but the server was not informed")).to_be_visible()
     expect(form.get_by_role("button", name="Call")).to_be_enabled()
 
 

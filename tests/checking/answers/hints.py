@@ -50,15 +50,16 @@ def hints_of(chapter: str) -> list[Hint]:
 
 
 def not_shown(hints: list[Hint], answers: Iterable[Answer]) -> list[Hint]:
-    """Return the hints that no example answer in `answers` quotes."""
+    """Return the hints for which no header of an answer contains a part of the hint."""
     shown = set().union(*(shown_by(text, hints) for answer in answers for text in answer.quotes))
     return [hint for hint in hints if hint.pieces not in shown]
 
 
 def shown_by(text: str, hints: list[Hint]) -> set[tuple[str, ...]]:
-    """Return the pieces of the hint that contains `text`.
+    """Return the pieces of the only hint that contains `text`.
 
-    If several hints contain `text`, return only the hint that is equal to `text`, or nothing.
+    If several hints contain `text`, return the hint that is equal to `text`. If there is no such hint, return
+    an empty set.
     """
     found = {hint.pieces for hint in hints if hint.contains(text)}
     return found & {(text,)} or (found if len(found) == 1 else set())

@@ -1,4 +1,4 @@
-"""Tests that an example answer quotes each hint."""
+"""Tests that the headers of the example answers contain a part of each hint."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def area(context):
 
 @pytest.mark.parametrize("chapter", chapters())
 def test_every_hint_has_an_example_answer(chapter: str) -> None:
-    """For each hint of the chapter, an example answer quotes a part of the hint."""
+    """For each hint of the chapter, the header of an example answer contains a part of the hint."""
     hints = hints_of(chapter)
     assert hints
     assert not _lines(not_shown(hints, read_answers(folder_of(chapter) / "answers.py")))
 
 
 def test_every_common_hint_has_an_example_answer() -> None:
-    """For each hint of several chapters, the header of an example answer contains a part of the hint."""
+    """For each hint in common_hints, the header of an example answer contains a part of the hint."""
     hints = hints_in(Path(course_pkg.checking.common_hints.__file__))
     assert hints
     assert not _lines(not_shown(hints, every_answer()))
@@ -49,7 +49,7 @@ def test_hints_are_the_sentences_of_a_check(tmp_path: Path) -> None:
 
 
 def test_a_part_of_several_hints_shows_none_of_them() -> None:
-    """A quotation counts only if exactly one hint contains it, or if it is a whole hint."""
+    """A text in a header selects a hint if only this hint contains the text, or if it is the whole hint."""
     one, two = Hint("", ("Return it.",)), Hint("", ("Return it. It was ", " before."))
     assert shown_by("before", [one, two]) == {two.pieces}
     assert not shown_by("Return", [one, two])

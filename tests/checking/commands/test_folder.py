@@ -22,7 +22,7 @@ from course_pkg.ros import PrivateMaster
     ],
 )
 def test_line_with_the_error_is_found(printed: str, told: str) -> None:
-    """The check finds the line with the error, and removes colours and paths of this machine."""
+    """The result is the line with the error, without colour codes and the path of the working folder."""
     assert telling_line(printed) == told
 
 

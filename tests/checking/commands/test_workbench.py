@@ -67,7 +67,7 @@ def test_files_of_the_check_replace_copies(bench: CommandFolders, tmp_path: Path
 
 @pytest.mark.parametrize("name", ["/etc/hostname", "../hostname"])
 def test_a_copy_stays_in_its_folder(bench: CommandFolders, tmp_path: Path, name: str) -> None:
-    """A copy is always inside the check's folder, even if the path of the student's file is not."""
+    """Even if the path of a student's file leads out of the folder, the copy is inside the check's folder."""
     (tmp_path / "hostname").write_text("x")
     bench = CommandFolders(lambda _: tmp_path / "hostname")
     folder = bench.folder([name], {})["folder"]
@@ -93,7 +93,7 @@ def test_pwd_is_the_folder(bench: CommandFolders) -> None:
 
 
 def test_stop_ends_a_running_command(bench: CommandFolders) -> None:
-    """After stop() has ended a command, stop() returns the command's output."""
+    """stop() ends a running command and returns its output; a second stop() returns the same output."""
     script = "trap 'echo bye; exit 0' INT; echo hello; echo > ready; while :; do sleep 0.01; done"
     folder = bench.folder([], {})["folder"]
     process = bench.start(["bash", "-c", script], folder)["process"]

@@ -82,7 +82,7 @@ def test_an_imported_name_is_not_offered_for_a_missing_one() -> None:
 
 
 def test_the_traceback_of_a_handler_is_kept_once() -> None:
-    """If a handler raises an exception, the agent returns the traceback with the student's line once."""
+    """The agent returns the traceback of a handler only once; the traceback contains the student's line."""
     agent = KernelAgent({})
     try:
         try:

@@ -92,7 +92,7 @@ STUBBORN = pytest.mark.parametrize(
 
 @STUBBORN
 def test_limit_ends_it(function: Callable[[], None]) -> None:
-    """The function ends at its time limit, and the lock is released."""
+    """Each function ends at its time limit, and no function still holds the lock."""
     started = time.monotonic()
     with pytest.raises(TimesUp):
         TimeLimit(LIMIT).call(function)
@@ -102,7 +102,7 @@ def test_limit_ends_it(function: Callable[[], None]) -> None:
 
 @STUBBORN
 def test_stop_button_ends_it(function: Callable[[], None]) -> None:
-    """The first interrupt ends the function."""
+    """The first interrupt ends each function."""
     started = time.monotonic()
     threading.Timer(LIMIT, os.kill, (os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):

@@ -122,7 +122,7 @@ def test_wrong_type_is_reported(check: Kernel, student: Kernel, publish: str) ->
 
 
 def test_wrong_definition_is_reported(check: Kernel, student: Kernel) -> None:
-    """If the message definitions differ, the report says so."""
+    """If the message definitions differ, the report contains the type and "with another definition"."""
     student.run(
         "from course_pkg.types import message_type\n"
         "class Other(Float64): _type, _md5sum = 'std_msgs/UInt32', '0' * 32\n"
@@ -166,7 +166,7 @@ def test_number_of_stored_messages_is_limited(check: Kernel, student: Kernel) ->
 
 
 def test_messages_published_once_wait_for_a_subscriber(check: Kernel, student: Kernel) -> None:
-    """A late subscriber receives every message, and p.sent contains one time for each message."""
+    """A late subscriber receives every message, and `sent` then contains the time of each message."""
     check.run("p = publish('/few', UInt32, [{'data': n} for n in (3, 1, 2)])")
     assert check.run("result = [p.has_subscriber(0.1), p.finish(0.1), p.sent]") == [False, False, []]
     student.run("subscription = node.subscribe('/few', UInt32)")

@@ -103,7 +103,7 @@ def test_broken_settings_still_give_results(tmp_path: Path) -> None:
 
 
 def test_the_time_limit_ends_the_run_with_results(tmp_path: Path) -> None:
-    """After the time limit, the output of each remaining part contains the reason."""
+    """After the time limit, the remaining parts get no points, and their output contains OUT_OF_TIME."""
     work = hand_in(tmp_path / "work", "mia", answers={"05.1": WRONG}).read_bytes()
     results = graded(tmp_path / "root", {NAMES["05"]: work}, minutes=0.0)
     assert results["score"] == 0

@@ -101,9 +101,10 @@ def test_nbgrader(tmp_path: Path, outer: str) -> None:
 
 
 def test_a_table_of_the_instructor(tmp_path: Path) -> None:
-    """The program uses the row for the submitted file, if there is one.
+    """The time comes from the row for the submitted file.
 
-    Otherwise, it uses the row for the chapter, or else the row for the student.
+    If the table has no row for the file, the time comes from the row for the chapter. If the table has no row
+    for the chapter either, the time comes from the row for the student.
     """
     source = folder(tmp_path / "in", {f"{name}/{FILE}": NOTEBOOK for name in ("s01", "s02", "s03", "s04")})
     table = tmp_path / "times.csv"

@@ -198,7 +198,7 @@ def test_handed_out_code_does_not_count() -> None:
 def test_students_who_handed_in_together() -> None:
     """The members of a group get no flags for their common file.
 
-    The members can still get flags for copies of other students.
+    If another student has a similar answer, the members of the group and this student get flags.
     """
     team = [submission(name, {"05.4": SWITCH}, origin="submission_1/05.ipynb") for name in ("s01", "s02")]
     assert flags_of(["copies"], *team) == {}

@@ -84,13 +84,13 @@ def found() -> dict[str, set[str]]:
 
 @pytest.mark.parametrize(("line", "kind"), LINES)
 def test_a_line_and_its_kind(found: dict[str, set[str]], line: str, kind: str) -> None:
-    """The line leads to a flag of the expected kind."""
+    """Each tested line leads to a flag of the expected kind."""
     assert kind in found[line]
 
 
 @pytest.mark.parametrize("line", ORDINARY)
 def test_an_ordinary_line(found: dict[str, set[str]], line: str) -> None:
-    """An ordinary line leads to no flag."""
+    """A line of ordinary code leads to no flag."""
     assert found[line] == set()
 
 
@@ -111,8 +111,7 @@ def test_the_solutions_have_no_flags() -> None:
 
 def test_right_example_answers() -> None:
     """Of all right example answers, only the answer with the command `rosservice find` gets a flag."""
-    # The key is a chapter and the number of an invented student; the value maps parts to this student's
-    # answers.
+    # The keys are pairs of a chapter and a student's number; the values are the student's answers by part.
     students: dict[tuple[str, int], dict[str, str]] = {}
     for answer in every_answer():
         if answer.right:
@@ -138,7 +137,7 @@ def test_a_program_in_a_package() -> None:
 
 
 def test_programs_that_are_hard_to_read() -> None:
-    """The search also works for deep nesting, long chains and text that is not Python."""
+    """The search also works for deep nesting, very long expressions and text that is not Python."""
     sources = [
         "x = " + "(" * 90 + ")" * 90,
         "x = " + "-" * 5000 + "1",
@@ -154,4 +153,4 @@ def test_programs_that_are_hard_to_read() -> None:
 def test_a_program_that_is_too_long() -> None:
     """For a program that is too long, the instructor gets a message."""
     (flag,) = flags_of(SEARCHED, submission("s01", {"05.1": "x = 1\n" * 5000}))["s01"]
-    assert flag.words == "The code is too long, so it was not examined for flags."
+    assert flag.words == "The code is too long, so it was not searched for suspicious lines."

@@ -32,7 +32,7 @@ def test_only_the_instructor_reads_flags(tmp_path: Path) -> None:
 
 
 def test_students_with_similar_answers_are_linked(tmp_path: Path) -> None:
-    """The list links each student to the similar student and to the feedback page."""
+    """Each entry of the list contains links to the similar student's entry and to the feedback page."""
     first, second, third = class_of(3)
     grades = [
         replace(first, flags=(Flag("copies", "05.2", WORDS, 1, "x = 1", ("s02",)),)),
@@ -72,7 +72,7 @@ def test_a_flag_with_a_harmful_line(tmp_path: Path) -> None:
 
 
 def test_the_record_keeps_flags(tmp_path: Path) -> None:
-    """A stored record contains its flags, and a record without flags is valid."""
+    """The flags of a grade are stored in its record; a record without the field "flags" can also be read."""
     flag = Flag("copies", "05.2", WORDS, 1, "x = 1", ("s02", "s03"))
     _write(tmp_path, flag)
     assert read_grades(tmp_path)[0].flags == (flag,)
@@ -89,7 +89,7 @@ def test_points_do_not_change() -> None:
 
 
 def test_the_option() -> None:
-    """The option selects kinds of flags, and an unknown kind is an error."""
+    """`--flags` selects kinds of flags, and an unknown kind is an error."""
     assert wanted_kinds(()) == kind_names() == ["copies", "files", "internals", "patches", "solution"]
     assert wanted_kinds(("files", "copies")) == ["copies", "files"]
     assert wanted_kinds(("none",)) == []
@@ -100,7 +100,7 @@ def test_the_option() -> None:
 
 
 def test_the_grade_of_an_earlier_run_keeps_its_flags() -> None:
-    """If a grade has no new submission, its flags do not change."""
+    """If the student has not submitted again, the flags of the earlier grade do not change."""
     flag = Flag("files", "05.1", WORDS)
     grade = replace(class_of(1)[0], flags=(flag,))
     assert with_flags([grade], [], ["files"]) == [grade]
@@ -109,7 +109,7 @@ def test_the_grade_of_an_earlier_run_keeps_its_flags() -> None:
 
 
 def test_an_attempt_that_does_not_count() -> None:
-    """The attempts of one student get no flags as copies of each other."""
+    """Two similar attempts of the same student get no flag."""
     grade = class_of(1)[0]
     attempts = [submission(grade.student, solutions("05"), origin=place) for place in (grade.origin, "other")]
     assert with_flags([grade], attempts, ["copies"])[0].flags == ()

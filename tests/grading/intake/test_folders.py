@@ -39,7 +39,7 @@ def test_a_folder_of_a_platform_is_no_student(tmp_path: Path) -> None:
 
 
 def test_the_folders_of_moodle(tmp_path: Path) -> None:
-    """If a student has two folders, one folder with work is enough."""
+    """If only one of a student's two folders contains work, no problem is reported."""
     files = {f"A One_17_assignsubmission_file_/{FILE}": NOTEBOOK}
     names = ["A One_17_assignsubmission_onlinetext_", "A Two_18_assignsubmission_file_"]
     assert [*_found(_with_folders(tmp_path, files, *names))] == ["A One_17", "A Two_18"]

@@ -80,7 +80,7 @@ def test_folders_of_catkin_are_ignored(tmp_path: Path) -> None:
 
 
 def test_a_name_that_differs_from_the_folder(tmp_path: Path) -> None:
-    """If no part needs the name in package.xml, the folder's name is used."""
+    """If no part needs a package with the name in package.xml, the folder's name is used as package name."""
     manifest = my_geometry()["package.xml"].decode().replace("<name>my_geometry<", "<name>my_geometri<")
     write_package(tmp_path, "s01/my_geometry", my_geometry({"package.xml": manifest}))
     found = _only(tmp_path)
@@ -98,7 +98,7 @@ def test_package_that_no_part_needs(tmp_path: Path) -> None:
 
 
 def test_newest_of_two_packages_with_one_name_is_used(tmp_path: Path) -> None:
-    """Of two packages with the same name, the newest package is used, and the submission gets a note."""
+    """If two packages have the same name, the newer package is used, and the submission gets a note."""
     write_package(tmp_path, "s01/a", my_geometry())
     for path in write_package(tmp_path, "s01/b", my_geometry()).rglob("*"):
         os.utime(path, (1, 1))

@@ -119,7 +119,7 @@ def test_canvas_marks_lateness(tmp_path: Path, five: bytes) -> None:
 
 
 def test_only_the_given_chapters_are_graded(tmp_path: Path, five: bytes, six: bytes) -> None:
-    """Only `chapters` are graded, and an unknown chapter is refused."""
+    """Only the given chapters are graded, and an unknown chapter is refused."""
     source = folder(tmp_path, {f"s01/{FIVE}": five, f"s01/{SIX}": six})
     assert _kept(submissions(source, ["06"])) == [("s01", "06")]
     with pytest.raises(AuthoringError, match="chapter 77"):
@@ -130,7 +130,7 @@ def test_only_the_given_chapters_are_graded(tmp_path: Path, five: bytes, six: by
     "name", ["mine.ipynb", "Untitled.ipynb", "06_write_a_client.ipynb", "05 (1).ipynb", "5.ipynb.txt"]
 )
 def test_cells_identify_the_chapter(tmp_path: Path, five: bytes, name: str) -> None:
-    """A renamed notebook belongs to the chapter of its exercises, whatever its file name is."""
+    """If a notebook was renamed, its exercises identify the chapter."""
     [found] = submissions(folder(tmp_path, {f"s01/{name}": five}))
     assert (found.chapter, found.problem) == ("05", "")
     assert any("chapter 06" in note for note in found.notes) == name.startswith("06")
@@ -214,7 +214,7 @@ def test_a_notebook_of_this_edition_under_a_name_of_the_first(
 
 
 def test_newest_of_two_notebooks_is_used(tmp_path: Path, five: bytes) -> None:
-    """The newest notebook of a chapter is graded, and a note contains the name of the other notebook."""
+    """If a chapter has two notebooks, the newer one is graded, and a note contains the name of the other."""
     source = folder(
         tmp_path,
         {f"one_1_2{n}_05_write_a_server{end}.ipynb": five for n, end in enumerate(["", "-2", "-10"])},

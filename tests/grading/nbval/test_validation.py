@@ -19,9 +19,9 @@ from course_pkg.setup import Places
 
 
 def notebook(*cells: tuple[str, str], check: str = "") -> Notebook:
-    """Return a notebook of pairs (source, expected output).
+    """Return a notebook; each element of `cells` is a pair of a source and its expected output.
 
-    If `check` is given, the last cell is the check of this part.
+    If `check` is given, the last cell is the check of the part with this id.
     """
     made = nbformat.v4.new_notebook()
     for number, (source, shown) in enumerate(cells):
@@ -51,7 +51,7 @@ def test_each_cell_is_compared_with_its_stored_output() -> None:
 
 @pytest.mark.usefixtures("sandbox")
 def test_the_kernel_sees_neither_what_is_expected_nor_a_check() -> None:
-    """The kernel cannot read the notebook's file or the checks, and has no access to another network."""
+    """The kernel cannot read the notebook's file or the checks, and lo is its only network interface."""
     probe = """
 import glob, os, pathlib, socket
 import course_pkg.chapters as chapters
@@ -138,7 +138,7 @@ def test_plain_nbval_fails_if_points_are_missing(tmp_path: Path, headlines: list
 def test_course_run_adds_the_plug_in(tmp_path: Path) -> None:
     """`course run pytest --nbval` always uses the plug-in.
 
-    A comment that skips a check earns no points.
+    If the comment NBVAL_SKIP skips a check, the run fails.
     """
     path = chapter_three(tmp_path, *PASSED)
     made = json.loads(path.read_text())

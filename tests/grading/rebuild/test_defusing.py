@@ -89,7 +89,7 @@ WRITES = "%%writefile src/a.srv"
     ],
 )
 def test_a_cell_that_writes_a_file_writes_that_file(source: str, notes: int) -> None:
-    """The first line comes from the reference solution, and the following lines come from the student."""
+    """The line with %%writefile comes from the reference solution. All other lines come from the student."""
     made = defuse(source, WRITES)
     assert made.source == f"{WRITES}\nint8 a"
     assert len(made.notes) == notes

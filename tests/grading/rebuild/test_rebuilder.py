@@ -40,9 +40,9 @@ REFERENCE = book(
 
 
 def _student(change: Callable[[Cells], object] = lambda _: None, **answers: str) -> bytes:
-    """Return a student's notebook with these answers, and apply `change`.
+    """Return a student's notebook with these answers, and apply `change` to its cells.
 
-    The keys of `answers` are the letters of cells.
+    The keys of `answers` are "d", "c" and "w", for the cells D, C and W.
     """
     notebook = derived(copy.deepcopy(REFERENCE))
     for cell in notebook["cells"]:
@@ -65,13 +65,13 @@ def _copied(cells: Cells, name: str, source: str, shift: int = 1) -> None:
 
 
 def _own(cells: Cells, name: str, *sources: str, shift: int = 1) -> None:
-    """Insert a student's own cells; `shift` is their distance from the cell `name`, counted downwards."""
+    """Insert a student's own cells; if `shift` is 1, they are directly below the cell with the id `name`."""
     place = _place(cells, name) + shift
     cells[place:place] = [code(source, id=f"own-{place}-{number}") for number, source in enumerate(sources)]
 
 
 def _rebuilt(content: bytes) -> Rebuilt:
-    """Rebuild a submission, and assert the rules that apply to every submission."""
+    """Rebuild a submission, and assert what must be true for every rebuilt submission."""
     before = copy.deepcopy(REFERENCE)
     made = rebuild(REFERENCE, content)
     assert before == REFERENCE

@@ -28,7 +28,7 @@ def _points(folder: Path) -> str:
 
 
 def test_points_survive_each_run(tmp_path: Path) -> None:
-    """The reviewed points and comments are used in each run until their row is removed."""
+    """Each run uses the points and the comment in a row of overrides.csv until the row is removed."""
     hand_in(tmp_path, "s01", "00", {"00.1": ""})
     assert _grade(tmp_path).returncode in (0, 3)
     before = _points(tmp_path)

@@ -64,7 +64,7 @@ def test_a_part_that_a_spreadsheet_may_have_changed(tmp_path: Path) -> None:
 
 
 def test_a_german_spreadsheet_keeps_its_form(tmp_path: Path) -> None:
-    """The program does not change the format of a German spreadsheet, such as decimal commas."""
+    """In a file from a German spreadsheet, new rows have semicolons and decimal commas too."""
     before = "\ufeffstudent;chapter;part;note;points;comment;answer\r\ns01;5;5.1;mine;1,5;gut;\r\n\r\n"
     _read(tmp_path, before)
     current = read_overrides(tmp_path)

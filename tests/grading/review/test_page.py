@@ -106,7 +106,7 @@ def test_a_folder_that_cannot_be_written(browser: Browser, tmp_path: Path) -> No
 
 
 def test_a_spreadsheet_saves_while_the_page_is_open(browser: Browser, tmp_path: Path) -> None:
-    """If a spreadsheet changes the file, the page reads the new rows and adds its own change."""
+    """If a spreadsheet program adds a row to the file, the page keeps this row when it saves its own row."""
     out = write_class(tmp_path)
     with serving(out) as url, opened(browser, url) as (page, _words):
         page.keyboard.press("n")

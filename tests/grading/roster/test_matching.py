@@ -36,7 +36,7 @@ def _matched(origins: Origins, roster: tuple[Person, ...] = ROSTER) -> ClassList
     ],
 )
 def test_who_is_found(student: str, origin: str) -> None:
-    """A submission's folder name is any field of the roster, or it is a name and a number from a platform."""
+    """A folder's name can be any field of the student in the roster, or a name with a platform's number."""
     found = _matched({student: [origin]})
     assert found.people[student].line == JANE.line
     assert (found.found, found.strangers, found.unclear) == (1, (), {})
@@ -117,7 +117,7 @@ def test_the_summary() -> None:
 
 
 def test_without_lists() -> None:
-    """Without a roster, students have the names and numbers of the platforms."""
+    """Without a roster, the names and numbers of the platforms identify the students."""
     found = Lists().matched({"doejane_17": ["doejane_17_99_05.ipynb"], "s01": ["s01/05.ipynb"]})
     assert found.people == {"doejane_17": Person("doejane", "17")}
     assert list(found.summary()) == []

@@ -38,7 +38,7 @@ def test_parts_that_only_one_run_has() -> None:
 
 
 def test_lateness_alone() -> None:
-    """If only the lateness has changed, one line reports the points of the chapter."""
+    """If only the late days have changed, one line shows the old and the new points of the chapter."""
     late = replace(FULL, late=1.0, factor=0.5)
     assert list(map(str, changes([FULL], [late]))) == ["s01, chapter 05: 4 before, 2 now"]
 

@@ -39,7 +39,7 @@ def test_nothing_selects_everything() -> None:
 
 
 def test_a_chapter_and_files_without_a_chapter() -> None:
-    """A file with an unknown chapter may belong to the selected chapter."""
+    """With --chapters, the run also includes files whose chapter is unknown."""
     assert ("A Two_19", "") in _chosen(selection((), ("05",), ()))
     assert ("s01", "06") not in _chosen(selection((), ("05",), ()))
 
@@ -105,13 +105,13 @@ def test_the_other_parts_keep_their_results() -> None:
 
 
 def test_parts_of_two_versions_have_no_key() -> None:
-    """If different versions of the checks have graded the parts of a grade, the grade has an empty key."""
+    """If two versions of the checks have graded parts of one submission, the grade has an empty key."""
     base = _grade(Verdict.PASSED, Verdict.FAILED)
     assert merged(base, replace(base, key="other")).key == ""
 
 
 def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
-    """If the notebook has changed, all its parts are graded."""
+    """If the notebook has changed or has no earlier grade, --part grades all parts of the notebook."""
     submission = SUBMISSIONS[0]
     known = _grade(Verdict.PASSED, handed_in=submission.digest)
     selected = selection((), (), ["05.2"])
@@ -124,7 +124,7 @@ def test_a_part_alone_is_graded_only_for_the_same_notebook() -> None:
 def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
     """A result outside the selection does not change.
 
-    A result in the selection is marked in the reports if its submission is missing.
+    If this run has no submission for a selected result, the result is marked in the reports.
     """
     write_reports([*class_of(3, ("05", "06")), refused("s09", "")], tmp_path)
     earlier = read_earlier(tmp_path)
@@ -143,7 +143,7 @@ def test_what_stays_and_what_is_marked(tmp_path: Path) -> None:
 
 
 def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
-    """If no student handed in a chapter, the reports do not mark the earlier results of this chapter."""
+    """If no student submitted a chapter, the chapter's earlier results are not marked in the reports."""
     write_reports(class_of(2, ("05", "06")), tmp_path)
     earlier = read_earlier(tmp_path)
     now = [grade for grade in earlier.grades if grade.chapter == "06" and grade.student == "s01"]
@@ -156,7 +156,7 @@ def test_another_assignment_in_the_same_folder(tmp_path: Path) -> None:
 def test_kept_grades_belong_to_no_student(tmp_path: Path) -> None:
     """A newly graded part replaces the stored part.
 
-    Other stored grades of this notebook are removed.
+    A stored grade of the same notebook with other options is removed.
     """
     submission = SUBMISSIONS[0]
     store = Store(tmp_path)

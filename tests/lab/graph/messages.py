@@ -19,10 +19,9 @@ class Messages:
         self._folder = Path(variable(server, "JUPYTER_RUNTIME_DIR"))
 
     def run(self, code: str, until: str) -> str:
-        """Run a cell.
+        """Run a cell, and return its output up to the first message of the type `until`.
 
-        Return the output of the cell until the first message of the type `until`. If the cell raises an
-        error, return the error's name.
+        If the cell raises an error, the output contains the error's name.
         """
         [file] = eventually(lambda: list(self._folder.glob("kernel-*.json")))
         client = BlockingKernelClient(connection_file=str(file))

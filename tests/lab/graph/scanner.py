@@ -67,7 +67,7 @@ def accepts(name: str) -> bool:
 
 
 def asked(name: str, port: int) -> list[str]:
-    """Return which of these a port offers for NAME: a master, a node, the service."""
+    """Return the kinds ("master", "node", "service") that a port offers under the name `name`."""
     answers = {
         "master": f"/{name}".encode() in call(port, "getSystemState"),
         "node": f"/{name}".encode() in call(port, "getName"),

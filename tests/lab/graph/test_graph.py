@@ -62,9 +62,9 @@ def test_the_master_has_the_usual_port_on_each_graph(graph: Graph, tmp_path: Pat
 
 
 def test_a_graph_ends_with_its_last_command(graph: Graph, tmp_path: Path) -> None:
-    """A second command joins the graph.
+    """A second command joins the graph of the first command.
 
-    The graph continues after the first command's end, and ends with the last command.
+    After the first command's end, the graph still runs. After the last command's end, the graph ends too.
     """
     second = join_or_start(Which.RUNNING, tmp_path)
     second.wait_for_master()
@@ -90,7 +90,7 @@ def test_a_graph_of_its_own_is_not_joined(graph: Graph, tmp_path: Path) -> None:
 def test_a_killed_holder_leaves_nothing(graph: Graph, tmp_path: Path) -> None:
     """If the process that holds a graph gets SIGKILL, the master ends.
 
-    The graph's socket file is removed when the next command starts or ends.
+    The socket file of the killed process is removed when the next command starts or ends.
     """
     processes = of_graphs(tmp_path)
     os.kill(processes[0], signal.SIGKILL)
@@ -130,7 +130,7 @@ def test_a_shared_graph_is_in_the_machines_network() -> None:
 def test_a_command_in_a_graph_stays_in_it(graph: Graph) -> None:
     """`course run` inside `course run bash` uses the same network and master.
 
-    With --new-graph, it uses a new network and master.
+    With --new-graph, the inner command uses a new network and master.
     """
     script = f"{SHOW}; ./course run sh -c '{SHOW}'; ./course run --new-graph sh -c '{SHOW}'"
     seen = course_run("sh", "-c", script).stdout.split()

@@ -1,6 +1,6 @@
 """Tests of a running `course lab`.
 
-The kernels and terminals of `course lab` are in a private network, and its server is outside this network.
+The kernels and terminals are in a private network, but JupyterLab's server is outside this network.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ SLEEP = "import time; print('begun', flush=True); time.sleep(1000)"
 
 
 def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
-    """Only the page's port is outside the network.
+    """Outside the private network, only the port of JupyterLab's page is open.
 
     A kernel, a terminal and `course run` use the same master at port 11311.
 
@@ -34,7 +34,7 @@ def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
     uri, network, pid = messages.run(WHERE, "status").split()
     assert uri == "http://localhost:11311"
     assert network != own_namespace("net")
-    assert having(KERNEL, [int(pid)])  # The server interrupts the kernel itself, not a parent process.
+    assert having(KERNEL, [int(pid)])  # The cell runs in the kernel's main process, which gets interrupts.
     served.post("/api/terminals")
     [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(served.process)))
     # nsenter enters the network and then calls exec(), so the shell is in the network only after a short
@@ -59,7 +59,7 @@ def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
 
 @pytest.mark.parametrize("victim", [HOLDER, KERNEL, b"rosmaster\0--core"])
 def test_nothing_is_left_after_a_kill_and_the_end(served: Service, victim: bytes) -> None:
-    """After SIGKILL of any process of the graph and Ctrl-C, no process of the lab remains."""
+    """If a process of the graph was killed, Ctrl-C still ends all other processes of the lab."""
     eventually(lambda: having(victim, below(served.process)))
     family = below(served.process)
     os.kill(having(victim, family)[-1], signal.SIGKILL)

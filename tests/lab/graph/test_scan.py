@@ -45,7 +45,7 @@ def scan(*command: str, name: str, sockets: list[str] = []) -> list[str]:  # noq
 
 
 def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
-    """Return the names of the processes' listening sockets that are visible in this process's network.
+    """Return the names of the processes' listening sockets that this process can see in /proc/net.
 
     A name is the address of a TCP or UDP socket, or the path of a Unix socket. The addresses have the format
     of /proc/net.
@@ -69,9 +69,10 @@ def visible(pids: list[int], kinds: tuple[str, ...]) -> set[str]:
 
 
 def test_a_scan_finds_nothing_but_the_page(served: Service, tmp_path: Path) -> None:
-    """A scan from outside finds, calls and replaces no master, node, service or socket.
+    """A scan from outside the lab's network finds no master, node, service or socket.
 
-    A scan from inside finds all of them.
+    No scan calls or replaces the service. A scan from inside the network finds a master, a node, a service
+    and a socket.
     """
     name = f"hidden_{secrets.token_hex(4)}"
     messages = Messages(served)

@@ -52,7 +52,10 @@ class Wall:
 
 
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
-    """For each number in `messages`, return this count of the messages on /chatter."""
+    """Return an Activity for each number in `messages`, which is the message count of /chatter.
+
+    The times of two consecutive Activity objects differ by `every` s.
+    """
     return [
         Activity(turn * every, (Traffic("/chatter", "/talker", "/listener", 7, count),))
         for turn, count in enumerate(messages)
@@ -180,7 +183,7 @@ def test_a_killed_caller_is_gone() -> None:
 
 
 def test_a_server_that_does_not_report_callers_is_left_out() -> None:
-    """If a server does not report its callers, the list of callers does not contain its service."""
+    """If a server does not report its callers, the server's service is not in the list of callers."""
     wall = Wall()
     wall.model.count(Activity(0.0, callers={"/robot/tell": ()}))
     assert set(wall.now["callers"]) == {"service /robot/tell"}
@@ -229,7 +232,7 @@ def test_a_type_that_is_not_here(kind: str) -> None:
 
 
 def test_a_still_picture_contains_its_colours_rates_and_texts() -> None:
-    """A saved picture contains all colours, and no buttons."""
+    """A saved picture contains its style sheet, the rates and the text of the graph, but no buttons."""
     wall = Wall()
     for activity in counts(100, 120, 140):
         wall.model.count(activity)
@@ -306,7 +309,7 @@ def test_the_memory_is_bounded() -> None:
     ],
 )
 def test_no_more_digits_than_the_counts_can_tell(rate: float, doubt: float, shown: float) -> None:
-    """The displayed rate has the fewest digits for which its error is at most `doubt`."""
+    """The displayed rate differs by at most `doubt` from `rate`, and has as few digits as possible."""
     assert plainest(rate, doubt) == pytest.approx(shown)
 
 

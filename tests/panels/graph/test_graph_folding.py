@@ -94,7 +94,7 @@ def test_a_folded_namespace_is_one_box_with_all_lines() -> None:
 
 
 def test_lines_inside_a_box_are_not_drawn() -> None:
-    """A folded box has no line to itself."""
+    """If a line connects two elements of the same folded namespace, the line is not drawn."""
     shown = folded(picture(NESTED), {"/robot/": True})
     assert names(shown) == {"/screen", "/robot/"}
     assert set(shown.lines) == {
@@ -211,7 +211,7 @@ def test_the_list_contains_folded_shapes() -> None:
 
 @pytest.mark.parametrize("noise", [False, True])
 def test_loggers_of_a_node_are_a_namespace(noise: bool) -> None:
-    """If the loggers are shown, the two logger services of each node are a namespace."""
+    """If the logger services are shown, the two logger services of each node form a namespace."""
     loggers = {f"/sim/{name}": "/sim" for name in ("get_loggers", "set_logger_level")}
     shown = picture(graph(("/sim", "/pose", "/watch"), services=loggers), noise=noise)
     assert list(namespaces(shown)) == ["/sim/"] * noise

@@ -126,7 +126,7 @@ def test_each_shape_has_an_accessible_name() -> None:
     assert root.findtext(f"{SVG}desc") == "five shapes"
     assert (
         len(root.findall(f".//{SVG}polygon")) == 2 + 2 + 1
-    )  # The topic has two arrows, the service has two arrows, and the service itself is a polygon.
+    )  # The topic has two arrowheads, the service has two arrowheads, and the service's shape is a polygon.
 
 
 def test_a_name_cannot_bring_markup_into_the_page() -> None:

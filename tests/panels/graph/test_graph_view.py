@@ -58,7 +58,7 @@ def test_the_repr_is_stable(panel: GraphPanel) -> None:
 
 
 def test_a_rate_appears_while_a_page_shows_the_panel(panel: GraphPanel, kernel: Kernel) -> None:
-    """Only a visible panel asks the nodes for their message counts, and then shows the rate of a topic."""
+    """A visible panel reads the message counts and shows a topic's rate; a hidden panel reads no counts."""
     kernel.run("from course_pkg.ros import join\nnode = join('listener')")
     kernel.run("node.subscribe('/pulse', 'std_msgs/UInt32')")
     panel._dispatch(panel, {"kind": "hello", "view": "a"}, [])
@@ -118,7 +118,7 @@ def test_the_kernel_s_own_node_is_found(kernel: Kernel) -> None:
 def test_a_node_that_is_late_once_is_not_lost(
     panel: GraphPanel, pulse: NodeProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The panel reports a node as silent only if the node fails to respond two times."""
+    """The panel reports a node as silent only after two requests without a response."""
     seen = panel._model.snapshot
     assert seen is not None
     late = Snapshot(seen.master, tuple(replace(each, reach="silent") for each in seen.nodes), (), ())

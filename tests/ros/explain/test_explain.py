@@ -105,9 +105,11 @@ def test_errors_of_the_course_are_explained() -> None:
     silent = MasterSilent(
         "The program at http://localhost:1 accepts connections, but did not answer within 2 s."
     )
-    assert "process is stopped" in explain(silent).cause
+    assert "process is paused" in explain(silent).cause
     assert explain(str(silent)) == explain(silent)
-    assert explain(NodeFailed("The node fell over. Stand it up.")).cause == "The node fell over. Stand it up."
+    assert (
+        explain(NodeFailed("The node crashed. Start it again.")).cause == "The node crashed. Start it again."
+    )
 
 
 class Unshowable(Exception):

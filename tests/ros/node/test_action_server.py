@@ -1,4 +1,4 @@
-"""Tests of action servers whose cell runs again, and of stop()."""
+"""Tests of action servers: what happens if a cell runs again, and after stop()."""
 
 from __future__ import annotations
 

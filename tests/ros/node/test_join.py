@@ -61,7 +61,7 @@ def test_malformed_uri(uri: str) -> None:
 
 
 def test_no_program_at_the_uri() -> None:
-    """If no master is at the address, join() raises an error, and works after a correction."""
+    """If no master is at the address, join() raises an error. After the address was removed, join() works."""
     with Kernel({"ROS_MASTER_URI": "http://localhost:1"}) as kernel:
         reply = kernel.ask(JOIN)
         assert reply.error == "MasterUnreachable"

@@ -1,4 +1,4 @@
-"""Tests of cells with plain rospy that run again."""
+"""Tests that run cells with plain rospy again."""
 
 from __future__ import annotations
 
@@ -217,7 +217,7 @@ def test_init_node_after_join(notebook: NotebookKernel) -> None:
 def test_cell_that_runs_again_without_a_master() -> None:
     """A cell can run again even if there is no master.
 
-    With a new master, the service of the cell works again.
+    After a new master has started, the service of the cell works again.
     """
     with PrivateMaster() as master, NotebookKernel({"ROS_MASTER_URI": master.uri}) as kernel:
         kernel.run("import rospy\nfrom std_srvs.srv import Trigger\nfrom course_pkg import join")

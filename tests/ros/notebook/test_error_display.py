@@ -37,7 +37,7 @@ def test_error_of_rospy(notebook: NotebookKernel) -> None:
 
 
 def test_many_calls(notebook: NotebookKernel) -> None:
-    """If there are too many calls, the traceback shows the first and the last calls."""
+    """A long traceback shows only its first and its last calls."""
     notebook.run("def down(n):\n    return 1 / n + down(n - 1)")
     lines = without_cell_numbers(notebook.run("down(20)").error_lines)
     assert lines[1:4] == ["  This cell, line 1", "    down(20)", "  … 18 more calls …"]

@@ -157,7 +157,7 @@ time.sleep(1000)
 
 
 def test_temporary_folder_of_a_killed_process_is_deleted(tmp_path: Path) -> None:
-    """If a supervisor kills all its descendants, they leave no temporary folder."""
+    """If a process with a temporary folder is killed, the folder is deleted."""
     owner = """
 import signal, time
 from course_pkg.ros.process.supervised import temporary_folder

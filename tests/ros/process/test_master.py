@@ -66,7 +66,7 @@ def test_the_master_of_ros_master_uri_is_used(master: PrivateMaster) -> None:
 def test_stopped_master_is_silent(master: PrivateMaster) -> None:
     """A request to a master that is suspended with SIGSTOP raises MasterSilent.
 
-    After SIGCONT, requests work again.
+    After SIGCONT, the master responds again.
     """
     client = MasterClient(master.uri, timeout=0.3)
     client.pid()
@@ -119,7 +119,7 @@ def test_a_master_that_was_started_again(master: PrivateMaster) -> None:
 
 
 def test_registrations(master: PrivateMaster) -> None:
-    """A registration can be found, and can be removed only with the right address."""
+    """A client can look up a registration, and can remove it only with the registered address."""
     client = MasterClient(master.uri)
     client.register_service("/node", "/service", "rosrpc://localhost:5", "http://localhost:4/")
     client.register_publisher("/node", "/topic", "std_msgs/UInt32", "http://localhost:4/")

@@ -147,7 +147,7 @@ def test_killing_leaves_the_registration(master: PrivateMaster) -> None:
 
 
 def test_running_again_replaces(kernel: Kernel) -> None:
-    """A second run() with the same node name ends the first process; a run with another name does not."""
+    """run() ends an earlier process with the same node name, but not a process with another node name."""
     kernel.run("""
         from course_pkg.ros import join
         node = join("student")
@@ -232,7 +232,7 @@ def test_close_ends_everything_of_a_private_graph() -> None:
 def test_a_private_graph_reports_a_node_that_is_missing_or_ends(master: PrivateMaster) -> None:
     """If a program is unknown, the error of run() contains similar names.
 
-    If a program exits too early, the error contains its output.
+    If a program exits immediately, the error of run() contains the program's output.
     """
     started = time.monotonic()
     with PrivateGraph() as graph:

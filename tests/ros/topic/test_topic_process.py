@@ -246,7 +246,7 @@ def test_nodes_of_a_topic_and_their_types(master: PrivateMaster) -> None:
 
 
 def test_a_first_message_is_lost_and_a_second_is_reported(reports: Reports) -> None:
-    """A message without a connected subscriber counts as unheard, and the next message is received."""
+    """`unheard` counts the message without a connected subscriber; the next message is received."""
     reports.process.tell("type", **NUMBER)
     publish(reports, "1.5")
     eventually(lambda: reports.published("deliveries"))
@@ -271,7 +271,10 @@ def test_a_latched_message_is_kept_for_its_subscriber(reports: Reports) -> None:
 
 
 def test_a_publisher_ends_when_it_is_stopped_or_changed(reports: Reports, master: PrivateMaster) -> None:
-    """A new queue size creates a new publisher, and the command `withdraw` unregisters this publisher."""
+    """If the queue size changes, a new publisher replaces the old one.
+
+    The command `withdraw` unregisters the publisher.
+    """
     reports.process.tell("type", **NUMBER)
     publish(reports, "1")
     eventually(lambda: reports.published("published") == 1)

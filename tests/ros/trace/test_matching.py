@@ -60,7 +60,7 @@ def call(number: int, start: float, end: float) -> list[SpanData]:
 
 
 def test_same_connection_and_number_is_the_same_call() -> None:
-    """A handler belongs to the call with the same connection and the same number."""
+    """A handler belongs to the call with the same connection and the same call number."""
     assert keys(events(call(1, 1, 3), [span("handler", 2, 2.5)])) == [
         ("request", "call 1"),
         ("wait", "call 1"),
@@ -70,7 +70,7 @@ def test_same_connection_and_number_is_the_same_call() -> None:
 
 
 def test_another_number_is_another_call() -> None:
-    """A handler with another number belongs to another call."""
+    """A handler with another call number belongs to another call."""
     found = events(call(1, 1, 3), [span("handler", 2, 2.5, transfers=[(TRANSFER[0], 2, "/n0")])])
     assert ("handler", "call 2") in keys(found)
 
@@ -81,7 +81,7 @@ def test_another_service_on_the_same_ports() -> None:
 
 
 def test_a_port_that_was_used_again() -> None:
-    """If two calls have the same ports and the same number, no handler is assigned to these calls."""
+    """If two calls have the same ports and the same call number, no handler is assigned to these calls."""
     twice = events([*call(1, 1, 3), *call(2, 11, 13)], [span("handler", 2, 2.5), span("handler", 12, 12.5)])
     assert [key for kind, key in keys(twice) if kind == "handler"] == ["call 2", "call 4"]
     assert [key for kind, key in keys(twice) if kind == "request"] == ["call 1", "call 3"]
@@ -95,7 +95,7 @@ def test_contradictory_times() -> None:
 
 
 def test_calls_of_two_processes_with_one_number() -> None:
-    """Calls of two processes are different calls, even if their numbers are equal."""
+    """Calls of two processes are different calls, even if their call numbers are equal."""
     first, second = ([span("lookup", start, start + 0.1, call=1, transfers=[])] for start in (1.0, 2.0))
     records = [NodeRecord("/n", 10, first), NodeRecord("/n", 11, second)]
     assert [event.key for event in match_events(records, 0, 100)] == ["call 1", "call 2"]

@@ -150,7 +150,7 @@ def test_a_service_that_does_not_exist(asker: Kernel) -> None:
 
 
 def test_a_caller_that_gave_up(asker: Kernel) -> None:
-    """After a timeout, the caller's wait ends with an error, and the handler has no end."""
+    """After a timeout, the caller's wait ends with an error, and the handler's event has no end time."""
     recording = recorded(
         asker,
         """
@@ -242,7 +242,7 @@ def test_a_server_that_died(asker: Kernel) -> None:
             called("/dying", Trigger)
     """,
     )
-    # The test does not check the reason, because the reason depends on the order in which the sockets close.
+    # The recorded reason depends on the order in which the sockets close, so the test does not check it.
     assert [*recording.unrecorded] == ["/dying_server"]
     assert kinds(recording, "call 1") == ["lookup", "connect", "request", "wait", "error"]
 

@@ -90,7 +90,10 @@ def read_the_graph(context: CheckContext) -> None:
                 ),
                 (
                     matches("logger"),
-                    "Every node has the service in your answer. Find the service that only /SERVER_NODE has.",
+                    (
+                        "Every node offers the service in your answer. Find the service that only the node "
+                        "of the server offers."
+                    ),
                 ),
                 (
                     matches("^/?SERVER_NODE$"),
@@ -202,7 +205,7 @@ def ask_a_question(context: CheckContext) -> None:
             actual="no second call",
             hints=(
                 "A second call with the same sides returned the result of the first call. Call the service "
-                "in each call of ask_for_volume()."
+                "each time ask_for_volume() runs."
             ),
         )
 
@@ -377,7 +380,7 @@ def _three_numbers(context: CheckContext, returned: Json) -> tuple[int, int, int
             (
                 lambda actual: isinstance(actual, int),
                 (
-                    "Your function returned only one number. Return three numbers: `before`, "
+                    "Your function returned only one number. Return the three numbers `before`, "
                     "`after` and `missed`."
                 ),
             ),

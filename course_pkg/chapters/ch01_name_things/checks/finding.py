@@ -7,7 +7,7 @@ from course_pkg.waiting import at_this_load
 
 NUMBER = "std_msgs/UInt32"
 LOOKS_LIKE_IT = (
-    "Your function called the wrong service, because the names are similar. Compare the whole "
+    "Your function called another service with a similar name. Compare the whole "
     "text after the last slash with the given text."
 )
 FOUND = "Find the service, call this service, and return the volume."

@@ -16,7 +16,7 @@ GEOMETRY = "course_pkg/geometry"
 START = 20.0  # A program may take this many s to start; usually, it takes 0.5 s.
 WHERE = "the service of a room is measure, in the namespace of the room"
 OWN_SERVICE = "Start a server that offers the service `measure` in the namespace of the room."
-OWN_NODE = "Give the server's node the name `measurer`, in the namespace of the room."
+OWN_NODE = "Name the server's node `measurer`, and start this node in the namespace of the room."
 VIEWER = (
     "Give the viewer's node the name ARM_viewer in the namespace /screen, where ARM is the name of the arm."
 )
@@ -94,7 +94,7 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
             ),
             (
                 matches("^[!%]"),
-                "Remove the first character. In a terminal, the command begins with `rosrun`.",
+                "A command that begins with ! or % works only in a notebook. Remove this character.",
             ),
             (
                 matches("object"),
@@ -239,7 +239,7 @@ def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -
             hints=[
                 (
                     ("/screen/mirrored_joints",),
-                    "The viewers of all arms would publish on the same topic. Also remap `mirrored_joints`.",
+                    "The viewers of all arms publish on the same topic. Also remap `mirrored_joints`.",
                 ),
                 (
                     (f"/{arm}/mirrored_joints",),

@@ -264,8 +264,8 @@ def _mirrors(context: CheckContext, messages: Sequence[Fields], heard: Sequence[
         hints=[
             (
                 matches("nothing arrived"),
-                "No message arrived. Publish in the callback, and look below the cell for an error "
-                "message of the callback.",
+                "Your callback published no message. Look below the cell for an error message of "
+                "the callback.",
             ),
             (
                 matches("'secs': 0, 'nsecs': 0"),
@@ -544,5 +544,5 @@ def _one_at_a_time(context: CheckContext, function: str, at_once: int) -> None:
         f"one call of {function} at a time",
         expected=1,
         actual=at_once,
-        hints="Two calls of this function ran at the same time. Do not start a thread for each message.",
+        hints=f"Two calls of {function}() ran at the same time. Do not start a thread for each message.",
     )

@@ -201,8 +201,8 @@ _APART: Hints = [
 _WHILE: Hints = [
     (
         "waiting",
-        "Messages with the number 0 have arrived. Store the time at which a message arrives, and do not use "
-        "its number.",
+        "Messages with the number 0 have arrived. Store the time at which a message arrives, not the "
+        "number in the message.",
     ),
     (
         "ended",

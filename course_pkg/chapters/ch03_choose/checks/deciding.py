@@ -52,8 +52,8 @@ WRONG: Mapping[tuple[str, str], str] = {
     (
         "free space on disk",
         "topic",
-    ): "With a topic, the number would be published all day, but only one program needs the "
-    "number, and only once. Choose a design with a single call.",
+    ): "With a topic, a node would publish the number all day, but one program needs this "
+    "number only once. Choose a design with a single call.",
 }
 HOLLOW: Mapping[str, str] = {
     "answer": "This reason does not fit: in this job, the node that sends the data does not need an answer.",
@@ -108,7 +108,13 @@ def decide_and_defend(context: CheckContext) -> None:
                 lambda actual: tuple(actual[::-1]) and actual[0] in REASONS and actual[1] in DESIGNS,
                 "The order in the pair is wrong. Write the design first, and then the reason.",
             ),
-            (ANYTHING, f"The designs are {', '.join(DESIGNS)}; the reasons are {', '.join(REASONS)}."),
+            (
+                ANYTHING,
+                (
+                    "One value is not a valid pair (design, reason). "
+                    f"The designs are {', '.join(DESIGNS)}; the reasons are {', '.join(REASONS)}."
+                ),
+            ),
         ],
     )
     for job, designs in JOBS.items():

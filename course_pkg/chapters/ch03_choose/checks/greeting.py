@@ -98,7 +98,7 @@ GREETED = (
     goals={
         GREETED: 3,
         (
-            "Also greet customers who come later, and customers who come after a second call of "
+            "Also greet customers who come after a pause, and customers who come after a second call of "
             "start_greeting()."
         ): 1,
     },

@@ -228,7 +228,7 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
         expected=0.0,
         actual=server.requests[0]["patience"],
         hints=(
-            "The value of `patience` in the request is wrong, so the detector waits for a "
+            "The field `patience` of the request is not 0, so the detector waits for a "
             "customer. Use patience=0."
         ),
     )
@@ -237,8 +237,7 @@ def _asked_as_it_should(context: CheckContext, server: ScriptedServer) -> None:
         expected=0,
         actual=server.requests[0]["after"],
         hints=(
-            "The value of `after` in the request is wrong, so the detector ignores some customers. "
-            "Use after=0."
+            "The field `after` of the request is not 0, so the detector ignores some customers. Use after=0."
         ),
     )
 

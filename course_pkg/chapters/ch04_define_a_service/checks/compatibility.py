@@ -32,8 +32,8 @@ class Pair:
     "04.2",
     points=2,
     goal=(
-        "Return True if a client that is built from one text can call a server that is built from "
-        "the other text. Otherwise, return False."
+        "Return True if a client with the definition in one text can call a server with the "
+        "definition in the other text. Otherwise, return False."
     ),
     needs=["will_talk"],
     deadline=40.0,

@@ -135,7 +135,7 @@ def _about_type(name: str, wanted: str, found: str, text: str) -> str:
         return f"{where}is an array in your file, but the exercise needs a single value: {wanted}."
     if base == "float64":
         return (
-            f"{where}has the type {found} in your file, which has twice as many bits. Copy the type from "
+            f"{where}has the type {found} in your file, and this type is too large. Copy the type from "
             f"the description: {wanted}."
         )
     return f"{where}has the wrong type in your file. Copy the type from the description: {wanted}."
@@ -170,7 +170,7 @@ def _about_constants(wanted: list[str], found: list[str], below: list[str], text
         name = wrong[0].partition(" ")[2].partition("=")[0]
         right = next((each for each in wanted if f" {name}=" in each), "")
         return (
-            f"{_line(text, name)}{wrong[0]} is different from the description. Write {right}."
+            f"{_line(text, name)}{wrong[0]} is wrong. Write {right}."
             if right
             else f"{_line(text, name)}the description has no constant with the name {name}. Compare "
             "the names letter by letter."

@@ -65,7 +65,7 @@ def the_list_file(context: CheckContext) -> None:
 def _why_no_type(text: str) -> str:
     for name in ("generate_messages", "add_service_files"):
         if not any(each.name == name and not each.is_comment for each in cmake_commands(text)):
-            return _about(text, name, "Without this command, the build passes but generates no type.")
+            return _about(text, name, "Without this command, the build generates no type.")
     return (
         "The file contains add_service_files and generate_messages, but they generated no "
         "type. Look for a comment between #[[ and ]], and for an if() with a false condition."

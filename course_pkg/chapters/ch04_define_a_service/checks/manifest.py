@@ -33,8 +33,8 @@ LISTED = {
     "04.3",
     points=2,
     goal=(
-        "Repair package.xml: catkin has to accept the file, and the file has to list all packages that "
-        "the build and the program need."
+        "Repair package.xml, so that catkin accepts the file. List all packages that the build and the "
+        "program need."
     ),
     needs=[f"file:{FILE}"],
     deadline=60.0,
@@ -56,7 +56,10 @@ def the_manifest(context: CheckContext) -> None:
         named = dependencies(text, "build" if purpose == "built" else "run")
         for package in packages:
             context.require(
-                f"{package} is listed as needed to {'build' if purpose == 'built' else 'run'}",
+                (
+                    f"package.xml lists {package} as a "
+                    f"{'build' if purpose == 'built' else 'run-time'} dependency"
+                ),
                 holds=package in named,
                 expected=f"<{tag}>{package}</{tag}>",
                 actual=", ".join(sorted(named)) or "nothing",
@@ -69,11 +72,14 @@ def _hint(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if elsewhere:
         return (
-            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add {_an(tag)} "
-            f"for {package}."
+            f"The tag {elsewhere[0].name} in line {elsewhere[0].line} is not enough for {package}. "
+            f"Also add {_an(tag)} for {package}."
         )
     if package == "rospy":
-        return "The program lamp_server.py imports rospy. Add <exec_depend>rospy</exec_depend>."
+        return (
+            "package.xml does not list rospy, which lamp_server.py imports. Add "
+            "<exec_depend>rospy</exec_depend>."
+        )
     return (
         "message_generation generates classes from a .srv file, and these classes need "
         "message_runtime. List the package message_runtime, too."

@@ -32,7 +32,7 @@ CLOSES = "Shut /move_arm down. Return the state after the call, and return wheth
     points=3,
     goal=(
         "Write arm.py, a node that serves /move_arm and /maintenance. A call of /maintenance "
-        "shuts /move_arm down, or serves /move_arm again."
+        "with True shuts /move_arm down; a call with False starts /move_arm again."
     ),
     needs=[f"file:{FILE}"],
     deadline=30.0,
@@ -225,8 +225,8 @@ def _can_be_imported(context: CheckContext, done: Finished) -> None:
 SWITCHES: Hints = [
     (
         matches("already registered"),
-        "The program created /move_arm, although it already served /move_arm. Compare `data` with the "
-        "current state, and store each new rospy.Service object for the next shutdown().",
+        "The program created /move_arm, although it already served /move_arm. Create it only after "
+        "shutdown(), and store each new rospy.Service object in the same variable.",
     ),
     (
         matches("NoneType|shutdown"),

@@ -132,14 +132,14 @@ def a_counter_that_resets(context: CheckContext) -> None:
                         "The message is empty, because a string field without a value is "
                         "empty. Set the message to the count.",
                     ),
-                    (matches(r"^0\d"), "The number begins with a zero. Use str(self.count)."),
+                    (matches(r"^0\d"), "The message begins with an extra zero. Use str(self.count)."),
                     (
                         matches(r"\D"),
                         "The message contains more than the number. Return only the number, as a string.",
                     ),
                     (
                         _lost_a_digit(number),
-                        "After the number 9, the message has only one digit. Return all digits "
+                        "For counts above 9, the message has only one digit. Return all digits "
                         "of the number.",
                     ),
                     (

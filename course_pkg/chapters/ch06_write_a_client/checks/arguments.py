@@ -14,8 +14,8 @@ NUMBERS = "Return the three numbers as a list, and ignore arguments for ROS."
     "06.5",
     points=2,
     goal=(
-        "Return the three numbers in the list of arguments. Return None if there are not exactly "
-        "three numbers."
+        "Read three numbers from the list of arguments, and return these numbers. Return None if "
+        "there are not exactly three numbers."
     ),
     needs=["read_sides"],
     goals=[NUMBERS, "Return None if there are not exactly three numbers."],

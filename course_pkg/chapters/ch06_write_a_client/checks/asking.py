@@ -100,7 +100,7 @@ def the_geometry_client(context: CheckContext) -> None:
             actual=len(server.requests) - 1,
             hints=(
                 "A second call of measure() with the same sides returned the response of the first "
-                "call. Call the service in each call of measure()."
+                "call. Call the service each time measure() runs."
             ),
         )
     name = f"/{context.random.word()}"

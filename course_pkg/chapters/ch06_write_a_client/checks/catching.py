@@ -176,7 +176,7 @@ def _fails(context: CheckContext, failure: str, name: str, sides: list[float]) -
         ],
     )
     context.expect(
-        f"None from a server that {failure}",
+        f"the result is None for a server that {failure}",
         expected=None,
         actual=result.returned(),
         hints=(

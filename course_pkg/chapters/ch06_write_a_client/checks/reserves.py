@@ -14,8 +14,8 @@ KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhe
 LONGEST = 1.75
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (
-    "If a service does not exist or refuses the request, call the next service, and return the "
-    "volume in its response."
+    "If a service does not exist or refuses the request, return the volume in the response of the "
+    "next service."
 )
 
 
@@ -192,7 +192,7 @@ def _in_a_random_order(context: CheckContext, names: Mapping[str, str], works: M
             near=1e-6,
             hints=(
                 "The result has to depend on the services in the list, not on earlier calls. Call "
-                "the services of the list each time."
+                "these services each time your function runs."
             ),
         )
 

@@ -71,8 +71,8 @@ def is_anybody_there(context: CheckContext) -> None:
         hints=[
             (
                 False,
-                "The service exists, and 0.5 s is enough to connect. Wait for the service with "
-                "wait_for_service.",
+                "The service exists, but the function returned False with a time limit of 0.5 s. Wait for "
+                "the service with wait_for_service.",
             )
         ],
     )
@@ -129,7 +129,7 @@ def is_anybody_there(context: CheckContext) -> None:
 def _in_a_random_order(context: CheckContext) -> None:
     """Try new names, so that a function with a fixed list of results fails."""
     fixed = (
-        "The result was wrong for a second service. The result has to depend on the given "
+        "With another service, the result was wrong. The result has to depend on the given "
         "service, not on earlier calls."
     )
     there = [True] * context.random.integer(3, 5) + [False] * context.random.integer(2, 3)

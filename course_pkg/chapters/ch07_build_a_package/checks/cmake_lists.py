@@ -35,13 +35,17 @@ WAITS = "Make the target my_geometry_programs depend on the generated type."
     points=3,
     goal=(
         "Complete CMakeLists.txt: generate the type my_geometry/geometry, and build the target "
-        "my_geometry_programs after this type. Declare that every package that uses this package also "
-        "needs message_runtime."
+        "my_geometry_programs after this type. Declare message_runtime as a "
+        "dependency of every package that uses this package."
     ),
     needs=[f"file:{FILE}"],
     deadline=120.0,
     start=START,
-    goals=[GENERATED, WAITS, "Declare that every package that uses this package also needs message_runtime."],
+    goals=[
+        GENERATED,
+        WAITS,
+        "Declare message_runtime as a dependency of every package that uses this package.",
+    ],
 )
 def the_build(context: CheckContext) -> None:
     """Build the package; then remove the generated classes, and build only the student's target."""
@@ -77,9 +81,7 @@ def _has_type(context: CheckContext, package: BuiltPackage, text: str, wanted: s
 def _why_no_type(text: str) -> str:
     for name in ("add_service_files", "generate_messages"):
         if not _has(text, name):
-            return (
-                f"The command {name} is missing, so the build passes but generates no type. Add this command."
-            )
+            return f"The command {name} is missing, so the build generates no type. Add this command."
     return (
         "The file contains add_service_files and generate_messages, but no type was generated. "
         "Look for an if() with a false condition."

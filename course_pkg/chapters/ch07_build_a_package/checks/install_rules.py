@@ -87,7 +87,7 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
             f"{script} is installed in {PLACE}, as an executable file",
             expected=f"the same lines as in scripts/{script}",
             actual="a different file",
-            hint=f"The installed file is not the script of the package. Install scripts/{script}.",
+            hint=f"The installed file differs from the script in the package. Install scripts/{script}.",
         )
 
 

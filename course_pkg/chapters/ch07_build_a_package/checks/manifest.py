@@ -94,8 +94,8 @@ def _about_dependency(text: str, package: str, tag: str) -> str:
     elsewhere = [each for each in manifest_tags(text) if each.text == package]
     if elsewhere:
         return (
-            f"Line {elsewhere[0].line} contains {elsewhere[0].name} for {package}. Also add a line with "
-            f"{tag} for {package}."
+            f"The tag {elsewhere[0].name} in line {elsewhere[0].line} is not enough for {package}. "
+            f"Also add a line with {tag} for {package}."
         )
     if package == "message_runtime":
         return "The name of a package is missing. Look for this name in the warning of catkin_create_pkg."

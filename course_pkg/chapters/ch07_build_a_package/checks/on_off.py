@@ -108,8 +108,8 @@ def the_on_off_server(context: CheckContext) -> None:
                     ),
                     (
                         matches("error processing"),
-                        "The exception has the wrong type, so the client thinks that the "
-                        "server has a bug. Raise rospy.ServiceException.",
+                        "The exception has the wrong type, so the error message is the "
+                        "same as for a bug in the server. Raise rospy.ServiceException.",
                     ),
                     (
                         ANYTHING,
@@ -196,7 +196,7 @@ def _why_not_sent(count: int, done: Finished) -> str:
             "The client called the service only once. Read the number of calls from the first "
             "argument: int(sys.argv[1])."
         )
-    return "The number of calls is wrong. Make exactly as many calls as the first argument says."
+    return "The number of calls is wrong. The first argument is the number of calls that the client makes."
 
 
 def _ending(done: Finished) -> str:

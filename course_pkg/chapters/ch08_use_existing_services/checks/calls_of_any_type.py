@@ -14,13 +14,13 @@ def is_message(function, *args):
 ERRORS = [
     (
         matches("'str' object has no attribute '_request_class'"),
-        "Your function used the name of the type, which is a string, as the class. Get the class with "
+        "Your function used the name of the type as the class, but the name is a string. Get the class with "
         "get_service_class_by_name.",
     ),
     (
         matches("must be a Message"),
-        "Your function passed an object of the wrong class to fill_message_args. Create an object of the "
-        "`_request_class` of the service type, and pass this object.",
+        "Your function passed an object of the wrong class to fill_message_args. Pass a request: "
+        "its class is the attribute `_request_class` of the service type.",
     ),
     (
         matches(r"type object '\w+' has no attribute '_request_class'"),

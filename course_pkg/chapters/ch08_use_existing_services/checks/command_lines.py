@@ -21,8 +21,8 @@ SPLIT = (
     "one word from any text."
 )
 TYPES = (
-    "YAML read a different value than the dict contains. Use json.dumps, which writes a dict in a form "
-    "that YAML reads correctly."
+    "YAML read a value that differs from the value in the dict. Use json.dumps, which writes a dict in a "
+    "form that YAML reads correctly."
 )
 LOST = "A field in an inner dict has no value. Write the whole dict into the line."
 REPLACED = (

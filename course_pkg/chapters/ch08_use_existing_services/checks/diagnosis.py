@@ -44,13 +44,13 @@ ERRORS: Hints = [
 OTHER_RESULTS: Hints = [
     (
         "another type",
-        'The names of the types are equal, but your function reported "another type". Compare the type '
-        "in the headers with the whole name of the type `kind`: package/Type.",
+        'The names of the types are equal, but your function reported "another type". Compare the entry '
+        "`type` of the headers with the whole name of the client's type.",
     ),
     (
         "another definition",
-        'The MD5 sums are equal, but your function reported "another definition". Compare the MD5 sum in '
-        "the headers with the MD5 sum of the type `kind`.",
+        'The MD5 sums are equal, but your function reported "another definition". Compare the entry '
+        "`md5sum` of the headers with the MD5 sum of the client's type.",
     ),
 ]
 WHY = {
@@ -63,14 +63,14 @@ WHY = {
         "whether get_service_headers raises an exception."
     ),
     "another type": (
-        "The names of the types are different, perhaps only in the package. Compare the whole names "
-        "before you compare the MD5 sums."
+        "The server and the client have types with different names. Compare the whole names, with "
+        "the package, before you compare the MD5 sums."
     ),
     "another definition": (
         "The names of the types are equal, but the MD5 sums are different. Compare the MD5 sums, too."
     ),
     "ok": (
-        "The server and `kind` have the same type and the same MD5 sum, so a client can connect. Report "
+        "The server and the client have the same type and MD5 sum, so the client can connect. Report "
         "no problem in this case."
     ),
 }

@@ -26,7 +26,8 @@ ANY_SPEED = (
     "turtle backwards."
 )
 NO_REFUSAL = (
-    'The node refused a call that changes nothing. Return success=True and a message with the word "already".'
+    "The node refused a call that asks for the current state. Return success=True and a message with "
+    'the word "already".'
 )
 SETS_RATE = "/change_rate sets the rate"
 SPEED_SO_FAR = "the response of /change_speed contains the speed before the call"
@@ -171,10 +172,7 @@ def _returns_the_old_speed(context: CheckContext, change: Service, wanted: float
             ),
             (
                 ANYTHING,
-                (
-                    "The field `before` is wrong. Set it to the old speed, which the last accepted call has "
-                    "set."
-                ),
+                ("The field `before` is wrong. Set it to the speed that was set before this call."),
             ),
         ],
     )

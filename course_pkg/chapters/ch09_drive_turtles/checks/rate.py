@@ -17,7 +17,7 @@ AT_FIRST = 2.0  # The program starts with this rate in messages per second.
 # only after 1000 s.
 TINY = 0.001
 OTHER_RATE = (
-    "The program published at another rate than the rate that the client had set. Calculate the pause from "
+    "The program did not publish at the rate that the client had set. Calculate the pause from "
     "the number in the request, and do not change this number."
 )
 TURNS_BACK = (

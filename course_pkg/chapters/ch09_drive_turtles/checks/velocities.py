@@ -21,8 +21,8 @@ SILENCE = 4.0
 # After a response, a message from before the call may still arrive within this time in s.
 FLYING = 0.05
 SILENT = (
-    "No velocity arrived for 4 s. Publish a message in each round of the loop, even if the velocity is "
-    "0, and do not add a second pause to the loop."
+    "No velocity arrived for 4 s. In each round of the loop, publish a message, even if the velocity is "
+    "0, and pause only once."
 )
 # A measured rate may differ from the right rate by this fraction, because the machine may be busy.
 NEAR = 0.25

@@ -89,7 +89,7 @@ ERRORS = [
     ),
     (
         matches("returned None"),
-        "A handler can end without a `return` line. Return a response in every case.",
+        "The handler returned None, not a response. Return a response in every case.",
     ),
     (
         matches("cannot process request"),

@@ -200,8 +200,8 @@ def _called(context: CheckContext, count: int, gate: Gate) -> None:
             (
                 0,
                 (
-                    "The service was not called. Call the service whose name is in `name`, and check "
-                    "that `args` of each thread is a tuple such as (name,)."
+                    "The service was not called. Call the service `name` in each thread, and write "
+                    "`args` as a tuple, such as (name,)."
                 ),
             ),
             (

@@ -44,8 +44,8 @@ FOREVER = (
     "The handler waits longer than request.patience seconds. Use request.patience as the timeout of the wait."
 )
 RESTARTED = (
-    "The time limit started again from the beginning when the customers changed. Calculate before the "
-    "loop at which time the wait ends, or use `wait_for`."
+    "The time limit started again from the beginning when the customers changed. Before the loop, "
+    "calculate the time at which the wait ends, or use `wait_for`."
 )
 LEFT = (
     "The handler called watch.next() twice, but the customer left before the second call. Use the "
@@ -69,7 +69,7 @@ ERRORS = [
     ),
     (
         matches("returned None"),
-        "The handler can end without a `return` line. Return a response even if no customer came.",
+        "The handler returned None, not a response. Return a response even if no customer came.",
     ),
     (
         matches("'NoneType' object has no attribute"),

@@ -27,8 +27,8 @@ DECISIVE = {
 }
 ENTRIES = {
     "lock across a call": (
-        'With the cause "lock across a call", threads wait in two services. One of the two services '
-        "calls the other service."
+        'The cause "lock across a call" means that a handler holds a lock while it calls a service. '
+        "This service needs the same lock."
     ),
     "lock order": (
         'The cause "lock order" means that two threads acquire the same two locks in opposite orders.'

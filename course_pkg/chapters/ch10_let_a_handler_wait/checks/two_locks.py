@@ -215,8 +215,8 @@ ERRORS = [
     (
         matches("TimesUp|in vain"),
         (
-            "The function did not return. If your code tries in a loop to acquire the second lock, "
-            "release the first lock before each repetition."
+            "The function did not return. If your code acquires the second lock in a loop, "
+            "release the first lock before each new attempt."
         ),
     ),
     (

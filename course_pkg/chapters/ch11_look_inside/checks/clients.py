@@ -32,8 +32,8 @@ AGAIN = (
     "more, and raise the error of the second call."
 )
 WAITED = (
-    "Your method did not return after the server had ended. Call the service only once more, and do not "
-    "wait for the service."
+    "Your method did not return after the server had ended. Repeat the call only once, and do not call "
+    "wait_for_service."
 )
 FIRST_ERROR = (
     "The server refused the second call, but your method raised a different error. Raise the error of the "
@@ -328,7 +328,7 @@ def _finds_it_after_a_reset(
         assertion,
         holds=bool(result.error) and not result.error.startswith("TimesUp") and port.connections < 2,
         expected="an error after one more call of ask(), because no server is at the new address",
-        actual=f"{result.error or 'a value'}, after calls of ask() at the new address: {port.connections}",
+        actual=f"{result.error or 'a value'}; calls of ask() at the new address: {port.connections}",
         hints=[
             ((lambda _: result.error.startswith("TimesUp") or port.connections > 1), AGAIN),
             (ANYTHING, "The second call also failed. Raise the error of the second call."),

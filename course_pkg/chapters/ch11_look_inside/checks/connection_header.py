@@ -392,7 +392,8 @@ def _receive_errors(count: int = 1) -> Hints:
         (
             matches("^TimesUp"),
             (
-                "The function waits for bytes that an earlier call of the function has read and lost. "
+                "An earlier call of the function received too many bytes, so the next call waits for bytes "
+                "that do not come. "
                 "Pass only the number of missing bytes to recv(), or call makefile() with buffering=0."
             ),
         ),

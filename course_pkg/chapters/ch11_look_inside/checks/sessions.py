@@ -74,8 +74,8 @@ def totals_of_sessions(context: CheckContext) -> None:
         kind,
         more,
         header,
-        "A different node may continue a session. Do not refuse a call because the name of the node is "
-        "different.",
+        "Calls from several nodes can belong to one session. Do not refuse a call because the name of the "
+        "node is different.",
     )
     context.expect(
         "a session continues from another node",

@@ -237,8 +237,8 @@ def _conversation_of(context: CheckContext, server: TcprosServer, result: Result
             (
                 ANYTHING,
                 (
-                    "The function connected to a wrong address. Use the host and the port (as an int) "
-                    "in the argument `uri`, which has the form rosrpc://HOST:PORT."
+                    "The function connected to a wrong address. Read HOST and PORT from the argument "
+                    "`uri`, which has the form rosrpc://HOST:PORT, and convert PORT to an int."
                 ),
             ),
         ],
@@ -270,7 +270,10 @@ WRONG_MD5: Hints = [
             "with the MD5 sum of its own type."
         ),
     ),
-    (ANYTHING, "The MD5 sum is not the sum of the whole service type. Use geometry._md5sum."),
+    (
+        ANYTHING,
+        "The field `md5sum` has to contain the MD5 sum of the whole service type. Use geometry._md5sum.",
+    ),
 ]
 
 

@@ -20,7 +20,7 @@ DECISIVE = {
     "B": "Connections that are already open still work. Only the lookup of the name fails.",
     "C": "No service of this node responds, not even get_loggers.",
     "D": (
-        "The service get_loggers responds, so the process runs. The two services that do not respond "
+        "The service get_loggers responds, so the process runs. The handlers of the other two services "
         "wait for the same object."
     ),
     "E": "Two handlers read the same number at the same time, but no call failed.",
@@ -32,7 +32,8 @@ ENTRIES = {
     "new master": 'The diagnosis "new master" means that the master knows no provider, so each lookup fails.',
     "frozen": 'The diagnosis "frozen" means that no service of the process responds.',
     "lock": (
-        'The diagnosis "lock" means that a handler holds a lock during a call, so other clients have to wait.'
+        'The diagnosis "lock" means that one handler holds a lock, so other handlers have to wait for '
+        "this lock."
     ),
     "race": 'The diagnosis "race" means that the data is wrong, but no client has to wait.',
     "repeated": 'The diagnosis "repeated" means that the server did the same work twice.',

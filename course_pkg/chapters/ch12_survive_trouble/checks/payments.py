@@ -105,7 +105,7 @@ def pays_after(
 
 
 def _why_given_up(words: str, took: float, tries: int) -> str:
-    begin = f"In this case, the till was {words}. "
+    begin = f"During this payment, the till was {words}. "
     if took > DEADLINE / 2 and tries < 2:
         return begin + (
             "The first call used the whole time until the deadline. Limit each call to half a second, or "

@@ -37,8 +37,8 @@ ENTRIES = {
     ),
     "wait for the service": 'The policy "wait for the service" helps only if no server is registered.',
     "try again": (
-        'The policy "try again" is right only if a second call can succeed, and if it does no harm when '
-        "the server does the work twice."
+        'The policy "try again" is right only if a second call can succeed, and if doing the work '
+        "twice does no harm."
     ),
     "same id": (
         'The policy "same id" helps only if the request has a field for an id, and if the server '
@@ -54,10 +54,7 @@ CASES = Cases(
     DECISIVE,
     ENTRIES,
     missing="The answer for a situation is missing. Give a policy for each row of the table.",
-    keys=(
-        "The keys of the dict are wrong. Use the six names in the first column of the table, letter by "
-        "letter."
-    ),
+    keys=("The keys of the dict are wrong. Copy the six names exactly from the first column of the table."),
     spelling="A policy has a wrong name. Copy the names of the policies from the list, letter by letter.",
     entry="policy",
     case="situation",

@@ -70,7 +70,7 @@ STUCK = (
     "`with self.lock:`, which releases the lock after an error."
 )
 CHARGED = "Charge a new request. If the same request comes again, send the same receipt."
-FAILED = "Charge again after the purse has failed. Refuse a request without an id."
+FAILED = "If the purse fails, charge the request when it is sent again. Refuse a request without an id."
 
 
 @part(

@@ -42,7 +42,7 @@ SLOW_GROWTH = (
 )
 SLOW = "slow"
 FAULTS = {
-    "stumbling": [Fault(Stumble("list index out of range"))],
+    "raising an error in its handler": [Fault(Stumble("list index out of range"))],
     SLOW: [Fault(Late(1.2, {}), worked=True)],
     "frozen": [Fault(Frozen())],
     "killed after it charged, and started again": [Fault(Crash(AWAY), worked=True)],
@@ -270,7 +270,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
     context.require(
         "each pause is longer than the previous pause",
         holds=pauses[2] > 3.5 * PAUSE,
-        expected=f"{4 * PAUSE:g} s before the fourth try",
+        expected=f"{4 * PAUSE:g} s before the fourth attempt",
         actual=f"{pauses[2]:.2f} s",
         hints=SLOW_GROWTH,
     )
@@ -284,7 +284,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         context.require(
             "each pause is longer than the previous pause",
             holds=pause > 0.95 * longest,
-            expected=f"{longest:g} s before the try number {MOST + 1}",
+            expected=f"{longest:g} s before attempt {MOST + 1}",
             actual=f"{pause:.2f} s",
             hints=SLOW_GROWTH,
         )

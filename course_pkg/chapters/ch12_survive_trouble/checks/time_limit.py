@@ -270,7 +270,10 @@ def _gives_up(context: CheckContext, name: str, limit: float) -> None:
         holds=context.read("checked_call.daemon", bool),
         expected="a daemon thread that still waits",
         actual="a thread that is not a daemon thread",
-        hints="Python waits for this thread at the end of a program. Create the thread with daemon=True.",
+        hints=(
+            "At the end of a program, Python waits for each thread that is not a daemon thread. Create the "
+            "thread with daemon=True."
+        ),
     )
     context.require(
         "the time limit is kept",

@@ -36,10 +36,12 @@ NEVER = (
     "the service each time lookupService() raises rosgraph.MasterError."
 )
 GREW = (
-    "The pauses between the polls grew while no master was running. Wait `every` seconds after each poll, "
-    "even if the poll failed several times."
+    "The pauses between the polls grew while no master was running. After each poll, wait for the "
+    "time in the argument `every`, even if the poll failed several times."
 )
-TOO_RARELY = "The watchdog polls too rarely. Wait only `every` seconds between two polls."
+TOO_RARELY = (
+    "The watchdog polls too rarely. Between two polls, wait only for the time in the argument `every`."
+)
 
 
 class SecondMaster:
@@ -240,8 +242,8 @@ def _polls_with_pauses(context: CheckContext, watched: CheckedMaster, took: floa
         expected=f"a poll every {EVERY:g} s",
         actual=f"{looks / took:.0f} polls per second",
         hints=(
-            "The watchdog polls without a pause. Wait `every` seconds after each poll, even if the "
-            "poll failed."
+            "The watchdog polls without a pause. After each poll, wait for the time in the argument "
+            "`every`, even if the poll failed."
         ),
     )
 

@@ -138,8 +138,8 @@ def _pauses_between_calls(context: CheckContext, *runs: list[float]) -> None:
             expected="a short pause after each refusal",
             actual=f"the next call after {1000 * shortest:.1f} ms",
             hint=(
-                "The server probably also refuses a call immediately after a refusal. Add "
-                "ros::WallDuration(0.2).sleep() between two calls."
+                "The program makes the next call immediately after a refusal, so the server probably "
+                "refuses this call, too. Add ros::WallDuration(0.2).sleep() between two calls."
             ),
         )
 
@@ -220,7 +220,7 @@ def _gives_up_without_a_server(context: CheckContext, folder: Folder, shapes: se
             "The program waits without a limit. Write waitForExistence(ros::Duration(2))."
             if finished.status is None
             else (
-                f"The program waited too long, {finished.took:.1f} s. Write "
+                f"The program waited {finished.took:.1f} s, which is too long. Write "
                 "waitForExistence(ros::Duration(2))."
             )
             if finished.took > WAIT + SLACK

@@ -77,7 +77,7 @@ NO_LOCK = (
 )
 LET_GO = (
     "The lock is not held between the read and the write, so two threads read the same number. "
-    "Before the read, create a lock_guard variable: without a variable name, the lock is released "
+    "Before the read, create a lock_guard with a name: a lock_guard without a name releases the lock "
     "immediately."
 )
 OWN_LOCK = (
@@ -113,7 +113,15 @@ def number_server(context: CheckContext) -> None:
             "the first client gets number 1",
             expected=1,
             actual=alone,
-            hints=[(-1, "The message contains more than the number. Return only std::to_string(count()).")],
+            hints=[
+                (
+                    -1,
+                    (
+                        "The field `message` has to contain only the number. Return only "
+                        "std::to_string(count())."
+                    ),
+                )
+            ],
         )
         _handles_calls_in_parallel(context, number, code)
 

@@ -132,7 +132,7 @@ def own_queue(context: CheckContext) -> None:
         MANY,
         (
             "One call works, but eight calls at the same time do not end. Put only /battery into the "
-            "new queue, and execute this queue in its own thread."
+            "new queue, and handle this queue in a separate thread."
         ),
     )
 

@@ -47,7 +47,7 @@ NOT_WOKEN = (
 )
 UNREFUSED = (
     "The handler accepted an impossible value of `patience`. Raise rospy.ServiceException if the "
-    "value is not from 0 to 60 s."
+    "value is below 0 or above 60 s."
 )
 NAN = (
     "The handler accepted nan (not a number), because each comparison with nan is False. Write `if not "
@@ -225,7 +225,10 @@ REFUSED_RETURN: Hints = [(matches("camera"), CAME_BACK), *FAILED[1:]]
     start=start_of(NAME, "# Your program of exercise 15.2, extended.\n..."),
     goals={
         SILENT_CAMERA: 3,
-        "During a call, notice if the camera stops sending messages, or if the camera starts again.": 1,
+        (
+            "If the camera stops during a call, refuse the call. If the camera starts again during a call, "
+            "use the new messages."
+        ): 1,
     },
 )
 def the_silent_camera(context: CheckContext) -> None:

@@ -371,16 +371,16 @@ FREE_ITEM = (
 )
 KEPT = "The till still has items after a reset. Remove all items in the handler of till/reset."
 NOT_COUNTED = (
-    "The reset came while the printer was printing an item, and the sum has to contain this item, but "
-    "does not. In the handler of till/reset, acquire the lock of till/set first."
+    "The reset came while the printer was printing an item, but the sum does not contain this item. In "
+    "the handler of till/reset, acquire the lock of till/set before you calculate the sum."
 )
 TOO_EARLY = (
-    "The handler of till/reset did not wait until the line was printed. In this handler, hold the "
-    "lock that till/set holds while it prints."
+    "The handler of till/reset did not wait until the line was printed. Use the same lock in the "
+    "handlers of till/set and till/reset."
 )
 LEFT = (
-    "The printer was printing the line of an item during the reset, and this item was in the till "
-    "after the reset. Hold one lock while you print the line and store the price."
+    "The reset came while the printer was printing an item, and this item was in the till after the "
+    "reset. Hold one lock while you print the line and store the price."
 )
 
 
@@ -393,7 +393,10 @@ LEFT = (
     start=start_of(NAME, "# Your program of exercise 15.8, extended.\n..."),
     goals={
         EMPTIED: 3,
-        "If a line is being printed, wait for its end. Reset the till even if there is no printer.": 1,
+        (
+            "If a line is being printed, wait until it is printed. "
+            "Reset the till even if there is no printer."
+        ): 1,
     },
 )
 def the_reset(context: CheckContext) -> None:

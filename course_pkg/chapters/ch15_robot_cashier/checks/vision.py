@@ -45,7 +45,7 @@ PADDING = (
     "the index r begins at byte r * frame.step."
 )
 ENCODING = (
-    "The encoding of this frame is not mono8, so the frame is malformed. Publish nothing if "
+    "The encoding of this frame is not mono8, so the frame is not valid. Publish nothing if "
     'frame.encoding is not "mono8".'
 )
 EMPTY = "No point is dark, so this frame shows no customer. Publish False."
@@ -217,7 +217,7 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
             "too many bytes",
             frames[1],
             (
-                "This frame has more bytes than height * step, so it is malformed. Compare with !=, not "
+                "This frame has more bytes than height * step, so it is not valid. Compare with !=, not "
                 "with <."
             ),
         ),
@@ -234,7 +234,7 @@ def _malformed_frames(context: CheckContext, width: int, height: int) -> list[tu
         (
             "no points and no bytes",
             frames[4],
-            "A frame of 0 by 0 points is malformed. Publish nothing if frame.width or frame.height is 0.",
+            "A frame of 0 by 0 points is not valid. Publish nothing if frame.width or frame.height is 0.",
         ),
         (
             "no points in a row",

@@ -79,7 +79,7 @@ CALLED_ONCE = (
 )
 RESET_FAILED = (
     "A call of till/reset failed, and the node then stopped calling detect_customer. Catch "
-    "rospy.ServiceException around till/reset, and continue."
+    "rospy.ServiceException at the call of till/reset, and continue the loop."
 )
 NO_TILL = (
     "The service till/reset does not exist, and the node stopped calling detect_customer. Do not "
@@ -98,8 +98,8 @@ STILL_THERE = (
     "the next call to 0."
 )
 VISIT_GOES_ON = (
-    "A failed call does not end a visit. After the failure, continue to call with `patience` 0 "
-    "until `found` is False."
+    "A failed call does not end a visit. After the failure, call detect_customer again with "
+    "`patience` 0, until `found` is False."
 )
 VISIT_OVER = (
     "In the last response, `found` was False, so no customer is there. Set the field `patience` of "
@@ -113,7 +113,7 @@ NO_PAUSE = (
 LONG_PAUSE = "After a failed call, the next call came too late. Wait only 0.5 s."
 HUNG_UP = (
     "The node made a second call before it got the first response. Wait for each response, even if "
-    "this takes `patience` seconds."
+    "this takes several seconds."
 )
 NOT_GREETED = (
     'A customer came, but the node sent no greeting. Publish on the topic "greetings" when `found` is True.'

@@ -105,7 +105,7 @@ CANCELLED = "Cancel the goal when the time limit is over, and return the number 
     ),
     needs=["fetch_within"],
     deadline=60.0,
-    goals=[FETCHED, CANCELLED, "Wait for the action server with the same limit."],
+    goals=[FETCHED, CANCELLED, "Wait at most 2 s for the action server."],
 )
 def bounded_goal(context: CheckContext) -> None:
     """Run the function without a robot, and with robots that behave differently.
@@ -244,7 +244,7 @@ def _is_cancelled(context: CheckContext, robot: Robot) -> None:
                 ANYTHING,
                 (
                     "The function did not cancel the goal. Call cancel_goal() if wait_for_result returns "
-                    "False, because the time is then over."
+                    "False, which means that the time limit is over."
                 ),
             ),
         ],

@@ -39,8 +39,8 @@ FIXED = (
     "own time for one thing."
 )
 NO_STATE = (
-    "The function returned, but the goal has no end state, because the server ignores the return "
-    "value. Call set_succeeded, set_preempted or set_aborted of the server."
+    "The function returned, but the goal has no end state. Call set_succeeded, set_preempted or "
+    "set_aborted of the server: a return value has no effect."
 )
 COUNTED_ON = (
     "The result also counts the things of the previous goal. At the beginning of each goal, set the "
@@ -318,8 +318,8 @@ WRONG_STATE: Hints = [
     (
         matches("^ABORTED"),
         (
-            "The client cancelled the goal, but set_aborted means that the robot failed. Call "
-            "set_preempted instead."
+            "The client cancelled the goal, but the function called set_aborted, which means that the "
+            "robot failed. Call set_preempted instead."
         ),
     ),
     (

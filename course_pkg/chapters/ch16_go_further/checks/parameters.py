@@ -63,7 +63,7 @@ def speed_parameter(context: CheckContext) -> None:
             2,
             "the parameter, if it is a whole number",
             2.0,
-            "The value was the int 2, which is a valid speed. Return this value.",
+            "The function did not return the int 2, which is a valid speed. Accept an int, too.",
         ),
         ("fast", no_number, default, TEXT),
         ([first, second], no_number, default, LIST),

@@ -177,8 +177,7 @@ def _delivers(
         actual=meanwhile,
         hints=(
             "The battery sent no values during the delivery. Deliver the parcels in the function "
-            "of the action, which has its own thread, and publish the charge in a different "
-            "thread."
+            "of the action, and publish the charge in another thread."
         ),
     )
     charge = 100.0 - PARCELS

@@ -31,7 +31,10 @@ def find(group: Group) -> Iterator[Found]:
         answer = _named(teams[one][0], name)
         mine, theirs = prints[one][name], prints[other][name]
         line = _rarest_line(similarity.exercises[name], answer, mine, theirs)
-        words = f"{likeness:.0%} of the code that few students have is the same in the two answers."
+        words = (
+            f"Without the code that many students have, {likeness:.0%} of the code is the same in the two "
+            "answers."
+        )
         if answer.source.split() == _named(teams[other][0], name).source.split():
             words = "The answers are identical."
         elif mine.code == theirs.code:

@@ -90,7 +90,7 @@ def find(group: Group) -> Iterator[Found]:
     """Yield a flag for each way in which an answer inspects other code."""
     for work, answer in group.answers():
         if is_python(answer) and is_too_long(answer):
-            words = "The code is too long, so it was not examined for flags."
+            words = "The code is too long, so it was not searched for suspicious lines."
             yield work, Flag("internals", answer.where, words)
     yield from unusual(group, "internals", _observe, whole_notebook=True)
 

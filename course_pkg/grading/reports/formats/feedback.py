@@ -117,7 +117,7 @@ def _cells(grade: Grade) -> Iterator[str]:
     yield paragraph(
         f"The chapter's notebook was run from top to bottom with your answers. {passed} of "
         f"{len(grade.cells)} cells gave the same result as with the right answers. You get no "
-        "points for these cells: they only show where an answer affects a later cell."
+        "points for these cells. They show which later cells depend on your answers."
     )
     if others:
         items = (
@@ -126,4 +126,4 @@ def _cells(grade: Grade) -> Iterator[str]:
         )
         yield f'<ul class="cells">{"".join(items)}</ul>'
     if len(others) > CELLS:
-        yield paragraph(f"{len(others) - CELLS} other cells also gave a different result.", "muted")
+        yield paragraph(f"{len(others) - CELLS} more cells gave a different result.", "muted")
