@@ -88,7 +88,7 @@ class StudentRecord:
         return self.folder / f"{check}.json"
 
     def _before(self, check: str) -> tuple[PartRecord | None, str]:
-        """Return the stored record of a part, or None, and a message about a problem, or "".
+        """Return the stored record of a part and "", or None and a message about a damaged file.
 
         A damaged file is renamed.
         """

@@ -70,5 +70,5 @@ def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str
 
 
 def calling(call: str) -> str:
-    """Return the source of a client that runs `call` instead of calling /door."""
+    """Return the source of a client in which the code `call` replaces the call of /door."""
     return VISITOR.replace("print(move_door(True))", call)

@@ -52,8 +52,8 @@ def with_flags(
 ) -> list[Grade]:
     """Find the flags of these kinds in the graded submissions; return the grades with their flags.
 
-    Submissions that do not count, such as earlier attempts, get no flags. If a grade has no submission in
-    this run, it keeps the flags of an earlier run.
+    Submissions that do not count, such as earlier attempts, get no flags. Grades from an earlier run keep
+    their flags if this run has no submission for them.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

@@ -111,9 +111,9 @@ def md5_in(folder: Folder) -> tuple[str, str]:
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return `fault` with the student's file as the file that contains the mistake.
+    """Return `fault` with the student's file as its file.
 
-    The check's own files are correct.
+    The check's own files are correct, so the mistake is in the student's file.
     """
     theirs = given[0].removeprefix("src/")
     if GENERATION.search(fault.problem):

@@ -225,7 +225,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
 
 
 def _only_one(words: str) -> Hints:
-    """Return the hint `words`, which is shown only if the purse was used less than twice."""
+    """Return a list with the hint `words`; it is shown if the purse was used at most once."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -326,7 +326,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
 
 
 def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send many requests; if the receipt numbers are random, two of them are probably equal."""
+    """Send many requests, so that two random receipt numbers would probably be equal."""
     purse.meeting = 0.0
     requests = [
         {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}

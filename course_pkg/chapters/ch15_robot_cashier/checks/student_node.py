@@ -141,7 +141,7 @@ def complete(
 
 
 def still(started: float, least: float) -> float:
-    """Return the time until which all names of a node must exist; the node now has its first name.
+    """Return the time until which a node must have all its names; it has its first name now.
 
     The result is `least` s from now, or more if the start of the node took long.
 
