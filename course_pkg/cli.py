@@ -1,8 +1,8 @@
 """Run the commands of `course`.
 
-Each package declares its commands in its module `commands.py`. This module imports only the standard library
-and the modules `commands.py`, so any Python interpreter can run it before the set-up. The function of each
-command imports all other modules when the command runs.
+Each package declares its commands in its module `commands.py`. The imports of this module are only the
+standard library and the modules `commands.py`. Therefore, any Python interpreter can run it before the
+set-up. The function of each command imports all other modules when the command runs.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from course_pkg.site import commands as site
 if TYPE_CHECKING:
     from argparse import ArgumentParser
 
-INSIDE = "COURSE_INSIDE"  # This variable is set while the course's own interpreter runs this module.
+INSIDE = "COURSE_INSIDE"  # This variable is set if the environment's interpreter runs this module.
 COMMANDS: dict[str, Command] = {
     **lab.COMMANDS,
     **overview.COMMANDS,
@@ -68,7 +68,7 @@ def parse(arguments: Sequence[str]) -> SimpleNamespace:
 
 def _parsers() -> tuple[ArgumentParser, Mapping[str, ArgumentParser]]:
     """Return the parser of `course`, and the parser of each subcommand."""
-    # The import takes 10 ms, and the command `run` does not need argparse.
+    # Import argparse only here: the import takes 10 ms, and the command `run` does not need it.
     from argparse import ArgumentParser
 
     parser = ArgumentParser(

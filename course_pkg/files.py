@@ -9,10 +9,9 @@ from pathlib import Path
 def write_atomically(path: Path, content: str | bytes, encoding: str = "utf-8") -> None:
     """Write `content` to `path`, and create its folders.
 
-    During the write, a reader reads either the complete old file or the complete new file.
-
-    Raises OSError if the file cannot be written, or UnicodeEncodeError if `encoding` cannot represent the
-    text; then the old file does not change.
+    During the write, another process reads either the complete old file or the complete new file. Raises
+    OSError if the file cannot be written, or UnicodeEncodeError if `encoding` cannot represent the text. In
+    both cases, the old file does not change.
     """
     data = content.encode(encoding) if isinstance(content, str) else content
     path.parent.mkdir(parents=True, exist_ok=True)

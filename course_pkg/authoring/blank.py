@@ -3,13 +3,14 @@
 There are three rules for the removal of an answer. All other bytes of the cell stay unchanged.
 
 1. `...` replaces the body of a function or method; a docstring is kept.
-2. `name = value` at the top level becomes `name = ...`. The line does not change if the value is a call of a
-   function or class of the same cell (`counter = Counter()`), because it then contains no part of the answer.
+2. `name = value` at the top level becomes `name = ...`. The line stays unchanged if the value is a call of a
+   function or class that the same cell defines, such as `counter = Counter()`: such a line contains no part
+   of the answer.
 3. The line `%%writefile` at the top of a cell does not change. If the written file is a Python file, rules 1
    and 2 apply. In any other file, only the comment lines at the top remain, and `...` replaces all others.
 
-If students have to repair a given text, the exercise cell contains this text instead (`start`, see
-checking/parts.py). The check fails if the text is unchanged.
+In some exercises, students repair a text. The exercise cell then contains the text `start` (see
+checking/parts.py) instead of a blank answer. The check fails if the text is unchanged.
 """
 
 from __future__ import annotations
@@ -135,7 +136,10 @@ class _Cell:
         return end + len(rest) if rest.strip().startswith(b"#") else end
 
     def _end_of_signature(self, node: Function) -> int:
-        """Return the end of the signature's colon: the first colon outside brackets and annotations."""
+        """Return the position after the colon that ends the signature.
+
+        The signature ends with the first colon that is outside of brackets and annotations.
+        """
         after = (node.returns or node).end_lineno or 0, self._column(node.returns) if node.returns else 0
         depth = 0
         for token in tokenize.generate_tokens(io.StringIO(self._text).readline):
@@ -170,7 +174,7 @@ class _Cell:
         return self._starts[node.end_lineno - 1] + node.end_col_offset  # type: ignore[attr-defined,no-any-return]
 
     def _column(self, node: ast.expr) -> int:
-        """Return the column after `node` in characters, because `tokenize` counts columns in characters."""
+        """Return the column after `node` in characters, as `tokenize` counts; `ast` counts bytes."""
         line = self._lines[(node.end_lineno or 1) - 1]
         return len(line[: node.end_col_offset].decode())
 
@@ -180,7 +184,7 @@ class _Cell:
 
 
 def _dots(target: ast.expr) -> str:
-    """Return one `...` for each name in `target`.
+    """Return the text that replaces the values of an assignment: one `...` for each name in `target`.
 
     Return "" if `target` contains anything except names.
     """
@@ -194,10 +198,10 @@ def _dots(target: ast.expr) -> str:
 
 
 def _parsed(source: str) -> tuple[str, ast.Module]:
-    """Parse `source`, and return the parsed text (which has the same length as `source`) and its syntax tree.
+    """Parse `source`; return the text that was parsed, and its syntax tree.
 
-    If `source` is not valid Python, a name of the same length replaces each part that only IPython
-    understands. Raises AuthoringError if the masked text is not valid Python.
+    If `source` is not valid Python, a name of the same length first replaces each part that only IPython
+    understands. Raises AuthoringError if this text is not valid Python either.
     """
     try:
         return source, ast.parse(source)

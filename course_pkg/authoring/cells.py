@@ -1,8 +1,8 @@
 """The cells of a notebook, and the course's keys in their metadata. No other module uses these keys.
 
-An exercise cell:  {"course": {"exercise": "05.1", "points": 2}}
-Its check cell:    {"course": {"check": "05.1"}}
-A cell that shows an error on purpose has the tag `raises-exception`.
+The metadata of an exercise cell are, for example, `{"course": {"exercise": "05.1", "points": 2}}`. The
+metadata of its check cell are `{"course": {"check": "05.1"}}`. A cell that shows an error on purpose has the
+tag `raises-exception`.
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ def not_passed(notebook: Notebook) -> dict[str, str]:
 
 
 def _plain_text(cell: Cell) -> str:
-    """Return the plain text of the cell's results, without printed text."""
+    """Return the `text/plain` outputs of the cell; printed text is not included."""
     texts = (output.get("data", {}).get("text/plain", "") for output in cell["outputs"])
     return "\n".join(str(text) for text in texts if text)
 

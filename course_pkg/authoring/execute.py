@@ -28,7 +28,7 @@ CELL_TIMEOUT = 120  # A cell may run for this many s, because a reader should no
 # Each core runs this many notebooks at the same time, because a notebook mostly waits for nodes and
 # responses.
 PER_CORE = 3
-A_CELL = 2.0  # For the estimate of a notebook's time, one cell takes this many s.
+A_CELL = 2.0  # The estimate of a notebook's running time adds this many s for each cell.
 
 Finished = Callable[[str, Notebook], None]
 
@@ -42,7 +42,7 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
     """Run the solutions of `chapters`, such as ["05"], or of all chapters, and store them with their outputs.
 
     If a solution stops before its last cell, or if one of its checks does not pass, the file of this solution
-    does not change. After all solutions have run, the function then raises AuthoringError with all errors and
+    does not change. When all solutions have run, the function raises AuthoringError with all errors and
     reports.
     """
     paths = {path.stem: path for path in NotebookStore(root).solutions(chapters)}
@@ -63,8 +63,9 @@ def execute(chapters: Sequence[str] = (), root: Path | None = None) -> None:
 def run_all(notebooks: Mapping[str, Notebook], finished: Finished) -> dict[str, AuthoringError]:
     """Run all `notebooks`, several at the same time; the keys of the mapping are the notebooks' names.
 
-    Calls `finished` with the name and the outputs of each notebook that ran to its last cell. Returns the
-    errors of all other notebooks, by name. A KeyboardInterrupt ends all kernels.
+    Calls `finished` with the name and the outputs of each notebook that ran to its last cell. Returns a dict
+    with the error of each other notebook; the keys are the notebooks' names. A KeyboardInterrupt ends all
+    kernels.
     """
     progress = Progress(total=sum(len(code_cells(each)) for each in notebooks.values()), unit="cells")
     # In the main thread, nbclient would handle SIGINT itself, and would interrupt only one kernel. Therefore,
@@ -105,7 +106,7 @@ def _about_check(name: str, check: str, report: str) -> str:
 def _longest_first(notebooks: Mapping[str, Notebook]) -> list[str]:
     """Return the names sorted by estimated time, with the longest time first.
 
-    With another order, a long notebook could start last.
+    If a long notebook started last, the whole run would take longer.
 
     The estimate grows with the number of a notebook's cells and with the deadlines of its checks.
     """
@@ -165,9 +166,9 @@ def surroundings() -> Iterator[tuple[Path, dict[str, str]]]:
 
 
 def _by_files(folder: Path) -> Config:
-    """Return settings for a kernel that uses sockets in `folder`.
+    """Return settings for a kernel that uses Unix sockets in `folder` instead of TCP ports.
 
-    With TCP, another program could take the chosen port before the kernel opens the port.
+    Another program could take a TCP port before the kernel opens the port.
     """
     return Config(KernelManager={"transport": "ipc", "connection_file": str(folder / "kernel.json")})
 

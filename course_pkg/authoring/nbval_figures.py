@@ -1,4 +1,4 @@
-"""A pytest plug-in: nbval ignores the SVG of a figure, but compares the figure's text.
+"""A pytest plug-in: nbval ignores the SVG image of a figure, but compares the output's text.
 
 A figure shows measured times, so its SVG differs in every run. Without this plug-in, nbval ignores only PNG
 and JPEG images.

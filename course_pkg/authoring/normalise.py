@@ -81,7 +81,10 @@ def _kept(metadata: CellMetadata) -> CellMetadata:
 
 
 def _number(cell: Cell, number: int) -> None:
-    """Set the execution count of an executed cell to its position, even if the cells ran in another order."""
+    """Set the execution count of a cell to `number`, unless the cell was never executed.
+
+    The cells get increasing numbers, even if they ran in another order.
+    """
     if cell["execution_count"] is None and not cell["outputs"]:
         return
     cell["execution_count"] = number
@@ -92,8 +95,8 @@ def _number(cell: Cell, number: int) -> None:
 
 def _output(output: Output) -> Output:
     if output["output_type"] == "error" and output["traceback"][:1] != [HEADER]:
-        # IPython's own traceback contains paths of this machine, so it is removed. A traceback of the course
-        # contains only lines of cells, so it is kept.
+        # IPython's traceback contains local paths, so it is removed. A traceback of the course contains only
+        # lines of cells, so it is kept.
         output["traceback"] = [f"{output['ename']}: {output['evalue']}"]
     if "data" in output:
         output["data"] = {kind: data for kind, data in output["data"].items() if kind != VIEW}

@@ -34,8 +34,8 @@ def add_pictures(executed: Notebook, stored: Notebook) -> None:
 
     The metadata of `executed` must still contain the states of the panels. Plots, and pictures of panels that
     show a recording, contain measured times, so they differ in each run. The function keeps the picture from
-    the notebook `stored` if three things have not changed: the code of the cells up to this cell, the drawing
-    code, and the output's data in other MIME types.
+    the notebook `stored` if nothing has changed that affects the picture: the code of the cells up to this
+    cell, the drawing code, and the output's data in other MIME types.
     """
     panels = SavedPanels(executed)
     before = {cell["id"]: cell for cell in code_cells(stored)}

@@ -28,14 +28,16 @@ class AssertionFailed(Exception):
 
 
 def matches(pattern: str) -> re.Pattern[str]:
-    """Return a condition: it matches a value if `pattern` (in any case) occurs in the value's text."""
+    """Return a condition: it matches a value whose text contains `pattern`, in upper or lower case."""
     return re.compile(pattern, re.IGNORECASE | re.DOTALL)
 
 
 def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
-    """Return whether plain values are equal.
+    """Return whether two values of plain data are equal.
 
-    Numbers may differ by `near` (absolute difference or relative difference). True is not equal to 1.
+    Two numbers count as equal if their absolute or relative difference is at most `near`.
+
+    True is not equal to 1.
     """
     if isinstance(expected, dict) and isinstance(actual, dict):
         return expected.keys() == actual.keys() and all(
@@ -46,7 +48,7 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
     if isinstance(expected, bool) or isinstance(actual, bool):
         return expected is actual
     if isinstance(expected, (int, float)) and isinstance(actual, (int, float)):
-        # The integer is too large for a float, so no other number is near it.
+        # If an integer is too large for a float, no other number is near it.
         with suppress(OverflowError):
             return expected == actual or math.isclose(expected, actual, rel_tol=near, abs_tol=near)
         return False
@@ -54,7 +56,7 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
 
 
 def first_unlike(expected: Iterable[Json], actual: Iterable[Json], near: float) -> tuple[Json, Json]:
-    """Return the first pair of different items, or ({}, {}) if all pairs are equal.
+    """Compare two lists item by item; return the first pair of different items, or ({}, {}).
 
     A report shows only this pair, not all items.
     """
@@ -75,7 +77,7 @@ def _fits(condition: Condition, actual: Json, near: float) -> bool:
     if callable(condition):
         try:
             return bool(condition(actual))
-        # The condition expects a value of another type.
+        # The function may fail because the value has another type than it expects.
         except (TypeError, ValueError, LookupError, AttributeError):
             return False
     return same(plain(condition), actual, near)
@@ -85,11 +87,11 @@ class Results:
     """The assertions that were checked, and the last call that the check made."""
 
     def __init__(self) -> None:
-        # This function returns the last call as text; a report needs this text only if a check fails.
+        # This function returns the last call as text. It is called only if a check fails.
         self.asked: Callable[[], str] = str
         self._assertions: dict[str, Assertion] = {}
         self.marked: set[str] = set()  # The check has marked these goals as fulfilled.
-        # The dict contains the separately examined goals, and whether each goal holds.
+        # This dict contains each goal that was examined separately, and whether the goal holds.
         self._goals: dict[str, bool] = {}
 
     @property
@@ -104,7 +106,7 @@ class Results:
 
     @property
     def kept_goals(self) -> set[str]:
-        """The goals that are fulfilled even if the check stops early."""
+        """The goals that are fulfilled even if the check ends before its last assertion."""
         return self.marked - self.failed_goals
 
     @property
@@ -113,7 +115,7 @@ class Results:
         return (self.marked | self._goals.keys()) - self.failed_goals
 
     def goal_ended(self, goal: str, *, fulfilled: bool) -> None:
-        """Record whether the assertions of `goal` hold; after one failure, a goal remains failed."""
+        """Record whether the assertions of `goal` hold; a goal that has failed once remains failed."""
         self._goals[goal] = fulfilled and self._goals.get(goal, True)
 
     def passes(self, assertion: str) -> None:
@@ -121,7 +123,7 @@ class Results:
         self._assertions.setdefault(assertion, Assertion(assertion, holds=True))
 
     def fails(self, assertion: str, *, expected: str = "", actual: str = "", hint: str = "") -> NoReturn:
-        """Record that `assertion` does not hold, and end the check or the goal by raising AssertionFailed.
+        """Record that `assertion` does not hold, and raise AssertionFailed, which ends the check or the goal.
 
         If an assertion fails several times, the report shows the first failure.
         """

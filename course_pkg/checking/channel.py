@@ -16,14 +16,14 @@ The requests, their arguments, and the fields of the replies:
     traceback                             text (of the last exception of a handler in the kernel's process)
     read     name                         value
     source   name                         text
-    prepare  code, within                 error (the check's own code: it makes arguments for calls)
-    place    name, port, key, item        (a proxy for an object of the runner's: see placed/host.py)
+    prepare  code, within                 error (`code` is the check's own code, which makes arguments)
+    place    name, port, key, item        (defines a proxy for an object, see placed/host.py)
     call     name, args, kwargs, within   value or error, printed, took
-    folder   files, texts                 folder (its number: copies of files, over them the check's texts)
+    folder   files, texts                 folder (its number; it contains copies of `files`, and `texts`)
     run      argv, folder, within         status, out, err, took
-    start    argv, folder                 process (its number)
-    poll     process                      status, null while it runs
-    stop     process                      as run; status is null if it was still running
+    start    argv, folder                 process (the number of the process)
+    poll     process                      status (null while the process runs)
+    stop     process                      as for run; status is null if the process was still running
     ports    process                      ports (the TCP ports on which the command listens)
 
 The connection is closed after a line that is too long, is not a JSON object, or replies to another request.
@@ -71,7 +71,7 @@ class Channel(JsonChannel):
 
 
 def require_current(reply: Mapping[str, Json]) -> None:
-    """Raise CheckError if the kernel replies that the examined code is not the current code."""
+    """Raise CheckError if the kernel reports that the code in use is older than the code in its cell."""
     if older := str(reply.get("older") or "")[:LONGEST]:
         raise CheckError(older)
 

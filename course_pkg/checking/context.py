@@ -40,8 +40,8 @@ KNOWN = (AssertionFailed, ChannelError, CheckError)
 class CheckContext:
     """One run of a check.
 
-    The first failed assertion ends the run, or only the `goal` block that contains the assertion. When the
-    run ends, all its servers, topics and folders are closed.
+    The first failed assertion ends the run, or only the `goal` block that contains the assertion. At the end
+    of the run, all servers, topics and folders of the run are closed.
     """
 
     def __init__(self, check: str, channel: Channel, node: Node, seed: int) -> None:
@@ -63,9 +63,9 @@ class CheckContext:
     def fulfilled(self, goal: str) -> None:
         """Mark a goal of the part as fulfilled: the goal earns its points even if a later assertion fails.
 
-        A goal earns points only if all assertions before this call hold. Put the part's main goal first, so
-        that a program that does nothing, or refuses everything, earns no points for a later goal. If the goal
-        was also examined with `goal`, none of its assertions may have failed.
+        Call this after the assertions of the goal: if an assertion fails, the run ends before this call. Call
+        it for the main goal of a part first, so that a program that does nothing earns no points for a later
+        goal. If the goal was also examined with `goal`, it is fulfilled only if these assertions hold, too.
         """
         self._results.marked.add(goal)
 
@@ -73,8 +73,8 @@ class CheckContext:
     def goal(self, goal: str) -> Iterator[None]:
         """Examine a goal that does not depend on other goals; a failed assertion ends only this goal.
 
-        The goal may be examined several times, such as in a loop. The goal earns its points if its assertions
-        hold each time, and if the check runs completely.
+        The goal may be examined several times, such as in a loop. A goal earns its points if all its
+        assertions hold, and if the check runs completely.
         """
         try:
             yield
@@ -88,7 +88,7 @@ class CheckContext:
     def expect(
         self, assertion: str, *, expected: Value, actual: Value, near: float = 0.0, hints: Hints = ()
     ) -> None:
-        """Assert that `actual` equals `expected`; numbers may differ by `near`, absolute or relative.
+        """Assert that `actual` equals `expected`; the absolute or relative error may be up to `near`.
 
         `assertion` is the title of the assertion in the report. `hints` say what to do about a wrong value:
         one hint for any value, or a list of pairs (condition, hint). The first condition that matches
@@ -127,8 +127,7 @@ class CheckContext:
         """Return the service `name` of type `kind`, ready to be called; each call takes at most `timeout` s.
 
         `kind` is a type's name, or a class. Asserts that a server of this type is registered and responds.
-        `hints` are for the error message of a failed call; ROS's own error messages are explained even
-        without hints.
+        `hints` are for the error message of a failed call; for ROS's own error messages, no hints are needed.
         """
         self.doing = f"waiting for {name}"
         label = "the service" if self.random.made(name) else name
@@ -194,7 +193,7 @@ class CheckContext:
         return self._open.enter_context(ScriptedServer(self._node, name, cls, script))
 
     def faulty(self, name: str, kind: str, work: Work) -> FaultyServer:
-        """Serve `name` with `work`, and with the faults in `plan` (peers/faulty_server.py)."""
+        """Serve `name`: `work` handles requests, and `plan` contains faults (see peers/faulty_server.py)."""
         server = FaultyServer(self._node, name, self.service_class(kind), work)
         self._open.enter_context(server)
         return server
@@ -202,7 +201,7 @@ class CheckContext:
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Unregister the server of `name` until the check ends.
 
-        If `stale` is true, register the address of a closed port instead.
+        If `stale` is true, register an address with a closed port instead.
         """
         return self._open.enter_context(Absent(self._node, name, stale=stale))
 
@@ -215,7 +214,9 @@ class CheckContext:
         every: float = 0.05,
         once: bool = False,
     ) -> Publisher:
-        """Publish `messages` (fields by name) of the type `kind` in a cycle, one message every `every` s.
+        """Publish `messages` repeatedly, one message every `every` s.
+
+        Each message is a dict of its fields, and `kind` is the name of its type.
 
         If `once` is true, publish each message only once, and begin as soon as there is a subscriber.
         """
@@ -234,7 +235,10 @@ class CheckContext:
     def fake_node(
         self, name: str, topic: str, kind: str, *, alive: bool = True, reused: bool = False
     ) -> FakeNode:
-        """Register a fake node `name` as a publisher of `topic`; it looks like a running or a killed node."""
+        """Register a node that does not exist as a publisher of `topic`.
+
+        If `alive` is true, the node responds to a ping. Otherwise, it seems to be killed.
+        """
         return self._open.enter_context(FakeNode(self._node, name, topic, kind, alive=alive, reused=reused))
 
     # -- the student's topics
@@ -251,7 +255,7 @@ class CheckContext:
         """Return the text that assertions show for the topic; the text is the same in every run."""
         return "the topic" if self.random.made(topic) else topic
 
-    # -- what the student wrote, in the kernel
+    # -- the student's functions, values and files
 
     def run(
         self,
@@ -264,8 +268,8 @@ class CheckContext:
     ) -> Result:
         """Call the student's `function` in the kernel, and interrupt it after `within` s.
 
-        The default is 5 s on an idle machine, and more on a busy machine. A report shows the call, or
-        `worded` if `function` is the check's own helper.
+        The default is 5 s on an idle machine, and more on a busy machine. A report shows the call as Python
+        code, or the text `worded` instead.
         """
         label = worded or f"{function}()"
         self.doing = f"waiting for {label}"
@@ -278,16 +282,16 @@ class CheckContext:
         reply = self._channel.ask(
             "call", timeout=within + SLACK, name=function, args=values, kwargs=named, within=within
         )
-        # The time is measured here, because the check runner does not trust the kernel.
+        # The check runner measures the duration itself, because it does not trust the kernel.
         took = time.monotonic() - started
         return Result(self._results, label, reply, took, hints)
 
     def prepare(self, code: str, within: float = 5.0) -> None:
         """Run the check's own `code` in the kernel, separately from the student's names.
 
-        The names that `code` defines can be arguments of the student's function: `context.run("close",
-        Its("service"))`. The student's code can modify these objects, so store the data of the check in an
-        object of `place` instead. Raises CheckError if the code fails.
+        The names that `code` defines can be arguments of the student's function, such as `service` in
+        `context.run("close", Its("service"))`. The student's code can modify these objects, so store the data
+        of the check in an object of `place` instead. Raises CheckError if the code fails.
         """
         error = self._channel.ask("prepare", timeout=within + SLACK, code=code, within=within).get("error")
         if error:
@@ -316,7 +320,8 @@ class CheckContext:
     def folder(self, *, files: Sequence[str] = (), texts: Mapping[str, str] | None = None) -> Folder:
         """Return a new folder, on the kernel's computer, with copies of the student's files and folders.
 
-        `texts` are the check's own files, by path; they replace copies with the same path.
+        `texts` contains the content of the check's own files, by path. These files replace copies with the
+        same path.
         """
         return Folder(self._channel, files, texts or {}, self._under_way)
 
@@ -335,8 +340,8 @@ class CheckContext:
     def read(self, name: str, kind: type[Item] | None = None) -> Json | Item:
         """Return the value of the student's variable `name`, as plain data.
 
-        For a variable of the check itself, pass the expected class as `kind`; CheckError is raised for a
-        value of another class.
+        If the check's own code has set the variable, pass the expected class as `kind`. In this case,
+        CheckError is raised for a value of another class.
         """
         value = self._channel.ask("read", timeout=SLACK, name=name).get("value")
         return value if kind is None else of_kind(kind, value, name)

@@ -23,8 +23,8 @@ class Goal:
 def goals_of(check: str, points: int, given: Sequence[str] | Mapping[str, float]) -> tuple[Goal, ...]:
     """Return the goals that an author declares for the part `check`.
 
-    A sequence divides the points equally; a mapping contains the weight of each goal. Raises ValueError for a
-    single goal, for two equal goals, or for a weight that is not positive.
+    If `given` is a sequence, the points are divided equally; a mapping contains the weight of each goal.
+    Raises ValueError if there is only one goal, if two goals are equal, or if a weight is not positive.
     """
     weights = dict(given) if isinstance(given, Mapping) else dict.fromkeys(given, 1.0)
     if given and (len(weights) < 2 or len(weights) < len(given) or min(weights.values()) <= 0):
@@ -34,7 +34,7 @@ def goals_of(check: str, points: int, given: Sequence[str] | Mapping[str, float]
 
 
 def divided(points: float, weights: Sequence[float]) -> list[float]:
-    """Divide `points` in proportion to `weights`, of which at least one is positive.
+    """Divide `points` in proportion to `weights`; at least one weight has to be positive.
 
     The shares have two decimals, and their sum is exactly `points`. For example, three goals with 2 points in
     total get 0.67, 0.67 and 0.66 points.

@@ -9,7 +9,7 @@ from course_pkg.types import rosservice_line, service_type
 
 
 def command_line(name: str, kind: ServiceClass, request: Message) -> str:
-    """Return the `rosservice call` command that makes the same call."""
+    """Return the `rosservice call` command that calls the service `name` with this `request`."""
     return rosservice_line(name, service_type(kind), fields_of(request))
 
 
@@ -25,7 +25,7 @@ def explained(error: str) -> str:
 
 
 def shown(value: Json) -> str:
-    """Return plain data as a student would write it; numbers have at most seven digits, like a float32."""
+    """Return `value` as text for a report, such as "x=1, y=2"; a number has at most seven digits."""
     if isinstance(value, float):
         return f"{value:.7g}"
     if isinstance(value, dict) and value.keys() == {"object"}:

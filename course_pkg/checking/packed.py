@@ -1,8 +1,8 @@
 """Pack the source of checks for the students' edition.
 
 The source of a check contains answers, such as expected values and files of a package. `check()` needs this
-source on the student's computer. In the packed source, students do not find an answer by accident or with a
-search, but they can unpack the source deliberately.
+source on the student's computer. In packed source, students do not find an answer by accident or with a
+search. Students can still unpack the source deliberately.
 """
 
 from __future__ import annotations

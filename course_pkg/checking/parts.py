@@ -34,8 +34,8 @@ class Part:
     counts as not attempted. Names that are joined with `|` are alternatives: one of them is enough.
 
     `deadline` is the time limit of the whole check in s. If the student has to repair a file, `start` is the
-    `%%writefile` cell that the student gets; otherwise, `start` is empty. `goals` divide the points; a part
-    without goals gives all of its points or none.
+    `%%writefile` cell with the wrong file. Otherwise, `start` is empty. The points are divided among `goals`.
+    A part without goals gives either all of its points or no points.
     """
 
     check: str
@@ -49,7 +49,10 @@ class Part:
 
     @property
     def package_files(self) -> dict[str, list[str]]:
-        """The files that the part needs: a dict from the names of catkin packages to paths in them."""
+        """The files in catkin packages that the part needs.
+
+        The keys are the names of the packages, and the values are paths relative to the package.
+        """
         found: dict[str, list[str]] = {}
         for name in self.needs:
             if packaged := PACKAGED.fullmatch(name):
@@ -73,10 +76,10 @@ def part(
 ) -> Callable[[Callable[[CheckContext], None]], Part]:
     """Return a decorator that declares the check of the part with the id `check`, such as "05.1".
 
-    `goals` are the goals among which the points are divided: a sequence divides the points equally, and a
-    mapping contains weights. The check marks a goal with `context.fulfilled` or `context.goal`. The last goal
-    may be unmarked: it is then fulfilled if the check passes. Without goals, a part earns its points only if
-    the check passes.
+    `goals` are the goals of the part: the points are divided equally for a sequence, and by weight for a
+    mapping. The check marks a goal with `context.fulfilled` or `context.goal`. The last goal need not be
+    marked: it is fulfilled if the check passes. Without goals, a part earns its points only if the check
+    passes.
     """
     divided = goals_of(check, points, goals)
 
@@ -87,7 +90,7 @@ def part(
 
 
 def exercise_of(check: str) -> str:
-    """Return the id of the exercise that a part examines: "05.1" for "05.1" and for "05.1.1"."""
+    """Return the id of the exercise that a part examines, such as "05.1" for "05.1" and for "05.1.1"."""
     return ".".join(check.split(".")[:2])
 
 
@@ -107,9 +110,9 @@ def folder_of(chapter: str) -> Path:
 
 
 def folders_for(chapter: str) -> list[Path]:
-    """Return the folder of a chapter, such as "14", and of each chapter that it imports from, sorted.
+    """Return a sorted list: the folder of a chapter, such as "14", and of each chapter that it imports from.
 
-    Indirect imports count, too. For an unknown chapter, the list is empty.
+    Indirect imports are included. For an unknown chapter, the list is empty.
     """
     modules, found, new = _modules(), set[str](), {chapter}
     while new := (new & modules.keys()) - found:
@@ -188,7 +191,7 @@ def start_of(check: str) -> str:
 def find(check: str) -> Part:
     """Return the part with the id `check`; only its own chapter is imported.
 
-    Raises UnknownCheck, with similar ids, if there is no such part.
+    Raises UnknownCheck if there is no such part; the message contains similar ids.
     """
     chapter = str(check).partition(".")[0]
     if chapter in chapters():

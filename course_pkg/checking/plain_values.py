@@ -11,7 +11,7 @@ from course_pkg.ros.protocol.json_channel import Json
 Reply: TypeAlias = dict[str, Json]  # These are the fields of a reply on the channel.
 Value: TypeAlias = Any  # This is a value that student code created.
 Message: TypeAlias = Any  # A message, request or response; genpy generates no type annotations.
-# The fields of a message as plain data; the definition contains their types.
+# The fields of a message as plain data; the definition of the message contains the types of the fields.
 Fields: TypeAlias = dict[str, Any]
 ServiceClass: TypeAlias = Any  # This is a service or message class of genpy.
 Item = TypeVar("Item")
@@ -23,8 +23,7 @@ ITEMS = 10_000
 def of_kind(kind: type[Item], value: Json, name: str) -> Item:
     """Return `value`, which must be an instance of `kind`.
 
-    Raises CheckError if `value` has another type, because student code has changed the check's own code in
-    the kernel.
+    Raises CheckError otherwise: student code has then changed an object of the check in the kernel.
     """
     if not isinstance(value, kind):
         raise CheckError(
@@ -53,7 +52,7 @@ def plain(value: Value, depth: int = DEPTH) -> Json:
 
 
 def fields_of(message: Message) -> Fields:
-    """Return the fields of a message, request or response as plain data, by name."""
+    """Return a dict with the fields of a message, request or response as plain data."""
     return {name: plain(getattr(message, name)) for name in message.__slots__}
 
 

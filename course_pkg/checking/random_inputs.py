@@ -11,7 +11,7 @@ Item = TypeVar("Item")
 
 
 class RandomInputs:
-    """A check's only source of random inputs, so that a known seed repeats all inputs."""
+    """The random inputs of a check; the same seed produces the same inputs again."""
 
     def __init__(self, seed: str) -> None:
         self._random = random.Random(seed)  # noqa: S311 -- these numbers are not secrets
@@ -22,7 +22,7 @@ class RandomInputs:
         return round(self._random.uniform(low, high), digits)
 
     def numbers(self, count: int, low: float, high: float, *, digits: int = 2) -> list[float]:
-        """Return `count` different numbers, so that a wrong answer cannot be correct by accident."""
+        """Return `count` different numbers: with equal numbers, a program that confuses them could pass."""
         found: list[float] = []
         while len(found) < count:
             number = self.number(low, high, digits=digits)
@@ -31,11 +31,11 @@ class RandomInputs:
         return found
 
     def integer(self, low: int, high: int) -> int:
-        """Return a random integer from `low` to `high`; both limits are possible."""
+        """Return a random integer from `low` to `high`, including both limits."""
         return self._random.randint(low, high)
 
     def integers(self, count: int, low: int, high: int) -> list[int]:
-        """Return `count` different random integers from `low` to `high`; both limits are possible."""
+        """Return `count` different random integers from `low` to `high`, including both limits."""
         return self._random.sample(range(low, high + 1), count)
 
     def choice(self, items: Sequence[Item]) -> Item:
@@ -52,5 +52,8 @@ class RandomInputs:
         return self._words[-1]
 
     def made(self, text: str) -> bool:
-        """Return whether `text` contains a random word; the title of an assertion must not contain one."""
+        """Return whether `text` contains a random word.
+
+        The title of an assertion must not contain a random word.
+        """
         return any(word in text for word in self._words)

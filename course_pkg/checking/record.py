@@ -3,8 +3,8 @@
 The record shows students their progress in the course. Students can change the record, because it is in their
 own folder. The record is therefore never used for a grade.
 
-Grades come from check runners that `course grade` starts. A contract of import-linter in pyproject.toml
-forbids the packages grading and sandbox to import this module.
+Grades come from check runners that `course grade` starts. The import-linter contract in pyproject.toml
+forbids this import in the packages grading and sandbox.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class StudentRecord:
         return message
 
     def read(self, checks: Iterable[str]) -> tuple[dict[str, PartRecord], str]:
-        """Return the records of these parts by their ids, and a message about damaged records, or ""."""
+        """Return a dict with the record of each part, and a message about damaged records or ""."""
         found: dict[str, PartRecord] = {}
         damaged: dict[str, list[str]] = {}
         for check in checks:
@@ -88,9 +88,9 @@ class StudentRecord:
         return self.folder / f"{check}.json"
 
     def _before(self, check: str) -> tuple[PartRecord | None, str]:
-        """Return the earlier record of a part, and "".
+        """Return the stored record of a part and "", or None and a message about a damaged file.
 
-        If the file is damaged, rename it, and return None and a message.
+        A damaged file is renamed.
         """
         try:
             return self._read(check), ""
@@ -141,6 +141,6 @@ def _reason(error: Exception) -> str:
 
 
 def _listed(parts: list[str], most: int = 5) -> str:
-    """Return a string with the ids of the first parts; it contains no more than `most` ids."""
+    """Return the ids of the first `most` parts as text, and the number of further parts."""
     more = f" and {len(parts) - most} more" if len(parts) > most else ""
     return ", ".join(parts[:most]) + more

@@ -1,6 +1,6 @@
 """The report of a check, as data, as text and as HTML.
 
-The report of a failed check shows the assertions that hold, then the assertion that failed, and then the
+The report of a failed check shows first the assertions that hold, then the failed assertion, and then the
 goal. The report of a passed check contains no values, times or random texts, so it is the same in every run.
 """
 
@@ -42,7 +42,7 @@ class Assertion:
     hint: str = ""
 
     def details(self) -> list[tuple[str, str]]:
-        """Return the lines about an assertion that does not hold: (label, text)."""
+        """Return a pair (label, text) for each line about an assertion that does not hold."""
         return [
             (label, text)
             for label, text in (
@@ -60,7 +60,7 @@ class Review:
     """An instructor's decision about an answer after the check."""
 
     comment: str = ""  # This comment is for the student.
-    # The check gave these points; the value is set only if the instructor has changed the points.
+    # The points from the check, or None if the instructor has not changed the points.
     computed: float | None = None
     outdated: bool = False  # The value is true if the answer has changed since the review.
 
@@ -105,8 +105,7 @@ class Report:
     def credits(self) -> list[str]:
         """Return a line with the points for each goal.
 
-        The list is empty for a passed check, if no assertion was checked, or if the part gives all points or
-        none.
+        The list is empty if the check has passed, if no assertion was checked, or if the part has no goals.
         """
         if self.verdict is Verdict.PASSED or not self.assertions or not total(self.goals):
             return []
@@ -115,7 +114,7 @@ class Report:
         ]
 
     def sections(self) -> list[tuple[str, tuple[Assertion, ...]]]:
-        """Return the assertions with their headings, first the assertions that hold.
+        """Return the assertions with their headings; the assertions that hold come first.
 
         A passed check has no headings.
         """

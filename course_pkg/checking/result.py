@@ -46,8 +46,8 @@ class Result:
     def returned(self, kind: type[Item] | None = None) -> Json | Item:
         """Assert that the function returned without an error, and return its value as plain data.
 
-        For a function of the check itself, pass the expected class as `kind`; CheckError is raised for a
-        value of another class.
+        If `run` called a function of the check, not of the student, pass the expected class as `kind`. In
+        this case, CheckError is raised for a value of another class.
         """
         assertion = f"{self._label} returns"
         if self.error:
@@ -91,7 +91,8 @@ class Finished:
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
         self.took = took if isinstance(took, float) else 0.0  # The command took this time in s.
-        # For a command that was still running: its CPU time, and the time that it waited for a CPU, in s.
+        # `ran` is the CPU time in s of a command that was stopped at its time limit. `queued` is the time in
+        # s for which it waited for a CPU.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
         # The value is infinity if the time is unknown.

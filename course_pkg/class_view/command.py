@@ -29,7 +29,7 @@ from course_pkg.errors import ClassViewError
 from course_pkg.state import locked, state_folder
 
 SECRET = "secret"  # noqa: S105 -- the name of the file with the secret
-LOCK = "service"  # The running service holds the lock of this folder inside the data folder.
+LOCK = "service"  # The running service locks this folder, which is inside the data folder.
 
 
 def serve_class(options: SimpleNamespace) -> int:
@@ -129,7 +129,7 @@ async def _serve(
 
 
 def _address(options: SimpleNamespace) -> tuple[str, int]:
-    """Return the address and port that the hub has chosen, or the address and port in the options."""
+    """Return the address and port of the service: those from the hub, or else those in the options."""
     if url := os.environ.get("JUPYTERHUB_SERVICE_URL", ""):
         parts = urlsplit(url)
         return parts.hostname or options.ip, parts.port or options.port

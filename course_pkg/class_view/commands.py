@@ -67,7 +67,8 @@ def _days(text: str) -> float:
     return number
 
 
-_positive.__name__, _days.__name__ = "number from 1 to 1000", "number of days"  # argparse shows these names
+# argparse shows these names in its error messages.
+_positive.__name__, _days.__name__ = "number from 1 to 1000", "number of days"
 
 COMMANDS = {
     "class": Command(

@@ -1,4 +1,4 @@
-"""What the page shows: the state of each part of each student, and the most frequent hints."""
+"""The data on the teacher's page: the state of each part of each student, and the most frequent hints."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from course_pkg.types.fields import Plain
 
 @dataclass
 class Cell:
-    """One part of one student. Times are in s since 1970; 0 means that there was no such check."""
+    """One part of one student. Times are in s since 1970; 0 means "never"."""
 
     tries: int = 0  # the number of checks until the first pass, without the checks of blank answers
     passed: float = 0.0  # the time of the first pass
@@ -25,7 +25,7 @@ class Cell:
 
 @dataclass
 class Hint:
-    """How often a hint appeared, and for which students."""
+    """The number of times that a hint appeared, and the students who saw it."""
 
     count: int = 0
     students: set[str] = field(default_factory=set)
@@ -33,7 +33,11 @@ class Hint:
 
 
 class ClassModel:
-    """The state of a class. `version` grows with each result; `epoch` changes if results were deleted."""
+    """The state of a class.
+
+    `version` is the number of results that were added. `epoch` is random; a new value means that results were
+    deleted.
+    """
 
     def __init__(self, names: Mapping[str, str], results: Iterable[Result] = ()) -> None:
         self.epoch = secrets.token_hex(8)
@@ -67,7 +71,9 @@ class ClassModel:
             cell.stuck = result.time
 
     def changes(self, epoch: str, since: int) -> dict[str, Plain]:
-        """Return the changes since the version `since`, or everything if `epoch` is not the current epoch.
+        """Return the changes since the version `since`.
+
+        If `epoch` differs from the current epoch, return all data.
 
         A cell is [student, part, tries, passed, stuck, last]. A hint is [part, hint, count, students].
         """
@@ -91,8 +97,8 @@ class ClassModel:
         }
 
     def _shuffled(self) -> list[tuple[str, str]]:
-        """Return the students in an order that does not follow from their names.
+        """Return the students in an order that looks random, but is always the same.
 
-        A student's number on the page then does not show the student's position in the alphabet.
+        With this order, a student's position on the page does not reveal the student's name.
         """
         return sorted(self._names.items(), key=lambda each: hashlib.sha256(each[0].encode()).digest())

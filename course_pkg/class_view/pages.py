@@ -75,7 +75,7 @@ class Handler(PageHandler):
     async def student(self) -> str | None:
         """Return the student who owns the request's token.
 
-        If there is none, refuse the request and return None.
+        If the token belongs to no student, refuse the request and return None.
         """
         token = self.request.headers.get("Authorization", "").removeprefix("token ")
         try:
@@ -186,7 +186,7 @@ class Callback(TeacherHandler):
     """Receives the redirect from the hub at the end of a login."""
 
     async def prepare(self) -> None:
-        """Accept each request, because get() examines the request."""
+        """Accept each request; unlike other pages, this page needs no teacher's token yet."""
 
     async def get(self) -> None:
         """Exchange the code for a token, and open the page."""

@@ -30,11 +30,13 @@ class Result:
 
 
 def received(student: str, data: object, now: float, oldest: float) -> tuple[list[Result], list[str]]:
-    """Return the results in `data`, the JSON of a request of `student`, and the ids of all items in `data`.
+    """Return the valid results in a student's request, and the ids of all items in the request.
 
-    An item that is not a result is left out, but its id is returned, so that the item is not sent again. A
-    time in the future becomes `now`, and a time before `oldest` becomes `oldest`. Raises ValueError if `data`
-    is not a list of at most MOST results.
+    `data` is the JSON data of the request.
+
+    The id of an invalid item is also returned, so that the student's server does not send this item again. A
+    time in the future is replaced by `now`, and a time before `oldest` is replaced by `oldest`. Raises
+    ValueError if `data` is not a list of at most MOST results.
     """
     sent = data.get("results") if isinstance(data, dict) else None
     if not isinstance(sent, list) or not 0 < len(sent) <= MOST:

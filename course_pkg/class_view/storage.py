@@ -29,7 +29,7 @@ class TooMany(Exception):
 
 
 class Storage:
-    """The database in `folder`, which is created if it does not exist.
+    """The database in `folder`; a missing folder or database is created.
 
     Raises ClassViewError if the database cannot be used. The methods raise sqlite3.Error if the disk cannot
     be written.
@@ -107,7 +107,7 @@ class Storage:
         return int(self._database.execute("PRAGMA data_version").fetchone()[0])
 
     def _forget(self) -> None:
-        """Remove deleted rows from the file of the write-ahead log, too."""
+        """Also remove deleted rows from the write-ahead log, which is a separate file."""
         self._database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
 
     def _prepare(self) -> None:

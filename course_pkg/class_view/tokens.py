@@ -18,7 +18,9 @@ COLUMNS = ("username", "name", "token")
 
 
 def names_from(roster: Path | None, students: int) -> dict[str, str]:
-    """Return a dict from usernames to names: the students in a roster, or `students` generated students.
+    """Return a dict from usernames to names.
+
+    The students come from the roster. Without a roster, `students` usernames are generated.
 
     Raises ClassViewError if a student has no username.
     """
@@ -106,7 +108,7 @@ class Tokens:
 
 
 def write_privately(path: Path, text: str) -> None:
-    """Write a file that only this user can read, and protect its folder in the same way. Raises OSError."""
+    """Write a file that only this user can read, in a folder that only this user can open. Raises OSError."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.parent.chmod(0o700)
     write_atomically(path, text)

@@ -16,13 +16,14 @@ TIMEOUT = 10.0  # A program that is expected to end has to end within this time 
 class Fault:
     """One fault.
 
-    Students first see only `story`; `diagnosis` and `remedy` are the correct choices. The function `play`
-    causes the fault on a stage (see the module `stage`). `visitor` shows the symptom: it is the text of a
-    Python program, or "$ " and a command line.
+    Students first see only `story`. Later, they choose a diagnosis and a remedy; `diagnosis` and `remedy` are
+    the correct choices. The function `play` causes the fault on a stage (see the module `stage`). `visitor`
+    is a program or command that shows the symptom: the text of a Python program, or "$ " and a command line.
 
-    `look` names the kind of symptom in one or two words: a group, and optionally a subgroup of very similar
-    symptoms. The wrong diagnoses for students come from faults with a similar `look`. The diagnoses of the
-    faults in `unlike` are never offered as wrong choices, because they would also be correct.
+    `look` describes the symptom in one or two words. The first word is a group, and the second word is a
+    subgroup of very similar symptoms. The wrong diagnoses for students come from faults with a similar
+    `look`. `unlike` contains faults whose diagnoses would also be correct, so they are not offered as wrong
+    choices.
     """
 
     name: str
@@ -40,7 +41,7 @@ class Fault:
 
     @property
     def timeout(self) -> float:
-        """The time limit in s for the visitor."""
+        """The time limit in s for the program or command that shows the symptom."""
         return (HANG + START if self.is_command else HANG) if self.hangs else TIMEOUT
 
     @property

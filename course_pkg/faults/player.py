@@ -34,7 +34,7 @@ def main(argv: list[str]) -> int:
     sys.stdout.flush()
     sys.stderr.flush()
     os.write(ready, bytes([status & 255]))
-    # The case kills this process at this point, which is faster than rospy's own shutdown (0.6 s or more).
+    # Wait here until the case kills this process, because rospy's own shutdown takes 0.6 s or more.
     os.read(go, 1)
     return status
 
@@ -53,7 +53,7 @@ def _run(name: str, code: str) -> int:
 
 
 def _cut(shown: traceback.TracebackException, name: str) -> None:
-    """Remove the lines of all other files, and the chained exceptions, from a traceback."""
+    """Keep only the lines of the file `name` in a traceback, and remove its chained exceptions."""
     shown.stack = traceback.StackSummary.from_list([each for each in shown.stack if each.filename == name])
     shown.__cause__ = shown.__context__ = None
 

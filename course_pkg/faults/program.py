@@ -1,4 +1,7 @@
-"""Run a short program of a case in a separate process, which starts early and waits for begin()."""
+"""Run a short program of a case in a separate process.
+
+The process starts early, and runs the program after begin().
+"""
 
 from __future__ import annotations
 
@@ -168,7 +171,7 @@ class Program:
 def _still(pid: int) -> bool:
     """Return whether all threads of a process are suspended.
 
-    psutil returns only one state for the whole process.
+    The states are read from /proc, because psutil returns only one state for the whole process.
     """
     try:
         stats = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]

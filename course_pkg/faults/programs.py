@@ -33,7 +33,7 @@ rospy.spin()
 def keeper(body: str = WELL, **changes: str) -> str:
     """Return a program that serves /door; `body` is the code of its handler.
 
-    In the text of the program, the function replaces each key of `changes` with the value of this key.
+    Each key of `changes` is replaced by its value in the text of the program.
     """
     code = _KEEPER.format(body=body.replace("\n", "\n    "))
     for old, new in changes.items():
@@ -42,7 +42,7 @@ def keeper(body: str = WELL, **changes: str) -> str:
 
 
 def running(code: str) -> Callable[[Stage], None]:
-    """Return a function that causes a fault by running `code`, a server of /door."""
+    """Return a function that starts the faulty server `code` of /door on a stage."""
 
     def play(stage: Stage) -> None:
         stage.serve(code)
@@ -51,7 +51,7 @@ def running(code: str) -> Callable[[Stage], None]:
 
 
 def serving(body: str, imports: str = "") -> Callable[[Stage], None]:
-    """Return a function that causes a fault by running a server with `body` as the code of its handler."""
+    """Return a function that starts a server of /door on a stage; `body` is the code of its handler."""
     return running(imports + keeper(body))
 
 
@@ -65,10 +65,10 @@ def kill_server(stage: Stage) -> None:
 
 
 def asking(lines: str, imports: str = "from std_srvs.srv import SetBool") -> str:
-    """Return the source of a visitor's program, which starts a node and then runs `lines`."""
+    """Return the source of a program that starts the node `visitor` and then runs `lines`."""
     return f'import rospy\n{imports}\n\nrospy.init_node("visitor")\n{lines}\n'
 
 
 def calling(call: str) -> str:
-    """Return the source of a client that runs `call` instead of calling /door."""
+    """Return the source of a client in which the code `call` replaces the call of /door."""
     return VISITOR.replace("print(move_door(True))", call)

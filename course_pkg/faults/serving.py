@@ -60,7 +60,7 @@ rospy.spin()
 """
 
 
-# The response of ROS's service type GetLoggers has only one field, a list.
+# In this fault, the handler returns three values, but the response of GetLoggers has only one field, a list.
 LOGGERS = (
     keeper('return ["rosout", "hinge", "bell"]')
     .replace("std_srvs.srv import SetBool, SetBoolResponse", "roscpp.srv import GetLoggers")

@@ -56,7 +56,7 @@ class Playable(Protocol):
 
     @property
     def timeout(self) -> float:
-        """The time limit in s for the visitor."""
+        """The time limit in s for the program or command that shows the symptom."""
 
 
 class Stage:
@@ -94,7 +94,10 @@ class Stage:
             raise
 
     def symptom(self) -> Seen:
-        """Run the visitor, and return its result. Raises NodeFailed if the visitor does not start."""
+        """Run the program or command that shows the symptom, and return its result.
+
+        Raises NodeFailed if the program does not start.
+        """
         self.expect_visitor()
         visitor, self._visitor = self._visitor, None
         assert visitor is not None
@@ -129,7 +132,10 @@ class Stage:
         return keeper
 
     def keep(self, code: str, env: dict[str, str] | None = None) -> Program:
-        """Start the faulty program, and return at once; a student may read its output."""
+        """Start the program that contains the fault, and return at once.
+
+        A student may read the output of this program.
+        """
         self.keeper = self.program("keeper.py", code, env)
         self.keeper.begin()
         return self.keeper
@@ -160,20 +166,23 @@ class Stage:
         return master
 
     def hang(self, master: PrivateMaster) -> None:
-        """Suspend this fault's own master with SIGSTOP; undo() lets the master continue, and then ends it."""
+        """Suspend this fault's own master with SIGSTOP; undo() continues the master, and then ends it."""
         pid = master.pid
         self.later(partial(os.kill, pid, signal.SIGCONT))
         os.kill(pid, signal.SIGSTOP)
 
     def later(self, end: Callable[[], object]) -> None:
-        """Call `end` when the fault is undone. `end` must not have a reference to this stage."""
+        """Store a function that is called when the fault is undone.
+
+        `end` must not have a reference to this stage.
+        """
         self._resources.ends.append(end)
 
     def await_that(self, condition: Callable[[], object], program: Program) -> None:
         """Wait until `condition` is true; raises NodeFailed if `program` ends first, or after 10 s."""
 
         def settled() -> str:
-            # The order is important, because the program may fulfil the condition and then end.
+            # Read `over` first, because the program may fulfil the condition and then end.
             over = program.over
             return "met" if condition() else "over" if over else ""
 
@@ -193,9 +202,9 @@ class Stage:
         return {**local_environment(), **own, **more}
 
     def local(self, text: str) -> str:
-        """Return `text` with this stage's namespace instead of /lab.
+        """Return `text` with the real namespace and the real port.
 
-        The port of the stage's master replaces MASTER_PORT.
+        The stage's namespace replaces /lab, and the port of the stage's master replaces MASTER_PORT.
         """
         return text.replace("/lab/", f"{self.namespace}/").replace("MASTER_PORT", str(port_of(self.uri)))
 
@@ -210,9 +219,11 @@ class Stage:
 
 
 class _Resources:
-    """The processes and files of a stage, which are ended and deleted after the stage is deleted.
+    """The processes and files of a stage.
 
-    This object has no reference to the stage.
+    When the stage is deleted, the processes end and the files are deleted.
+
+    No attribute refers to the stage; otherwise, the stage could not be deleted.
     """
 
     def __init__(self, uri: str, namespace: str) -> None:

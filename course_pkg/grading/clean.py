@@ -81,7 +81,7 @@ def cell(value: object, limit: int = SHORT) -> str:
 
 
 def record(fields: Mapping[str, Plain]) -> dict[str, Plain]:
-    """Return plain data with cleaned strings; a list in the result has at most ITEMS items."""
+    """Return `fields` with cleaned keys and values; a list in the result has at most ITEMS items."""
     return {line(key): _value(item) for key, item in fields.items()}
 
 

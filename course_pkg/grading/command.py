@@ -201,7 +201,7 @@ def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Gra
 
 def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
     """Return the deadlines, with the extensions in the roster."""
-    # This call reports a wrong number before the grading begins.
+    # This call raises an error for an invalid number of days before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None
@@ -238,7 +238,7 @@ def _handed_in(options: Options, selected: Selection) -> list[Submission]:
 def _graded(
     options: Options, found: Sequence[Submission], extras: Extras, store: Store, regrade: Regrade
 ) -> Iterator[Grade]:
-    """Yield a grade for each submission: first earlier grades, then each new grade when it is ready."""
+    """Yield a grade for each submission: first the stored grades, and later each new grade when ready."""
     todo: dict[tuple[str, tuple[str, ...]], list[Submission]] = {}
     progress = Progress(total=len(found), unit="notebooks")
     for submission in found:

@@ -108,7 +108,7 @@ def _grade_arguments(parser: ArgumentParser) -> None:
     again.add_argument(
         "--fresh", action="store_true", help="grade all selected notebooks again, even if nothing has changed"
     )
-    parser.set_defaults(fresh=False)  # This value is the default, and the value of --resume.
+    parser.set_defaults(fresh=False)  # Without --fresh, the default applies; --resume sets the same value.
     _add_common(parser)
     add_deadline_arguments(parser)
     parser.formatter_class = RawDescriptionHelpFormatter

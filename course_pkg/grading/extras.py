@@ -1,8 +1,8 @@
 """Reads an instructor's additional exercises and points from a separate folder that students never see.
 
-private_05.py   further parts for exercises of chapter 05, declared like the chapter's own checks, with ids
-                such as "05.1.1": they are examined after the student's cell of exercise 05.1
-points.json     other points, as in points.py
+private_05.py   further parts for exercises of chapter 05, declared like the chapter's own checks; a part with
+                the id "05.1.1" is examined after the student's cell of exercise 05.1
+points.json     other points for the parts, see points.py
 """
 
 from __future__ import annotations

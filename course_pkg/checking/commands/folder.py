@@ -24,7 +24,7 @@ COLOUR = re.compile(r"\x1b\[\d*m")
 class Folder:
     """A folder with copies of the student's files and with the check's own files; deleted after the check.
 
-    Before each command, `doing` is called with the command.
+    Before each command, the function `doing` is called with the text of the command.
     """
 
     def __init__(
@@ -41,7 +41,7 @@ class Folder:
         The command "python" starts the kernel's own interpreter.
 
         The command runs in the course's environment, without the student's sourced packages. A report shows
-        the command, or `worded` if it is given. Raises ChannelError if the kernel does not reply.
+        the command, or the text `worded` instead. Raises ChannelError if the kernel does not reply.
         """
         self._doing(worded or " ".join(argv))
         limit = at_this_load(within)
@@ -90,12 +90,14 @@ class Running:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        with suppress(ChannelError):  # The command ended together with the kernel.
+        with suppress(ChannelError):  # If the kernel has ended, the command has ended, too.
             self.stop()
 
 
 def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) -> bool:
-    """Wait up to `within` s until `condition` holds for the graph at `uri`; return whether it holds.
+    """Wait up to `within` s until `condition` holds for the graph of the master at `uri`.
+
+    Return whether it holds.
 
     The master may start during the wait.
     """
@@ -109,7 +111,10 @@ def becomes(uri: str, condition: Callable[[Snapshot], object], within: float) ->
 
 
 def telling_line(printed: str) -> str:
-    """Return the last line with an error, or else the last line; remove its colours and the folder's path."""
+    """Return the last line with an error, or the last line if no line has one.
+
+    Colours, and the path of the current folder, are removed.
+    """
     lines = [line.strip() for line in COLOUR.sub("", printed).splitlines() if line.strip()]
     telling = [line for line in lines if "rror" in line or "annot" in line or "nvalid" in line]
     return (telling or lines or ["nothing"])[-1].replace(f"{os.getcwd().rstrip('/')}/", "/")

@@ -67,7 +67,10 @@ class CommandFolders:
         return {"status": self._running[process].status}
 
     def stop(self, process: int) -> Reply:
-        """End a command as Ctrl-C does; return its result, with the status null if it was still running."""
+        """End a command with SIGINT, like Ctrl-C; return its result.
+
+        The status is null if the command was still running.
+        """
         return self._running[process].stop()
 
     def ports(self, process: int) -> Reply:
@@ -80,7 +83,7 @@ class CommandFolders:
 
 
 class _Running:
-    """A command that runs at most until the kernel ends."""
+    """A running command; it ends at the latest when the kernel ends."""
 
     def __init__(self, command: Sequence[str], folder: Path) -> None:
         self._started = time.monotonic()
@@ -114,7 +117,10 @@ class _Running:
 
 
 def _place(name: str) -> str:
-    """Return the path of a copy: a relative path does not change; an absolute path becomes a file name."""
+    """Return the path at which a file is copied into a folder of the check.
+
+    A relative path does not change. For an absolute path, only the file name is used.
+    """
     path = Path(os.path.normpath(name))
     return path.name if path.is_absolute() or ".." in path.parts else str(path)
 
@@ -136,7 +142,7 @@ def _environment(folder: Path) -> dict[str, str]:
     """Return the course's environment; PWD is set because catkin_make uses it as the working directory."""
     try:
         known = environment.merged(Places.of(), os.environ)
-    except (OSError, ValueError):  # The course is installed, but its set-up was not run.
+    except (OSError, ValueError):  # Without a finished set-up, the current environment is used.
         known = dict(os.environ)
     return {**known, "PWD": str(folder), "PYTHONUNBUFFERED": "1"}
 
@@ -182,7 +188,7 @@ def _scheduled(pid: int) -> Reply:
 
 
 def _end_group(leader: int) -> None:
-    """End the processes that are still running in the command's session."""
+    """Kill the command and all processes that it has started."""
     try:
         os.killpg(leader, signal.SIGKILL)
     except ProcessLookupError:

@@ -1,7 +1,7 @@
 """The kernel agent: it reads and runs the student's code when the check runner requests this.
 
-The agent makes no decisions. The check runner trusts a reply only if the check runner itself can observe the
-effect.
+The agent makes no decisions. Student code can forge a reply, so the check runner trusts a reply only if it
+can observe the effect itself, such as a message.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class KernelAgent:
         return {"answer": request.get("ask"), **reply}
 
     def close(self) -> None:
-        """End the commands that the check started here, delete its folders, and close its proxies."""
+        """End the commands of the check in this kernel, delete the check's folders, and close its proxies."""
         self._handler_errors.close()
         if self._proxies is not None:
             self._proxies.close()
@@ -102,7 +102,7 @@ class KernelAgent:
         return there if there.exists() and not here.exists() else here
 
     def _find(self, name: str) -> Value:
-        """Return the value of `name`, which may contain dots."""
+        """Return the value of `name`; `name` may be a dotted name, such as "robot.speed"."""
         first, *rest = name.split(".")
         value = self._namespace[first] if first in self._namespace else self._prepared[first]
         for attribute in rest:
@@ -163,7 +163,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; otherwise, the log's handler would print to an earlier stream."""
+    """Let rospy's log print to `stream`; by default, rospy keeps the stream that existed earlier."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -182,8 +182,8 @@ def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
 def _result(function: Callable[[], Value], timeout: float) -> Reply:
     """Call a function, interrupt it after `timeout` s, and return {"value": …} or {"error": …}.
 
-    The call runs in the main thread, because an alarm can interrupt only the main thread. A call in another
-    thread would continue to use the graph during the next check.
+    The call runs in the main thread, because an alarm can interrupt only the main thread. If a call in
+    another thread did not end, it could disturb the next check.
     """
     try:
         return {"value": TimeLimit(timeout).call(lambda: plain(function()))}
@@ -197,7 +197,7 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 def _described(error: BaseException) -> Json:
     called = traceback.walk_tb(error.__traceback__)
-    # Keep only the lines of code in cells.
+    # Only the cells of the notebook run in the module `__main__`.
     lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
         "type": type(error).__name__,
@@ -215,9 +215,9 @@ def _defined_here(name: str, value: Value) -> bool:
 
 
 def is_blank(value: Value) -> bool:
-    """Return whether an exercise is unchanged: its value or its body is `...`."""
+    """Return whether an exercise is unchanged: its value is `...`, or the body of its function is `...`."""
     if isinstance(value, type):
-        # The methods are examined, because `inspect` does not find the source of a class in a notebook.
+        # `inspect` cannot find the source of a class in a notebook, so each method is examined instead.
         methods = [inspect.unwrap(method) for method in _methods(value)]
         return bool(methods) and all(is_blank(method) for method in methods)
     if isinstance(value, FunctionType):
@@ -250,7 +250,10 @@ def _is_placeholder(line: ast.stmt) -> bool:
 
 
 def _does_nothing(code: CodeType) -> bool:
-    """Return whether the compiled code of a function does nothing (used if there is no source)."""
+    """Return whether the compiled code of a function does nothing.
+
+    is_blank() uses this test for a function whose source cannot be read.
+    """
     blank = _nothing.__code__
     return code.co_code == blank.co_code and not code.co_names
 
@@ -259,7 +262,7 @@ def _nothing() -> None: ...
 
 
 def _look_at_file(path: Path) -> Reply:
-    """Return the kind of a file, and for a missing file also the similar names in its folder."""
+    """Return the kind of a file; if the file is missing, also return similar names in its folder."""
     kind = _kind_of_file(path)
     beside = [each.name for each in path.parent.glob("*")] if kind == "missing" else []
     return {"kind": kind, "alike": [*difflib.get_close_matches(path.name, beside, n=2)]}

@@ -1,4 +1,4 @@
-"""The exceptions that rospy catches in handlers; a check shows the student's lines in the last exception."""
+"""Stores the exceptions that rospy catches in handlers, so that a check can show the student's lines."""
 
 from __future__ import annotations
 
@@ -35,7 +35,8 @@ class HandlerErrors(logging.Handler):
         error = sys.exc_info()[1]
         if error is None or not record.getMessage().startswith(ABOUT):
             return
-        # The value is False if the handler was called with a wrong number of arguments.
+        # No line of the student is in the traceback if the handler was called with a wrong number of
+        # arguments.
         began = any(students_frames(error.__traceback__))
         self._last = "\n".join(readable_traceback(error, _place, HEADER)) if began else ""
 

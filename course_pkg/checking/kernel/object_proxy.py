@@ -71,7 +71,7 @@ class ObjectProxies:
             self._drop()
             raise ConnectionError(OVER) from error
         except BaseException:
-            # The reply to an interrupted call must not be read as the reply to a later call.
+            # Close the connection; otherwise, a later call would read the reply to this call.
             self._drop()
             raise
         if "placed" in reply:
@@ -83,7 +83,7 @@ class ObjectProxies:
     def _connection(self) -> _Connection:
         """Return the connection of this thread; the connection is closed when the thread has ended."""
         connection: _Connection | None = getattr(self._own, "connection", None)
-        # A forked process must not use the connection of its parent.
+        # A forked process opens a new connection, because its parent uses the old connection.
         if connection is None or connection.process != os.getpid():
             connection = _Connection(self.port, self._key)
             with self._lock:

@@ -1,8 +1,8 @@
 """Find a student's function or class that is older than the code in its cell.
 
-If the code in use is older, the check does not examine the code that the student sees in the cell. One cause
-is a syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but
-not the cell that creates the service.
+If a function is older than its cell, a check would examine other code than the cell shows. One cause is a
+syntax error in the changed cell. Another cause is that the student has run the handler's cell again, but not
+the cell that creates the service.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ LaterRun = Callable[[str], CellRun | None]
 
 
 class OlderCode:
-    """Compares the functions and classes in use with the last runs of the cells."""
+    """Compares a function or class that exists in the kernel with the last run of its cell."""
 
     def __init__(self, namespace: Mapping[str, Value], later_run: LaterRun) -> None:
         self._namespace = namespace
         self._later_run = later_run
 
     def of_value(self, name: str, value: Value) -> str:
-        """If `value` is older than the last run of its cell, return an instruction, else ""."""
+        """Return an instruction for the student if `value` is older than its cell, or ""."""
         run = self._run_after(value)
         if run is None:
             return ""
@@ -40,7 +40,7 @@ class OlderCode:
         )
 
     def of_service(self, service: str) -> str:
-        """If the handler of `service` is older than its cell, return an instruction, else ""."""
+        """Return an instruction for the student if the handler of `service` is older than its cell, or ""."""
         handler = _handler_of(service)
         run = self._run_after(handler)
         if run is None:
@@ -52,7 +52,7 @@ class OlderCode:
         return f"{answers}. Run the cell that creates the service, and then run this cell again."
 
     def _run_after(self, value: Value) -> CellRun | None:
-        """Return the last run of the cell that defined `value`, or None if the code is still the same."""
+        """Return the last run of the cell that defined `value`; return None if `value` is not older."""
         for function in _functions_of(value):
             run = self._later_run(function.__code__.co_filename)
             if run is not None and not self._defined_again(function):
@@ -93,13 +93,16 @@ def _handler_of(service: str) -> Value:
 
 
 def _functions_of(value: Value) -> list[FunctionType]:
-    """Return the functions in `value`: `value` itself, or the methods if it is a class."""
+    """Return the methods of a class, or a list with the function that `value` calls."""
     found = vars(value).values() if isinstance(value, type) else [_function_of(value)]
     return [each for each in found if isinstance(each, FunctionType)]
 
 
 def _function_of(value: Value) -> Value:
-    """Return the function inside a bound method, a partial object, a wrapper or a callable object."""
+    """Return the student's function that a callable object calls.
+
+    The object can be a bound method, a partial object, a wrapper, or an object with `__call__`.
+    """
     while isinstance(value, partial):
         value = value.func
     if isinstance(value, MethodType):

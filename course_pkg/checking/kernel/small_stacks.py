@@ -1,4 +1,4 @@
-"""Code that runs in the kernel: threads with small stacks, for checks that run many handlers at a time.
+"""Kernel code: threads with small stacks, for checks that run many handlers at the same time.
 
 Fifty handlers at the same time need fifty threads. With the default stack size of 8 MB, these threads need
 more memory than a sandbox has.

@@ -34,13 +34,13 @@ class TimeLimit:
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._error = _coming_again(TimesUp)
-        self._raised = 0.0  # An exception was last raised in a library's code at this time.
+        self._raised = 0.0  # The time at which the error was last raised and not caught here.
         self._stopped = False  # The value is true after the user has pressed the Stop button.
 
     def call(self, function: Callable[[], Value]) -> Value:
         """Return the result of `function`.
 
-        Raises TimesUp after the time limit, and KeyboardInterrupt after the Stop button.
+        Raises TimesUp after the time limit, and KeyboardInterrupt after the user has pressed Stop.
         """
         alarm = signal.signal(signal.SIGALRM, self._end)
         interrupt = signal.signal(signal.SIGINT, self._stop)
@@ -63,7 +63,7 @@ class TimeLimit:
             raise KeyboardInterrupt
 
     def _end(self, _number: int, frame: FrameType | None) -> None:
-        """Raise the error in the student's code, or in a library that the student's code called."""
+        """Raise the error at the current line of the student's code, or of a library that it called."""
         if frame is None or not _is_called(frame):
             return
         now = time.monotonic()
@@ -71,7 +71,7 @@ class TimeLimit:
             self._raised = now
             raise self._error
         try:
-            raise self._error  # After this line, the signal is pending again, and the library can clean up.
+            raise self._error  # SIGALRM is pending again, but the library can first clean up.
         except BaseException:  # noqa: BLE001
             return
 
@@ -91,11 +91,11 @@ def _is_called(frame: FrameType | None) -> bool:
 
 
 def _coming_again(error: type[BaseException]) -> type[BaseException]:
-    """Return a subclass of `error` that makes SIGALRM pending again when it is raised.
+    """Return a subclass of `error`; each new instance of it sends SIGALRM to this process again.
 
-    The `raise` statement creates an instance of this class. After this, Python handles no signals until the
-    exception has left the function. If a function call created the instance, Python could handle the signal
-    too early.
+    Raise this class, not an instance. The `raise` statement then creates the instance. Python handles the new
+    signal only after the exception has left the function. If the instance existed before the `raise`
+    statement, Python could handle the signal too early.
     """
     again: Any = staticmethod(partial(_thread.interrupt_main, signal.SIGALRM))
     return type(error.__name__, (error,), {"__init__": again})

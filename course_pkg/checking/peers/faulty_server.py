@@ -85,13 +85,13 @@ class FaultyServer(ScriptedServer):
             return response
         if isinstance(fault.what, Late):
             return Late(fault.what.delay, response)
-        return cast(Act, fault.what)  # The method _act handles all other faults.
+        return cast(Act, fault.what)  # The method _act also handles the faults that are not an Act.
 
     def _arrived(self, *, frozen: bool = False) -> Fault | None:
         """Record the time of a call, and remove its fault from the plan.
 
-        If `frozen` is true, do this only if the next fault is Frozen, because this fault occurs before the
-        request.
+        If `frozen` is true, nothing is recorded or removed unless the next fault is Frozen. A Frozen fault
+        occurs in the handshake, and all other faults occur after the request.
         """
         with self._plan_lock:
             due = bool(self.plan) and (not frozen or isinstance(self.plan[0].what, Frozen))
@@ -100,7 +100,10 @@ class FaultyServer(ScriptedServer):
             return self.plan.popleft() if due else None
 
     def _greet(self, sock: socket.socket, header: Mapping[str, str]) -> bool:
-        """Reply to the handshake, unless the next fault is Frozen; a probe removes no fault from the plan."""
+        """Reply to the handshake, unless the next fault is Frozen.
+
+        A probe, such as rosservice makes, removes no fault from the plan.
+        """
         if header.get("probe") == "1":
             with self._plan_lock:
                 frozen = bool(self.plan) and isinstance(self.plan[0].what, Frozen)

@@ -22,7 +22,7 @@ PROBE = 2.0  # A server has to reply with its type within this time in s.
 
 @dataclass(frozen=True)
 class Registration:
-    """The master's entry for a service: the node that offers it, and the addresses of service and node."""
+    """The master's entry for a service: the node of the server, and the addresses of service and node."""
 
     node: str
     uri: str
@@ -56,7 +56,8 @@ class Node:
     def restore(self, service: str, former: Registration | None) -> None:
         """Register the `former` server of `service` again, under the name of its former node.
 
-        The master stores one server for each service, and does not notify a server that was replaced.
+        The master stores one server for each service. It does not notify a replaced server, so the former
+        server does not register again by itself.
         """
         if former:
             self.master.register_service(former.node, service, former.uri, former.node_uri)
@@ -87,7 +88,7 @@ def on_the_graph(check: str) -> Iterator[Node]:
     name = f"check_runner_{check.replace('.', '_')}_{secrets.token_hex(4)}"
     master = MasterClient(master_uri(), caller=f"/{name}")
     master.pid()  # Without a master, init_node would wait for ever.
-    # This prevents a log file for each check in the student's log folder.
+    # Without this line, each check would write a log file into the student's log folder.
     rospy.core.configure_logging = lambda *_: None
     with held_back(signal.SIGTERM) as came:
         rospy.init_node(name, argv=[name], disable_rosout=True, disable_signals=True)
@@ -105,7 +106,7 @@ def on_the_graph(check: str) -> Iterator[Node]:
 
 @contextmanager
 def held_back(number: int) -> Iterator[list[int]]:
-    """Delay a signal until the block has ended; the yielded list contains the signals that arrived."""
+    """Ignore a signal until the block has ended; yield a list with the signals that have arrived."""
     came: list[int] = []
     before = signal.signal(number, lambda *_: came.append(number))
     try:

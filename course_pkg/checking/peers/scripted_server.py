@@ -118,7 +118,10 @@ class ScriptedServer:
                 threading.Thread(target=self._serve_connection, args=(sock,), daemon=True).start()
 
     def _serve_connection(self, sock: socket.socket) -> None:
-        """Serve one connection until the client, the script or leave() closes it."""
+        """Serve one connection until the connection is closed.
+
+        The client, an action of the script, or leave() can close the connection.
+        """
         self._connections.add(sock)
         try:
             self._serve(sock)

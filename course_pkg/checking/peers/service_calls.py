@@ -66,7 +66,7 @@ class Service:
     def at_once(self, requests: Sequence[Mapping[str, Value]]) -> list[Reply]:
         """Make a call for each of `requests`, all at the same time; return the replies in order.
 
-        The method asserts that the service responds to each request.
+        Asserts that the service responds to each request.
         """
         replies = self.replies(requests)
         for reply in replies:
@@ -80,7 +80,7 @@ class Service:
     def refused(self, assertion: str, *, saying: str = "", hints: Hints = (), **fields: Value) -> str:
         """Assert that the service refuses a request with an error message that matches `saying`.
 
-        The method returns the error message.
+        Returns the error message.
         """
         reply = self._call([self._request(**fields)])[0]
         self._results.asked = lambda: command_line(self.name, self.kind, reply.request)

@@ -74,7 +74,7 @@ class Subscription:
     def published(self, *, hints: Hints = (), within: float = 2.0) -> None:
         """Assert that a node publishes on the topic with the right type; return when the node is connected.
 
-        `hints` are for wrong values: "no publisher", or the name of a wrong type.
+        `hints` are for the wrong values "no publisher" or the name of a wrong type.
         """
         assertion = f"{self._label} is published as {self.kind}"
         found = wait_until(self._found, within)
@@ -149,7 +149,7 @@ def rate(arrivals: Sequence[Arrival]) -> float:
 
 def _header_of(connection: Value) -> dict[str, str]:
     """Return the header of a publisher's connection, or an empty dict before the headers are exchanged."""
-    md5sum = getattr(connection, "md5sum", None)  # rospy sets this attribute after all other attributes.
+    md5sum = getattr(connection, "md5sum", None)  # rospy sets `md5sum` last, so `type` exists, too.
     return {"type": connection.type, "md5sum": md5sum} if md5sum else {}
 
 

@@ -2,7 +2,7 @@
 
 Each thread of the kernel has its own connection, and the check runner has one thread for each connection.
 Therefore, many calls can wait in the check runner at the same time, and `threading.get_ident()` differs for
-each thread of the kernel. Each line of a connection is one JSON object:
+each thread of the kernel. Each line on a connection is one JSON object, such as:
 
     kernel -> runner   {"key": "…"}                                              once, first
     kernel -> runner   {"object": 0, "do": "call", "name": "read", "args": [], "kwargs": {}}
@@ -11,7 +11,8 @@ each thread of the kernel. Each line of a connection is one JSON object:
     runner -> kernel   {"value": 5}, {"placed": {…}} for another object, or {"error": {"type": …, "text": …}}
 
 The listening socket is on the loopback interface, which a kernel in a sandbox shares with its check runner.
-The key is only in the request `place` on the channel, so other users of the computer do not know the key.
+The kernel gets the key in the request `place`, on another connection. Therefore, other users of the computer
+do not know the key.
 """
 
 from __future__ import annotations
@@ -46,8 +47,8 @@ LONGEST = 4000  # An error message has at most this number of characters.
 class PlacedObjects:
     """Objects with remote methods, and the kernel's connections to them; a context manager.
 
-    When the block ends, all connections are closed, and a waiting call raises an error in the kernel. An
-    object with waiting calls needs a method `close` that ends these calls.
+    At the end of the block, all connections are closed. A call that is still waiting then raises an error in
+    the kernel. An object with waiting calls needs a method `close` that ends these calls.
     """
 
     def __init__(self) -> None:
@@ -128,7 +129,7 @@ class PlacedObjects:
         try:
             thread.start()
             self._open[thread] = sock
-        except RuntimeError:  # There is not enough memory for another thread.
+        except RuntimeError:  # If the memory is not sufficient for another thread, the connection is closed.
             sock.close()
         finally:
             threading.stack_size(before)
@@ -142,7 +143,7 @@ class PlacedObjects:
             while hmac.compare_digest(key, self._key.encode()):
                 channel.send(self._reply(channel.receive()), SEND_TIMEOUT)
         except (ChannelError, OSError):
-            pass  # The kernel detects the closed connection.
+            pass  # The connection is closed below, and the kernel then raises an error.
         finally:
             channel.close()
             with self._lock:
@@ -173,7 +174,7 @@ class PlacedObjects:
 def _done(
     item: object, names: Interface, do: str, name: str, args: list[Json], kwargs: dict[str, Json]
 ) -> object:
-    """Call the method, or read or write the attribute, if its name is in `names`."""
+    """Execute the request `do` ("call", "get" or "set") for `name`, if `names` allows it."""
     if do == "call" and name in names.methods:
         return getattr(item, name)(*args, **kwargs)
     if do == "get" and name in names.readable:

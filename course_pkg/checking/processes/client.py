@@ -26,8 +26,8 @@ from course_pkg.errors import ChannelClosed, ChannelError, CheckError
 from course_pkg.ros.notebook.cells import Cells
 from course_pkg.sharing.notice import notice
 
-# The check runner has to send its next message within this time in s. In grading, a check can take up to 600
-# s on a busy machine, and the kernel may receive no message during this time.
+# The check runner has to send its next message within this time in s. This limit is long, because in grading,
+# a check can take up to 600 s on a busy machine without sending a message.
 TIMEOUT = 900.0
 RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.processes.runner_process import main; main()"
 
@@ -35,9 +35,9 @@ RUNNER = "import sys; sys.path.pop(0); from course_pkg.checking.processes.runner
 def check(check_id: str, namespace: Mapping[str, Value] | None = None) -> Report:
     """Let a separate node examine part `check_id`, such as "05.1", and return the report.
 
-    The check looks up the names that it needs in `namespace`, or in the notebook if `namespace` is None. An
-    error of the check is shown in the report. Only KeyboardInterrupt is raised, and only after the check
-    runner has ended.
+    `namespace` contains the names that the student has defined. If it is None, the names of the notebook are
+    used. An error of the check is shown in the report. Only KeyboardInterrupt is raised, and only after the
+    check runner has ended.
     """
     check_id = str(check_id)
     if threading.current_thread() is not threading.main_thread():
@@ -107,8 +107,8 @@ def _spawn(theirs: socket.socket, log: IO[bytes]) -> subprocess.Popen[bytes]:
     """Start the check runner in a separate session: an interrupt of the kernel does not reach this session.
 
     The check runner imports the course and the workspace from the same folders as this process. The
-    notebook's folder is at the end of the import path or not in the path, so a student's file rospy.py cannot
-    replace the module rospy.
+    notebook's folder is searched last, or not at all, so a student's file rospy.py cannot replace the module
+    rospy.
     """
     here = os.getcwd()
     course = str(Path(course_pkg.__file__).resolve().parent.parent)
@@ -152,7 +152,7 @@ def _notebook() -> Mapping[str, Value]:
 
 
 def _cells() -> Cells:
-    """Return the data about the runs of the notebook's cells, or None before the import of rospy."""
+    """Return the record of cell runs; the record is empty if rospy has not been imported yet."""
     if "rospy" not in sys.modules:
         return Cells(lambda _closes: None)
     from course_pkg.ros.node.join import cells

@@ -32,11 +32,11 @@ class DeadlinePassed(BaseException):
 
 
 def run_check(channel: Channel, store: Store | None = None, only: str = "") -> Report:
-    """Run the check that the client requests, pass its result to `store`, and send and return the report.
+    """Run the check that the client requests; return the report, and send it to the client.
 
-    `store` gets the id of the check and its result, and returns a message for the report, or "". Without
-    `store`, nothing is stored. If `only` is not empty, only the check with this id is run. Raises
-    ChannelError if the client does not request a check.
+    `store` is a function that gets the id of the check and its result. It returns a message for the report,
+    or "". Without `store`, nothing is stored. If `only` is not empty, only the check with this id is run.
+    Raises ChannelError if the client does not request a check.
     """
     seed = int(os.environ.get("COURSE_SEED") or secrets.randbits(32))
     hello = channel.receive(FIRST_MESSAGE)
@@ -100,9 +100,11 @@ def _require_marks(part: Part, marked: set[str]) -> None:
 
 
 def _not_attempted(part: Part, channel: Channel) -> str:
-    """If a name that the check needs is missing or blank, return an instruction for the student, else "".
+    """Return an instruction for the student if a needed name is missing or blank, or "".
 
-    A blank name is ignored if the student has written one of its alternatives.
+    A name is blank if its exercise is unchanged.
+
+    If alternatives exist, it is enough that the student has written one of them.
     """
     for need in part.needs:
         replies = {name: channel.ask("look", timeout=LOOK, name=name) for name in need.split("|")}
@@ -127,7 +129,7 @@ def _not_attempted(part: Part, channel: Channel) -> str:
 
 
 def _unchanged(part: Part, channel: Channel) -> str:
-    """If a file that has to be repaired was not changed, return an instruction for the student, else ""."""
+    """Return an instruction for the student if the file to repair is unchanged, or ""."""
     first, _, text = part.start.partition("\n")
     path = first.removeprefix("%%writefile").strip()
     now = channel.ask("source", timeout=LOOK, name=f"file:{path}").get("text") if path else None

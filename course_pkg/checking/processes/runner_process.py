@@ -1,6 +1,7 @@
 """The process of a check runner that a notebook has started.
 
-It stores the result in the student's own record, and, if sharing is on, in the outbox for the class view.
+The process stores the result in the student's own record. If the student shares results, it also stores the
+result for the class view.
 """
 
 from __future__ import annotations
@@ -27,12 +28,12 @@ class RunnerStopped(BaseException):
 
 
 def main() -> None:
-    """Run one check over the socket whose descriptor is the first argument, and exit at once."""
+    """Run one check, and exit at once; the first argument is the file descriptor of the socket."""
     channel = Channel(socket.socket(fileno=int(sys.argv[1])))
     with suppress(RunnerStopped), _stopped_by(channel):
         run_check(channel, _store)
     sys.stderr.flush()
-    os._exit(0)  # This call skips rospy's shutdown, which sleeps for 0.6 s; no registrations exist any more.
+    os._exit(0)  # Skip rospy's shutdown, which sleeps for 0.6 s; the node is already unregistered.
 
 
 def _store(check: str, result: Mapping[str, Json]) -> str:

@@ -18,7 +18,8 @@ class Cases:
     `entries` contains a sentence about each possible entry.
 
     Three other hints are `missing` for missing keys, `keys` for unknown keys, and `spelling` for an unknown
-    entry. `label` is the name of a case in the title of an assertion, and `again` is its name in a hint.
+    entry. `label` is the text for a case in titles of assertions, and `again` is the text for a case in
+    hints.
     """
 
     right: Mapping[str, str]

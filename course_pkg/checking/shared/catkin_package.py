@@ -18,7 +18,7 @@ from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.fault import locate
 
 BUILDS = "catkin_make builds the package"
-# The limits are the CPU time in s and the size of a file in KiB. The sandbox has its own limits.
+# The limits are the CPU time in s and the size of a file in KiB. A sandbox limits these values separately.
 LIMITS = "ulimit -t 20 -f 60000 2> /dev/null"
 # The time limit of the build in s. A build takes 3 s of CPU time, or 6 s on a machine with two cores and a
 # load average of 9.
@@ -26,9 +26,9 @@ BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-# If a package contains only scripts, this path is sufficient; the package needs no build.
+# With this path, ROS finds packages that contain only scripts without a build.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
-# Without -j2, catkin_make sets a load limit, and make would wait while the machine is busy.
+# Without -j2, catkin_make would set a load limit, and make would wait while the machine is busy.
 CATKIN_MAKE = "catkin_make -j2"
 
 
@@ -86,10 +86,10 @@ def built(
 ) -> BuiltPackage:
     """Build a copy of the student's package, and assert that the build succeeds.
 
-    If `alone` is true, only `examined` comes from the student. The files in `drawn` (content by path in the
-    package) replace the student's files. The content of these files is random, so a student's CMakeLists.txt
-    cannot contain this content in advance. Raises CheckError if the build takes more than `within` s; a build
-    with C++ needs more than the default.
+    If `alone` is true, only the file `examined` comes from the student. `drawn` contains files that replace
+    the student's files; the keys are paths in the package. The content of these files is random, so that a
+    student's CMakeLists.txt cannot contain it in advance. Raises CheckError if the build takes more than
+    `within` s. A build with C++ needs more time than the default.
     """
     own = _own_files(package, examined)
     replaced = {package.path(file): text for file, text in (drawn or {}).items()}
@@ -120,8 +120,8 @@ def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: f
 def copied(context: CheckContext, package: Package, *, examined: str, alone: bool = False) -> BuiltPackage:
     """Copy a package that needs no build, because it contains only Python programs and launch files.
 
-    rosrun and roslaunch find its programs in `src`, as in a built workspace. If `alone` is true, only
-    `examined` comes from the student.
+    rosrun and roslaunch find its programs in `src`, as in a built workspace. If `alone` is true, only the
+    file `examined` comes from the student.
     """
     files = [package.path(examined) if alone else package.folder]
     folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})
@@ -130,7 +130,7 @@ def copied(context: CheckContext, package: Package, *, examined: str, alone: boo
 
 
 def _own_files(package: Package, examined: str) -> dict[str, str]:
-    """Return the check's own files by their paths in the folder of a check, without the examined file.
+    """Return the check's own version of each file except the file `examined`; the keys are paths.
 
     If the result contained the examined file, a CMakeLists.txt could use the check's version of this file.
     """

@@ -15,8 +15,9 @@ TIMEOUT = 2.0  # A node has to respond within this time in s.
 def require_own_nodes(context: CheckContext, space: str, besides: Collection[str] = ()) -> None:
     """Assert that no node in the namespace `space` is a program of the course; ignore the nodes in `besides`.
 
-    Every program of the course has an additional method in its slave API, which returns a record of calls; a
-    program that uses only rospy or roscpp has no such method. A report shows this assertion only if it fails.
+    The slave API of every program of the course has an additional method, which returns a record of calls. A
+    program that uses only rospy or roscpp does not have this method. A report shows this assertion only if it
+    fails.
     """
     for node in context.look().nodes:
         if node.name.startswith(f"{space}/") and node.name not in besides and _returns_a_record(node.uri):

@@ -13,7 +13,7 @@ from course_pkg.workspace.cpp_support import compile_command
 
 COMPILES = "the compiler accepts the file"
 
-# This pattern matches an undefined symbol in the output of `readelf`: the program uses the symbol, and a
+# This pattern matches an undefined symbol in the output of `readelf`. The program uses this symbol, but a
 # library defines it.
 CALLED = re.compile(r"\sUND\s+([A-Za-z_]\w*)")
 STARTS = re.compile(

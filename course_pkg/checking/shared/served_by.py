@@ -1,6 +1,6 @@
-"""Assert which process offers a service, because another process could replace the student's code.
+"""Find the process that offers a service, because another process could replace the student's code.
 
-A report shows these assertions only if they fail.
+A report shows the assertions of this module only if they fail.
 """
 
 from __future__ import annotations

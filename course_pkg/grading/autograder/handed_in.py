@@ -12,7 +12,8 @@ from course_pkg.grading import clean
 from course_pkg.grading.grade import Submission
 from course_pkg.grading.intake.submissions import submissions
 
-# The folder with the submission gets this name; only Gradescope needs the student's name.
+# The folder with the submission gets this name. The student's real name is not needed, because Gradescope
+# knows it.
 STUDENT = "student"
 
 

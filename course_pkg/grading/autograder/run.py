@@ -2,9 +2,9 @@
 
 Gradescope starts the script `run_autograder` as root in a new container for each submission:
 
-    /autograder/source                     the unpacked zip; settings.json, and perhaps the folder private
+    /autograder/source                     the unpacked zip, with settings.json and an optional folder private
     /autograder/submission                 what the student handed in
-    /autograder/submission_metadata.json   the time of handing in, and the deadline
+    /autograder/submission_metadata.json   the time of the submission, and the deadline
     /autograder/results/results.json       the result, which the script has to write
 
 Layout: https://gradescope-autograders.readthedocs.io/en/latest/specs/.
@@ -114,7 +114,7 @@ def _grade(submission: Submission, points: PointsTable, run: Run) -> Grade:
 
 @contextmanager
 def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
-    """Yield a function that runs a part.
+    """Yield a function that runs one part of the submission.
 
     After the deadline, the function stops the part and runs no other part.
     """
@@ -136,5 +136,5 @@ def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
         finally:
             timer.cancel()
     if weaker:
-        _, lock = users.reserve()  # The call also ends processes that a killed worker may have left.
+        _, lock = users.reserve()  # This call ends all processes that a killed worker has left.
         lock.close()

@@ -47,7 +47,7 @@ def read_settings(path: Path) -> Settings:
 
 
 def days_late(metadata: Path) -> float | None:
-    """Return the number of days after the deadline, or None if the metadata do not contain the needed times.
+    """Return the number of days after the deadline, or None if the metadata contain no usable times.
 
     If the student has an extension, the metadata contain the student's own deadline. Format:
     https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.

@@ -17,16 +17,17 @@ DAY = 86_400.0  # s
 
 @dataclass(frozen=True)
 class Deadlines:
-    """The deadlines by chapter; the key "" applies to each chapter without its own deadline."""
+    """The deadline of each chapter; the key "" is for each chapter without its own deadline."""
 
     by_chapter: Mapping[str, datetime]
     grace: timedelta = timedelta()
     extensions: Extensions = field(default_factory=Extensions)
 
     def due(self, student: str, chapter: str) -> datetime | None:
-        """Return a student's deadline for a chapter without the grace period, or None without a deadline.
+        """Return a student's deadline for a chapter, or None; the grace period is not included.
 
-        With an extension, the deadline is at the same time of day, even if the clocks change in between.
+        With an extension, the deadline stays at the same time of day, even if summer time begins or ends
+        before it.
         """
         deadline = self.by_chapter.get(chapter, self.by_chapter.get(""))
         if deadline is None:
@@ -52,7 +53,7 @@ def deadlines(
 ) -> Deadlines:
     """Return the deadlines of the options --deadline and --grace-minutes.
 
-    Each of `given` is a time, or a chapter and its time, such as 05=2026-11-01T23:59+01:00. Raises
+    Each item of `given` is a time, or a chapter and a time, such as 05=2026-11-01T23:59+01:00. Raises
     GradingError if a deadline has no time zone, is not a time, or is given twice.
     """
     if grace_minutes and not given:

@@ -65,7 +65,10 @@ def late_policy(
 
 @dataclass(frozen=True)
 class LateTable:
-    """The days late by (student, chapter); the chapter "" applies to all chapters without a row."""
+    """The number of days late; the keys are (student, chapter).
+
+    A row with the chapter "" applies to each chapter for which the student has no other row.
+    """
 
     rows: Mapping[tuple[str, str], float]
 

@@ -16,7 +16,7 @@ LAST, BEST = "last", "best"
 
 @dataclass(frozen=True)
 class Lateness:
-    """The deadlines of a run, and a function that returns the submission time of a submission."""
+    """The deadlines of a run, and a function that returns the time at which a submission was handed in."""
 
     deadlines: Deadlines
     when: Callable[[Submission], datetime | None]
@@ -60,7 +60,7 @@ class Lateness:
 def attempts_to_grade(
     submissions: Sequence[Submission], attempts: str, when: Callable[[Submission], datetime | None]
 ) -> list[Submission]:
-    """Return all attempts if the best attempt counts, otherwise only the last attempts.
+    """Return the attempts to grade: all attempts if the best attempt counts, or else only the last ones.
 
     If all attempts have known and different times, the last attempt is the attempt with the latest time.
     Otherwise, the last attempt is the attempt with the highest number or the newest file.
@@ -99,7 +99,10 @@ def _best(groups: Iterable[list[Grade]]) -> Iterator[Grade]:
 
 
 def _latest(given: Sequence[Submission], when: Callable[[Submission], datetime | None]) -> Submission:
-    """Return the last attempt of a student; `given` is sorted by the rank of the attempts."""
+    """Return the last attempt of a student.
+
+    If the times of the attempts cannot be used, the result is the last item of `given`.
+    """
     times = [when(each) for each in given]
     stamps = [moment.timestamp() for moment in times if moment]
     if len(set(stamps)) < len(given):

@@ -40,11 +40,11 @@ def zone_of(name: str) -> tzinfo:
 
 
 def moment_of(text: str, zone: tzinfo | None) -> datetime | None:
-    """Return the point in time in `text`, or None if `text` is not a point in time.
+    """Return the date and time in `text`, or None if `text` does not contain a date and time.
 
     `zone` is used if the text contains no time zone. If neither `text` nor `zone` contains a time zone, the
     result is None. If the clock was put back, a time can occur twice; in this case, the result is the earlier
-    point in time.
+    one.
     """
     text = " ".join(text.split())
     if found := ISO.fullmatch(text):

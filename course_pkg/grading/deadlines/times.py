@@ -1,10 +1,11 @@
 """Finds the time of a submission, in a table or in the files that a platform adds to its download.
 
-times.csv                    student,submitted, or with the columns chapter and file; one in the folder of the
-                             submissions, as `course collect` writes it, is used without an option
-Moodle's grading worksheet   the column "Last modified (submission)", by the number in the folder's name
+times.csv                    the columns student and submitted, and optionally chapter and file; if this file
+                             is in the folder of the submissions, no option is needed
+Moodle's grading worksheet   the column "Last modified (submission)"; the row is found by the number in the
+                             folder's name
 Gradescope                   `:created_at` in submission_metadata.yml
-nbgrader                     timestamp.txt in submitted/STUDENT/ASSIGNMENT, only on request
+nbgrader                     timestamp.txt in submitted/STUDENT/ASSIGNMENT, only with `--times nbgrader`
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ When = Callable[[Submission], datetime | None]
 
 
 def times_of(option: str, source: Path, zone: tzinfo | None) -> When:
-    """Return a function that returns the time of a submission, or None if the time is not known.
+    """Return a function; for a submission, it returns the time, or None if the time is unknown.
 
     `option` is the value of --times: the path of a table, "nbgrader", "gradescope", or "". With "", the times
     come from times.csv in the folder of the submissions, or from Gradescope's metadata. `zone` applies to

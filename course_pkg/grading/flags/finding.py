@@ -15,7 +15,7 @@ from course_pkg.grading.grade import Flag, Grade, Submission
 from course_pkg.grading.plan import plan
 
 Find = Callable[[Group], Iterator[Found]]
-Key = tuple[str, str, str]  # A key contains the student, the chapter and the origin.
+Key = tuple[str, str, str]  # A key contains the student, the chapter, and the path of the submission.
 NONE = "none"
 
 
@@ -30,7 +30,9 @@ def title_of(kind: str) -> str:
 
 
 def wanted_kinds(names: Sequence[str]) -> list[str]:
-    """Return the kinds in the option --flags: all kinds if the option is empty, and no kind for "none".
+    """Return the kinds that the option --flags selects.
+
+    An empty option selects all kinds, and "none" selects no kind.
 
     Raises GradingError for a name that is not a kind.
     """
@@ -48,10 +50,10 @@ def wanted_kinds(names: Sequence[str]) -> list[str]:
 def with_flags(
     grades: Sequence[Grade], submissions: Sequence[Submission], names: Sequence[str]
 ) -> list[Grade]:
-    """Return the grades with the flags of these kinds; the flags are found in the graded submissions.
+    """Find the flags of these kinds in the graded submissions; return the grades with their flags.
 
-    Submissions that do not count, such as earlier attempts, get no flags. A grade without a submission in
-    this run has the flags of an earlier run.
+    Submissions that do not count, such as earlier attempts, get no flags. Grades from an earlier run keep
+    their flags if this run has no submission for them.
     """
     graded = {_key(grade) for grade in grades}
     counting = [each for each in submissions if each.chapter and _key(each) in graded]

@@ -281,7 +281,10 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     goals=[RECEIVED, MISSED],
 )
 def count_what_was_missed(context: CheckContext) -> None:
-    """Run the function twice with different pauses, each time with consecutive numbers on a new topic."""
+    """Run the function twice, with different pauses.
+
+    In each run, a new topic gets consecutive numbers.
+    """
     # The second pause is longer than the 2 s of the chapter, so that a fixed pause fails.
     for shortest in (0.25, 2.2):
         topic = f"/{context.random.word()}"

@@ -1,4 +1,4 @@
-"""Checks of functions that find services and running publishers; some names only have dead registrations."""
+"""Checks of functions that find services and running publishers; some registered nodes are dead."""
 
 from course_pkg.chapters.ch01_name_things.checks.names import GEOMETRY
 from course_pkg.checking import ANYTHING, CheckContext, matches, part
@@ -26,9 +26,10 @@ RUNNING = "Return the sorted names of the running publishers of a topic."
     goals={FOUND: 2, "Return None if there is no such service.": 1},
 )
 def ask_it_wherever_it_lives(context: CheckContext) -> None:
-    """Serve a service with a random name, and services with similar names; do this at three namespace depths.
+    """Serve a service with a random name, and other services with similar names, in three runs.
 
-    After that, pass the name of a service that does not exist.
+    The namespace of the service has a different depth in each run. Later, call the student's function with
+    the name of a service that does not exist.
     """
     for depth in context.random.shuffled([0, 1, 3]):
         last = context.random.word()
@@ -180,7 +181,7 @@ _NOBODY = [
 def who_really_publishes(context: CheckContext) -> None:
     """Register publishers of two topics: some of their nodes run, and the others were killed.
 
-    After that, pass topics without a running publisher.
+    At the end, call the student's function with topics that no running node publishes.
     """
     topic, other, grave = (f"/{context.random.word()}" for _ in range(3))
     names = [f"{context.random.choice(['', '/left', '/right'])}/{context.random.word()}" for _ in range(8)]

@@ -77,7 +77,7 @@ def a_viewer_for_each_arm(context: CheckContext) -> None:
 def _start(context: CheckContext, running: ExitStack, function: str, name: str, program: str) -> Running:
     """Call the student's `function` with `name`.
 
-    Run the command that the function returns until `running` is closed.
+    Run the returned command; the command ends when `running` is closed.
     """
     command = context.run(function, name).returned()
     words = next(iter(commands_of(command)), [])
@@ -116,7 +116,7 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
     """Assert that the room's node serves the room's service.
 
-    `before` contains the earlier addresses of the services.
+    `before` contains the addresses of the services that existed earlier.
     """
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None
@@ -125,7 +125,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         seen = context.look()
         service = seen.service(wanted)
         others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
-        # Keep the first result, because a busy server may not respond to a later request.
+        # Keep the first result, because a busy server may not respond again.
         new = new or others
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:

@@ -1,4 +1,4 @@
-"""Checks of two publishers. The first publisher publishes numbers at a rate and must not lose a number.
+"""Checks of two publishers. The first publisher publishes numbers at a fixed rate; each number must arrive.
 
 The second publisher publishes each change of a value.
 """
@@ -15,14 +15,14 @@ from course_pkg.waiting import at_this_load, wait_until
 WAITS_FOR_EVER = (
     "Wait at most 2 s for a subscriber. Then publish the numbers, even if the topic has no subscriber."
 )
-# These times in s are for a call of the student's function without a subscriber. The student's function waits
-# 2 s, and then publishes ALONE (11) numbers in 1.1 s. The subscriber connects COMES (2.3) s after the
-# publisher.
+# These times are in s. The check calls the student's function without a subscriber. The function waits 2 s
+# for a subscriber, and then publishes ALONE numbers in 1.1 s. The check subscribes COMES s after the
+# publisher exists.
 NO_WAIT, COMES, EARLIEST, ALONE = 1.8, 2.3, 2.7, 11
 NO_NUMBERS = "If there is no subscriber, wait 2 s, and then publish all numbers at the given rate."
 SOON = 4.0  # SOON is the maximum time in s until a message arrives on a busy machine.
-# Not even on a busy machine may a call of the student's function take this many s longer than its numbers: a
-# function that always sleeps for 2 s takes at least so long.
+# The call must take less than this many s longer than the publishing of the numbers, even on a busy machine.
+# A function that always sleeps for 2 s takes longer.
 TOO_LONG = 1.9
 AT_ONCE = 0.3  # The fastest of several calls may take at most this time in s.
 TOO_SOON = "The wait for a subscriber is too short. If there is no subscriber, wait for the full 2 s."
@@ -60,7 +60,7 @@ LATCHED = "Send the last value to every node that subscribes later."
     goals={COUNTS: 3, "Begin to publish after 2 s if there is no subscriber.": 1},
 )
 def count_aloud(context: CheckContext) -> None:
-    """Let the student's function publish at two different rates; then start it without a subscriber."""
+    """Run the student's function at two different rates, and then on a topic without a subscriber."""
     for hertz, count in ((context.random.integer(15, 25), 16), (context.random.integer(40, 60), 30)):
         topic = f"/{context.random.word()}"
         subscription = context.subscribe(topic, "std_msgs/UInt32")
@@ -88,7 +88,7 @@ def count_aloud(context: CheckContext) -> None:
 
 
 def _counts_alone(context: CheckContext, topic: str) -> None:
-    """Start the function without a subscriber; subscribe at a time when the function must already publish."""
+    """Start the function without a subscriber; subscribe later, when the function must be publishing."""
     late: list[Subscription] = []
 
     def come() -> None:
@@ -197,7 +197,7 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     """Assert that the average rate is right, and that the messages arrive at equal intervals."""
     seen = rate(arrivals)
     # On a busy machine, each pause takes longer, so the rate may be lower. The limit stays above half of the
-    # rate, because a program that pauses twice for each number publishes at half of the rate.
+    # required rate: a program with two pauses for each number publishes at half of this rate.
     lowest = max(0.75 / at_this_load(1.0), 0.55)
     context.require(
         "the average rate is the given rate",
@@ -229,9 +229,9 @@ def _keeps_time(context: CheckContext, arrivals: list[Arrival], hertz: int) -> N
     goals=[LATCHED, "Publish each change once. Do not publish a value again if it has not changed."],
 )
 def a_notice(context: CheckContext) -> None:
-    """Set a value without a subscriber, with a subscriber, and before a late subscriber connects.
+    """Call set() while there is no subscriber, while there is one, and before a late one connects.
 
-    One of the values may be 0.
+    On one topic, the first value is 0.
     """
     context.prepare(KEEPER)
     zero, topic, twin = (f"/{context.random.word()}" for _ in range(3))
@@ -263,7 +263,7 @@ def a_notice(context: CheckContext) -> None:
     _set(context, topic, second)
     _receives(context, subscriber, [first, second], "a subscriber receives the next value once")
     _set(context, topic, third)
-    # With a short queue in the publisher, the next value would replace this value.
+    # Wait for the third value: if the publisher has a short queue, the next value could replace it.
     subscriber.wait(3, within=SOON)
     _set(context, topic, second)
     _receives(
@@ -290,7 +290,7 @@ def _set(context: CheckContext, topic: str, value: float) -> float:
 
 
 def _subscribed(context: CheckContext, topic: str) -> Subscription:
-    """Subscribe to `topic`. rospy sends a latched message to each new connection."""
+    """Subscribe to `topic`; a latched publisher then sends its last message at once."""
     subscription = context.subscribe(topic, "std_msgs/Float64")
     hint = "Create a rospy.Publisher for the given topic, and do not unregister this publisher."
     subscription.published(hints=[(matches("no publisher"), hint)])

@@ -179,7 +179,10 @@ def a_mirror(context: CheckContext) -> None:
 
 
 def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[Json, Json]:
-    """Return the first changed message, before and after the change, or ({}, {}) without a change."""
+    """Return the first message that the student's code changed, as it was before and after the change.
+
+    If no message was changed, return ({}, {}).
+    """
     given, seen = (
         [{field: each[field] for field in FIELDS} for each in all_] for all_ in (messages, witnessed)
     )
@@ -189,8 +192,8 @@ def _changed(messages: Sequence[Fields], witnessed: Sequence[Fields]) -> tuple[J
 def _stances(context: CheckContext, count: int) -> list[Fields]:
     """Return `count` messages.
 
-    The last states have fewer joints, so the student's node must not keep the values of earlier states. One
-    state has no velocities.
+    The last states have fewer joints. If the student's node keeps values of earlier states, its messages are
+    then wrong. One state has no velocities.
     """
     names = [context.random.word() for _ in range(4)]
     counts = [4 if number < count / 2 else 3 for number in range(count)]
@@ -213,7 +216,7 @@ def _stances(context: CheckContext, count: int) -> list[Fields]:
 def _of_both_signs(context: CheckContext, count: int) -> list[float]:
     """Return `count` random numbers: two are positive, and the others are negative.
 
-    So each wrong sign in the mirror image changes the result.
+    The numbers have both signs, so that each wrong sign in a mirror image is visible.
     """
     return context.random.shuffled(
         [*context.random.numbers(2, 0.1, 3.0), *context.random.numbers(count - 2, -3.0, -0.1)]
@@ -224,7 +227,7 @@ def _of_both_signs(context: CheckContext, count: int) -> list[float]:
 def _begun(
     context: CheckContext, start: str, *args: object, worded: str, topics: Sequence[str]
 ) -> Iterator[None]:
-    """Call the student's function, which returns the subscribers of `topics`; unregister them at the end."""
+    """Call the student's function, which returns its subscribers; at the end, unregister them."""
     context.prepare(KEEPER)
     try:
         started = context.run(
@@ -395,7 +398,7 @@ def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[A
     goals={NEWEST: 2, ALL_ORDERS: 1},
 )
 def two_queues(context: CheckContext) -> None:
-    """Publish angles much faster than draw() can handle them, and many orders within a short time."""
+    """Publish angles faster than draw() can draw them, and many orders for prepare() within a short time."""
     topics = [f"/{context.random.word()}" for _ in range(2)]
     angles = context.random.numbers(ANGLES, -900.0, 900.0)
     numbers = context.random.integers(ORDERS, 1000, 9999)
@@ -431,8 +434,8 @@ def _drawn(
 ) -> None:
     """Assert that each drawn angle was the newest published angle at the time of its drawing.
 
-    `drawn` contains the times and the angles of the drawings, and `sent` contains the time of each published
-    angle.
+    `drawn` contains the time and the angle of each drawing. `sent` maps each published angle to its
+    publishing time.
     """
     angles = [angle for _, angle in drawn]
     context.require(

@@ -64,7 +64,7 @@ def watch_a_stream(context: CheckContext) -> None:
         time.sleep(1.3)
         _says(context, topic, 'before the first message, the state is "waiting"', "waiting", _BEFORE)
         publisher = _speaks(context, unasked)
-        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # At this time, the watch has received messages.
+        wait_until(lambda: len(publisher.sent) > 5, 5.0)  # Then the watch has received messages.
         _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
         _says(context, topic, "two watches are independent", "waiting", _APART)
         _runs(context, topic)
@@ -83,7 +83,7 @@ def _speaks(context: CheckContext, topic: str, number: int = 7) -> Publisher:
 
 
 def _runs(context: CheckContext, topic: str) -> None:
-    """Publish for some time; then publish no more messages, but stay registered as a publisher."""
+    """Publish for some time; then stay registered as a publisher, but publish nothing."""
     publisher = _speaks(context, topic, number=0)
     time.sleep(0.5)
     assertion = 'while messages arrive, the state is "running"'
@@ -103,7 +103,8 @@ def _runs(context: CheckContext, topic: str) -> None:
         before=end,
     )
     time.sleep(max(end + 0.1 - time.monotonic(), 0.0))
-    # On a busy machine, the last message may reach the watch late.
+    # On a busy machine, the last message may reach the watch late, so the check waits until the state
+    # changes.
     wait_until(lambda: _asked(context, topic).returned() != "running", at_this_load(0.1))
     ended = 'more than 1 s after the last message, the state is "ended"'
     _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))
@@ -124,11 +125,10 @@ def _says(
     pause: float = 0.0,
     before: float = float("inf"),
 ) -> None:
-    """Call state() once or several times (`times`), and assert that each call returns `word`.
+    """Call state() `times` times, and assert that each call returns `word`.
 
-    There is a pause of `pause` s between two calls. A call that ends after the time `before` may return any
-    of the three strings. The fastest call must be fast; other calls may be slow, because the machine may be
-    busy.
+    Two calls are separated by a pause of `pause` s. If a call ends after the time `before`, each of the three
+    possible strings is accepted. Only the fastest call has to be fast, because the machine may be busy.
     """
     took = []
     for _ in range(times):

@@ -72,7 +72,7 @@ HOLLOW: Mapping[str, str] = {
     needs=["decisions"],
 )
 def decide_and_defend(context: CheckContext) -> None:
-    """Compare the design for each task first, and then the reason for this design."""
+    """For each task, compare first the chosen design, and then the chosen reason."""
     decisions = context.read("decisions")
     context.require(
         "there is a decision for each job",

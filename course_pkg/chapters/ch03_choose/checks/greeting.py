@@ -58,7 +58,8 @@ class Greetings:
     """Records the calls of say_good_day(), and the number of simultaneous calls."""
 
     def __init__(self) -> None:
-        # `said` contains the argument of each call: a number, or the name of a wrong type.
+        # `said` contains the argument of each call. If an argument is not a number, the list contains the
+        # name of its type.
         self.said: list[Value] = []
         self.at_once = 0
         self._busy = 0
@@ -103,9 +104,9 @@ GREETED = (
     },
 )
 def greet_everyone(context: CheckContext) -> None:
-    """Publish five customers quickly, two of them twice.
+    """Publish five customers in quick succession; two of the five are published twice.
 
-    After a pause, publish two new customers, and one customer that was already published.
+    After a pause, publish two new customers, and one customer again.
     """
     customers, greetings = (f"/{context.random.word()}" for _ in range(2))
     numbers = context.random.integers(7, 10, 9000)

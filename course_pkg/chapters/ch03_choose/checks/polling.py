@@ -60,9 +60,9 @@ FOUND = "Return the number of a customer who is there, or who comes later."
     goals=[FOUND, "Return None when the time is over. Make no more calls than the rate allows."],
 )
 def poll_with_a_deadline(context: CheckContext) -> None:
-    """Try a customer who is present and a customer who comes later.
+    """Call poll() with a detector whose customer is present, and with one whose customer comes later.
 
-    After that, try a fast and a slow detector without a customer.
+    At the end, call poll() with a fast and with a slow detector that never have a customer.
     """
     _one_who_is_there(context)
     _one_who_comes(context)

@@ -1,10 +1,10 @@
 """The node `cashier`: greets every customer once, with one of three designs.
 
 The parameter `~design` is `poll`, `topic` or `wait`. With `poll`, the node calls `detect_customer` `~rate`
-times per second. After a new customer, the node calls again at once. With `topic`, the node subscribes to
-`customers`. With `wait`, the node calls `detect_customer`, and the response comes within `~patience` s. The
-node publishes the number of each greeted customer on `greetings` (std_msgs/UInt32), and serves `~report`
-(course_pkg/CashierReport).
+times per second, and calls again immediately after each new customer. With `topic`, the node subscribes to
+`customers`. With `wait`, the node also calls `detect_customer`, but the server waits up to `~patience` s for
+a customer before it responds. The node publishes the number of each greeted customer on `greetings`
+(std_msgs/UInt32), and serves `~report` (course_pkg/CashierReport).
 """
 
 from __future__ import annotations
@@ -65,7 +65,10 @@ class Cashier:
         rospy.spin()
 
     def run_client(self, patience: float, pause: float) -> None:
-        """Every `pause` s, request customers until there is no new one; return after a shutdown."""
+        """Request new customers until the node is shut down.
+
+        A series of requests begins every `pause` s, and ends when there is no new customer.
+        """
         self.offer_report()
         due = time.monotonic()
         while not rospy.is_shutdown():
@@ -127,8 +130,7 @@ def main() -> None:
         elif design == "poll":
             cashier.run_client(patience=0.0, pause=1 / rate)
         else:
-            # The server waits up to `patience` s before it responds without a customer. Therefore, this
-            # client needs no pause.
+            # The server itself waits up to `patience` s for a customer, so no additional pause is needed.
             cashier.run_client(patience=patience, pause=patience)
     except rospy.ROSInterruptException:  # The node was shut down during a sleep.
         return

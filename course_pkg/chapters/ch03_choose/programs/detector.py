@@ -43,12 +43,15 @@ class Detector:
             self._publisher.publish(customer.number)
 
     def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
-        """Return the first customer with a number above `after`, or no customer after `patience` s.
+        """Return the first customer whose number is above `after`.
+
+        If no such customer comes within `patience` s, the field `detected` of the response is False.
 
         Raises ServiceException if `patience` is out of range, if too many callers are waiting, or if the
         camera sends no messages.
         """
-        if not 0.0 <= request.patience <= LONGEST:  # The condition is False for NaN.
+        # NaN is refused, too, because a comparison with NaN is False.
+        if not 0.0 <= request.patience <= LONGEST:
             message = f"a wait of {request.patience:g} s is not possible"
             wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", message)
             raise rospy.ServiceException(str(wrong))

@@ -20,7 +20,7 @@ NUMBERS = ("int8", "int16", "int32", "uint16", "float32", "float64")
 
 @dataclass(frozen=True)
 class Pair:
-    """Two definitions, an assertion about the difference between them, and a hint."""
+    """Two definitions, the title of an assertion about their difference, and a hint."""
 
     assertion: str
     server: str
@@ -39,7 +39,7 @@ class Pair:
     deadline=40.0,
 )
 def who_talks_to_whom(context: CheckContext) -> None:
-    """Try differences that change the MD5 sum, and differences that do not change it."""
+    """Call the function with pairs of definitions; some pairs have equal MD5 sums, and others do not."""
     again = context.random.shuffled(_pairs(context))[: context.random.integer(6, 9)]
     # The order is random, so that a function with a fixed list of results fails.
     for pair in (*_pairs(context), *again):
@@ -147,5 +147,5 @@ def _text(top: list[str], above: list[str], below: list[str]) -> str:
 
 
 def _slip(name: str) -> str:
-    """Return the name with a different last letter."""
+    """Return `name` with a different last letter."""
     return name[:-1] + ("a" if name[-1] != "a" else "b")

@@ -26,7 +26,7 @@ FIELDS = "Write the fields of the request and the response, and the types of the
 def the_lamp(context: CheckContext) -> None:
     """Parse the text in the same way as ROS, and compare it with the description.
 
-    After that, build the definition in another folder.
+    At the end, build the definition in another folder.
     """
     text = context.source(f"file:{FILE}")
     asked, given = compile_service(TYPE, DEFINITION), read_definition(context, TYPE, text)

@@ -1,4 +1,4 @@
-"""The complete package of chapter 04's exercises, and the way in which a check builds it."""
+"""The complete package of chapter 04's exercises, and functions that build a package with student files."""
 
 from __future__ import annotations
 
@@ -85,9 +85,10 @@ def lamp_class() -> ServiceClass:
 
 
 def built(context: CheckContext, *, given: Sequence[str]) -> Folder:
-    """Build a workspace with the student's files or folders `given`.
+    """Build a workspace with files of the student.
 
-    The check supplies all other files.
+    `given` are the paths of the student's files or folders in the workspace. The check supplies all other
+    files.
     """
     texts = {path: text for path, text in SOUND.items() if not path.startswith(tuple(given))}
     folder = context.folder(files=given, texts=texts)
@@ -110,7 +111,10 @@ def md5_in(folder: Folder) -> tuple[str, str]:
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return `fault` with the student's file as its place, because the check's own files are correct."""
+    """Return `fault` with the student's file as its file.
+
+    The check's own files are correct, so the mistake is in the student's file.
+    """
     theirs = given[0].removeprefix("src/")
     if GENERATION.search(fault.problem):
         fault = replace(fault, remedy=RUNTIME)

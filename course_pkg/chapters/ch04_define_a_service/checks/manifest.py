@@ -44,7 +44,7 @@ LISTED = {
 def the_manifest(context: CheckContext) -> None:
     """Build the package with the student's file and the check's other files.
 
-    After that, compare the dependencies.
+    At the end, compare the dependencies in the student's package.xml.
     """
     built(context, given=[FILE])
     context.fulfilled(ACCEPTED)

@@ -1,4 +1,4 @@
-"""Checks of the server as a program of the package: rosrun must find it, and it must serve the new type."""
+"""Checks of the package's server program: rosrun must find it, and it must serve the new type."""
 
 from __future__ import annotations
 
@@ -170,7 +170,7 @@ def _why_not(status: int | None, printed: str, others: list[str]) -> str:
 
 
 def _own_line(printed: str) -> str:
-    """Return a sentence with the wrong line of the student's script.
+    """Return a sentence that quotes the wrong line of the student's script.
 
     If the line is not known, return "".
     """

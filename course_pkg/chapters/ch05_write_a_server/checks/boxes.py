@@ -11,10 +11,11 @@ from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 SIDES = ("length", "width", "height")
 NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
-# The relative error of a float32 is less than 1e-7; a number with two digits after the point differs more.
+# The relative error of a float32 is less than 1e-7. The error of a number that was rounded to two decimals is
+# usually larger than this limit.
 NEAR = 1e-5
-# A message may contain at most this many numbers. In a message with more numbers, one of the numbers may be
-# right by chance.
+# A message may contain at most this many numbers. If a message contains many numbers, one of them may equal
+# the right value by chance.
 MANY = 6
 # The pattern matches an error message from the student's handler, but no message of rospy itself.
 OWN_TEXT = "cannot process request: (?!(service )?handler returned)"
@@ -32,7 +33,7 @@ NAMED = "Write the name and the value of the side in the error message."
     goals=[AREA, VOLUME],
 )
 def area_and_volume(context: CheckContext) -> None:
-    """Send some boxes; the three sides of each box are different."""
+    """Send some boxes; in each box, the length, the width and the height are different."""
     get_geometry = context.service("/getGeometry", "course_pkg/geometry")
     require_served_by_notebook(context, "/getGeometry")
     for _ in range(context.random.integer(5, 9)):
@@ -105,7 +106,7 @@ def _about_area(width: float, length: float, height: float) -> Hints:
     goals={MEASURED: 1, REFUSED: 2, NAMED: 1},
 )
 def a_box_that_cannot_be(context: CheckContext) -> None:
-    """Send a normal box and three flat boxes; then send boxes with one and with two negative sides."""
+    """Send a normal box, three boxes with a side of 0, and boxes with one or two negative sides."""
     get_geometry = context.service(
         "/getGeometryChecked",
         "course_pkg/geometry",
@@ -129,7 +130,8 @@ def a_box_that_cannot_be(context: CheckContext) -> None:
             near=1e-3,
         )
     context.fulfilled(MEASURED)
-    # A float32 stores these numbers exactly. No number is an integer, so a message must contain the fraction.
+    # A float32 stores these numbers exactly. No number is an integer, so a message must contain the decimals,
+    # too.
     depths = [*(-depth - 0.5 for depth in context.random.integers(2, 1, 49)), -1 / 1024]
     for side, depth in zip(context.random.shuffled(SIDES), depths, strict=True):
         _refused(context, get_geometry, {side: depth})
@@ -200,9 +202,9 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 
 def _unclear(named: list[str], numbers: list[float], side: str, value: float, reason: str) -> str:
-    """Return the hint for an error message with the sides `named` and the `numbers`.
+    """Return the hint for a message that does not name exactly the negative `side` and its `value`.
 
-    The message has to contain only `side` and `value`.
+    `named` contains the sides in the message, and `numbers` contains its numbers.
     """
     if len(numbers) > MANY:
         return "The message contains too many numbers. Write only the value of the negative side."

@@ -75,7 +75,7 @@ MOVED = "In the field `success`, return whether the switch moved."
     goals={COUNTED: 3, SUCCESS: 1},
 )
 def a_counter_that_resets(context: CheckContext) -> None:
-    """Call /count to read the current count; then reset it, and count to more than 9."""
+    """Call /count, reset the counter, and call /count until the count has two digits."""
     count = context.service(
         "/count",
         "std_srvs/Trigger",
@@ -217,7 +217,7 @@ def _follows(before: str) -> Callable[[str], bool]:
 def a_switch_that_tells(context: CheckContext) -> None:
     """Call /switch with data=False, and then ten more times.
 
-    After that, try a new Switch(), which must be off.
+    At the end, create a new Switch(), which must be off.
     """
     turn = context.service(
         "/switch", "std_srvs/SetBool", hints=[(matches("process request: (?!service handler)"), NO_REFUSAL)]
@@ -270,7 +270,7 @@ def a_switch_that_tells(context: CheckContext) -> None:
     context.fulfilled(POSITION)
     context.fulfilled(MOVED)
     context.prepare(A_NEW_SWITCH)
-    if not context.has("Switch"):  # Without this name, the handler is not a method of a class Switch.
+    if not context.has("Switch"):  # The student may use a function as the handler, without a class.
         return
     for stands, hint in ((False, STARTS_ON), (True, SHARES)):
         turn(data=stands)

@@ -21,9 +21,9 @@ NUMBERS = "Return the three numbers as a list, and ignore arguments for ROS."
     goals=[NUMBERS, "Return None if there are not exactly three numbers."],
 )
 def read_the_arguments(context: CheckContext) -> None:
-    """Try valid arguments with and without arguments for ROS.
+    """Call the function with valid arguments, also together with arguments for ROS.
 
-    Then try too few arguments, too many arguments, and a word.
+    Later, call the function with too few arguments, with too many arguments, and with a word.
     """
     name_first = (
         "The first item of the list is the name of the program. Read the sides from the second item on."
@@ -138,7 +138,7 @@ def read_the_arguments(context: CheckContext) -> None:
 
 
 def _in_a_random_order(context: CheckContext, program: str) -> None:
-    """Try valid and invalid lists of arguments, so that a program with a fixed list of results fails."""
+    """Mix valid and invalid lists of arguments, so that a program with a fixed list of results fails."""
     counts = [3] * context.random.integer(2, 4) + [2] * context.random.integer(1, 2) + [4, 5]
     for count in context.random.shuffled(counts):
         numbers = context.random.numbers(count, 0.5, 9.0)

@@ -36,9 +36,9 @@ def interrupted(function, *args):
 def stops(context: CheckContext, function: str, *args: Value, catch: str) -> None:
     """Assert that an interrupt ends the student's function while it waits.
 
-    The function should catch only the error `catch`.
+    The student's function should catch only the error `catch`.
 
-    A report contains this assertion only if the assertion fails.
+    If the student's function ends correctly, the report does not contain this assertion.
     """
     context.prepare(STOP_BUTTON)
     result = context.run("interrupted", Its(function), *args, worded=f"{function}()")

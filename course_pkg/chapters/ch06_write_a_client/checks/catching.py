@@ -24,7 +24,7 @@ class Slip:
 
 class no_name:
     TypeError, AttributeError, ValueError = map(Slip, (TypeError, AttributeError, ValueError))
-"""  # Each use of this object raises the same error as a service name of a wrong type.
+"""  # Every operation on this object raises the error that a service name of a wrong type causes.
 
 DEPENDS = (
     "The result has to depend on the response of this call, not on earlier calls. Read the volume "
@@ -46,7 +46,7 @@ CAUGHT = "Return None if the call failed."
     goals={VOLUME: 1, CAUGHT: 2, "Do not catch exceptions that are caused by wrong arguments.": 1},
 )
 def catch_what_can_happen(context: CheckContext) -> None:
-    """Try two working servers, four servers with different failures, and wrong arguments."""
+    """Call two working servers, four servers that fail in different ways, and use wrong arguments."""
     good, flat = (f"/{context.random.word()}" for _ in range(2))
     sides = context.random.numbers(3, 0.5, 9.0)
     (volume,) = volumes(context, 1)

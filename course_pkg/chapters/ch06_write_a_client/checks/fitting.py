@@ -1,4 +1,4 @@
-"""06.6: a client as a program; its exit status tells a script the result."""
+"""06.6: a client program; a script can use its exit status as the result."""
 
 from __future__ import annotations
 
@@ -36,12 +36,14 @@ class Case:
 
     title: str  # `title` is the name of the case in the titles of assertions.
     arguments: list[str]
-    script: Script | None  # `script` contains the responses of the service, or None without a service.
+    # `script` chooses the responses of the service; None means that there is no service.
+    script: Script | None
     status: int
     prints: str  # The program's output must contain this text, in lower case.
     calls: int = 1
     hint: str = ""  # The report shows `hint` if the exit status is wrong.
-    # If `remapped` is True, getGeometry is remapped; otherwise, the program runs in another namespace.
+    # If `remapped` is True, getGeometry is remapped to a name in another namespace. Otherwise, the program
+    # itself runs in another namespace.
     remapped: bool = False
     late: bool = False  # `late` is True if the service starts after the program.
     ends: str = ""  # `ends` is a goal; the student has reached it if this run and all earlier runs are right.
@@ -187,9 +189,10 @@ def _cases(context: CheckContext) -> list[Case]:
 
 
 class Started:
-    """One run of the program; the program has to call the service in `namespace`.
+    """One run of the program, which has to call the service getGeometry in `namespace`.
 
-    Either the program runs in this namespace, or getGeometry is remapped to a name in this namespace.
+    In some cases, the program itself runs in this namespace. In the other cases, getGeometry is remapped to
+    this namespace.
     """
 
     def __init__(self, context: CheckContext, folder: Folder, case: Case, namespace: str) -> None:
@@ -214,7 +217,7 @@ class Started:
             self.server = self._serve()
 
     def _serve(self) -> ScriptedServer:
-        assert self.case.script  # Without a script, there is no service.
+        assert self.case.script  # This method is called only for cases with a service.
         return self._context.serve(self._service, GEOMETRY, self.case.script)
 
 

@@ -9,7 +9,8 @@ from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.checking.result import Result
 
 KINDS = ("first", "second", "flat", "late", "tardy", "refuses", "frozen", "nowhere")
-# A right function may wait 1 s for each of the two services; LONGEST is the maximum delay in s.
+# A service that does not respond may delay the result by at most this many s; a correct function waits 1 s
+# for it.
 LONGEST = 1.75
 FIRST = "If the first service responds, return the volume in its response."
 NEXT = (
@@ -30,7 +31,7 @@ NEXT = (
     goals=[FIRST, NEXT, "Wait one second for a response. Return None if no service responds."],
 )
 def ask_the_next_one(context: CheckContext) -> None:
-    """Try a working server, first alone and then after each kind of failing server.
+    """Try a working server: alone, and then as the second server after each kind of failing server.
 
     Finally, try only failing servers.
     """
@@ -148,7 +149,7 @@ def ask_the_next_one(context: CheckContext) -> None:
         ],
     )
     took = frozen.took
-    if took - working.took >= LONGEST:  # The first call may be slow only because the machine is busy.
+    if took - working.took >= LONGEST:  # The call may be slow because the machine is busy, so repeat it once.
         took = min(took, _first_of(context, names, "frozen", "second").took)
     context.require(
         "a frozen service delays the result by about one second",
@@ -217,7 +218,7 @@ _ERRORS: Hints = [
 
 
 def _first_of(context: CheckContext, names: Mapping[str, str], *kinds: str, hints: Hints = ()) -> Result:
-    """Run the student's function with the names of services of these kinds, in this order."""
+    """Run the student's function with one service of each of these `kinds`, in this order."""
     sides = context.random.numbers(3, 0.5, 9.0)
     services = [names[kind] for kind in kinds]
     return context.run("first_answer", services, *sides, within=3.0 + len(services), hints=hints or _ERRORS)

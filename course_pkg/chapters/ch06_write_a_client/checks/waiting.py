@@ -7,10 +7,10 @@ from course_pkg.checking import CheckContext, matches, part
 from course_pkg.checking.common_hints import NO_RETURN
 from course_pkg.waiting import at_this_load
 
-# The function gets this time limit in s, for existing and for missing services; a busy machine connects
-# within this time.
+# This is the function's time limit in s, for existing and for missing services. It is long enough for a
+# connection on a busy machine.
 SAME = 1.5
-# A service starts after STARTS s, and the function may wait LATER s for this service.
+# The service starts STARTS s after the beginning of the call, and the call has a time limit of LATER s.
 STARTS, LATER = 1.3, 4.0
 THERE = "Return True for a service that exists, and False for a service that does not exist."
 
@@ -27,9 +27,9 @@ THERE = "Return True for a service that exists, and False for a service that doe
     goals=[THERE, "Return True for a service that starts in time."],
 )
 def is_anybody_there(context: CheckContext) -> None:
-    """Try a running server, and two names without a running server.
+    """Ask for a running server, and for two names without a running server.
 
-    After that, start a server while the client waits.
+    Later, start a server while the client waits.
     """
     here, nowhere, killed, later = (f"/{context.random.word()}" for _ in range(4))
     server = context.serve(here, GEOMETRY, lambda _: {})
@@ -67,7 +67,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # This call has the same time limit as the calls for services that do not exist.
+        ).returned(),  # Calls for a missing service have the same limit.
         hints=[
             (
                 False,
@@ -146,9 +146,9 @@ def _in_a_random_order(context: CheckContext) -> None:
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:
-    """Call the function with a limit of 0.5 s; rospy tries twice within this limit.
+    """Call the function with a limit of 0.5 s for a missing service.
 
-    A result after 1.4 s is too late.
+    Within this limit, rospy looks for the service twice. A result after 1.4 s is too late.
     """
     too_long = (
         "The function waited longer than `seconds`. Call wait_for_service only once, and pass "

@@ -21,7 +21,7 @@ CLIENT = Program("scripts/client.py")
 FILE = MY_GEOMETRY.path(CLIENT.file)
 SERVICE = "/getGeometry"
 USAGE = re.compile("^usage:", re.MULTILINE)
-WAITED = re.compile("waiting for service|unavailable")  # rospy's error messages if there is no service
+WAITED = re.compile("waiting for service|unavailable")  # rospy's error messages for a missing service
 # A run may take this many s: rospy needs 0.5 s to start (5 s on a busy machine), and the client waits up to 5
 # s.
 WITHIN = 16.0

@@ -50,7 +50,7 @@ WAITS = "Make the target my_geometry_programs depend on the generated type."
 def the_build(context: CheckContext) -> None:
     """Build the package; then remove the generated classes, and build only the student's target."""
     text = context.source(f"file:{FILE}")
-    # Because of a random field, the CMakeLists.txt cannot contain the right MD5 sum in advance.
+    # One field has a random name, so the student's CMakeLists.txt cannot contain the right MD5 sum.
     definition = f"float32 {context.random.word()}\n{GEOMETRY}"
     package = built(context, MY_GEOMETRY, examined=NAME, drawn={"srv/geometry.srv": definition})
     md5 = compile_service("my_geometry/geometry", definition).md5

@@ -1,4 +1,4 @@
-"""07.2 and 07.8: a definition in the student's own package; it must build and have the right MD5 sum."""
+"""07.2 and 07.8: a definition in the student's own package; its build and its MD5 sum are compared."""
 
 from __future__ import annotations
 

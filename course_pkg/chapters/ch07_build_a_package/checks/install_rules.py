@@ -1,4 +1,4 @@
-"""07.6: the install rules. The installed files must work while the folder src is hidden."""
+"""07.6: the install rules. The check hides the folder src before it starts the installed files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Assertions about the programs of chapter 07: Linux can execute them, rosrun finds them, and they serve."""
+"""Assertions about the programs of chapter 07.
+
+Linux must be able to execute a program, rosrun must find it, and it must serve its service.
+"""
 
 from __future__ import annotations
 
@@ -22,8 +25,8 @@ MUCH = 6.0  # An import that needs more CPU time (s) than this is in an endless 
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 LOGGERS = ("/get_loggers", "/set_logger_level")  # Every rospy node has these services.
 
-# This code imports the script as a module. Calls that only a running node makes end the import with a
-# message.
+# This code imports the script as a module. If the script calls a function that only a running node should
+# call, the import ends with a message.
 IMPORTS = """\
 import importlib.util, pathlib, sys, rospy
 def began(*args, **kwargs):
@@ -126,9 +129,10 @@ def can_be_imported(context: CheckContext, package: BuiltPackage, program: Progr
 
 
 def _never_ends(done: Finished) -> bool:
-    """Return whether an import that reached its time limit waits for ever or is in an endless loop.
+    """Return True if an import that reached its time limit would never end.
 
-    A slow import on a busy machine is different, because it waits for the CPU most of the time.
+    An import that never ends waits for ever, or is in an endless loop. An import that is only slow on a busy
+    machine waits for a CPU most of the time.
     """
     return done.ran + done.queued < done.took / 2 or done.ran > MUCH
 
@@ -202,7 +206,7 @@ def why_not(
 
 
 def own_line(program: Program, printed: str) -> str:
-    """Return a sentence with the wrong line of the student's script.
+    """Return a sentence that quotes the wrong line of the student's script.
 
     If the line is not known, return "".
     """

@@ -1,4 +1,4 @@
-"""07.4: the geometry server as a program of the student's own package."""
+"""07.4: the geometry server, a program in the student's own package."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ def line_for_a_terminal(context: CheckContext) -> None:
 
 
 def _is_call(line: Json) -> bool:
-    """Return whether the line is a call with rosservice; it may read the fields from a pipe."""
+    """Return whether the line runs `rosservice call`; a pipe may supply the fields."""
     *before, last = commands_of(line) or [[]]
     return last[:2] == ["rosservice", "call"] and all(words[:1] in PRINTS for words in before)
 
@@ -165,7 +165,7 @@ def _lost(actual: Fields) -> bool:
 
 
 def _complaint(line: str, output: str) -> str:
-    """Return the hint for a line that has made no call."""
+    """Return the hint for a line that did not call the service."""
     with suppress(ValueError):  # A quotation mark is not closed.
         if len(shlex.split(line)) == WORDS and matches("ParserError|ScannerError|Too many").search(output):
             return NO_YAML
@@ -173,7 +173,7 @@ def _complaint(line: str, output: str) -> str:
 
 
 def _decisive_lines(output: str) -> str:
-    """Return the first line with an error and the line after it; without an error, return the last line."""
+    """Return the first line with an error and the next line, or the last line if no line has an error."""
     lines = output.splitlines()
     first = next((number for number, text in enumerate(lines) if matches("^error|error:").search(text)), -1)
     return "\n".join(lines[first:][:2])

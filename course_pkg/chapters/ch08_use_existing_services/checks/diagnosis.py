@@ -87,7 +87,7 @@ WHY = {
     deadline=20.0,
 )
 def find_the_cause(context: CheckContext) -> None:
-    """Prepare a service name for each possible result; repeat this with new names in a random order."""
+    """Call diagnose() with one service for each possible result; then call it in a random order."""
     context.prepare(KINDS)
     kind, other = context.random.shuffled(list(TYPES))[:2]
     changed = compile_service(TYPES[kind], CHANGED).cls
@@ -113,9 +113,10 @@ def find_the_cause(context: CheckContext) -> None:
 
 
 def _services(context: CheckContext, kind: str, other: str, changed: ServiceClass) -> dict[str, str]:
-    """Prepare a case for each possible result; return the result for each service name.
+    """Prepare one service name for each result that diagnose() can return; return these names and results.
 
-    The first result is "ok". The names are random, so that they do not show the results.
+    The first item is the service for the result "ok". The names are random, so that a name does not reveal
+    its result.
     """
     works, missing, gone, typed, copied, renewed = (f"/{context.random.word()}" for _ in range(6))
     package = f"{context.random.word()}_pkg"

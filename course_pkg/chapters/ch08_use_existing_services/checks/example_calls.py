@@ -10,7 +10,7 @@ from course_pkg.checking.plain_values import Fields, Value
 
 @dataclass(frozen=True)
 class ExampleCall:
-    """Fields for a request of one type, and the fields of the response."""
+    """The fields of a request of one type, and the fields of the response to this request."""
 
     what: str  # `what` is the name of the call in the titles of assertions.
     kind: str
@@ -18,7 +18,10 @@ class ExampleCall:
     answer: Fields
 
     def given(self, received: Value) -> Value:
-        """Return the values that `received` has in the fields of this call, even in nested messages."""
+        """Return the values in `received`, but only those of the fields that this call sends.
+
+        In nested messages, fields that this call does not send are also omitted.
+        """
         return _given(self.fields, received)
 
     def mixed_up(self, received: Fields) -> bool:
@@ -32,7 +35,7 @@ def example_calls(context: CheckContext) -> list[ExampleCall]:
 
 
 def _nothing(context: CheckContext) -> ExampleCall:
-    """Return a call without fields."""
+    """Return a call whose request has no fields."""
     return ExampleCall(
         "no fields", "std_srvs/Trigger", {}, {"success": True, "message": context.random.word()}
     )

@@ -35,7 +35,7 @@ COMPARED = "Return success=False if the lamp refuses the request or has the wron
     goals=[OBEYED, COMPARED, "Return success=False if the lamp has no server."],
 )
 def translate(context: CheckContext) -> None:
-    """Try a lamp that obeys, a lamp that does the opposite, a lamp that refuses, and no lamp."""
+    """Call /lamp with a lamp that switches, a lamp that switches wrongly, a refusing lamp, and no lamp."""
     panel = context.service("/lamp", "std_srvs/SetBool", hints=NO_ERROR)
     require_served_by_notebook(context, "/lamp")
     for data in (*context.random.shuffled([True, False]), context.random.choice([True, False])):

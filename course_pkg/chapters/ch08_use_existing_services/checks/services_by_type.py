@@ -47,9 +47,9 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
     goals=[FOUND, "Leave out services whose server has ended, and include services that started later."],
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve two types and types with similar names.
+    """Serve services of two types, and services of types whose names are similar.
 
-    After that, add a service, and register a service of a dead server.
+    Later, serve another service, and register a service whose server is dead.
     """
     kind, other = context.random.shuffled(KINDS)[:2]
     short = kind.partition("/")[2]
@@ -57,7 +57,8 @@ def find_by_type(context: CheckContext) -> None:
     mine = {f"/{word}/one", f"/{word}/{context.random.word()}"}
     first = sorted(mine)
     servers = [context.serve(name, kind, lambda _: {}) for name in first]
-    misnamed = f"/{word}/{short}"  # The last part of the name is the name of another type.
+    # The last part of this service name looks like the searched type, but the service has another type.
+    misnamed = f"/{word}/{short}"
     context.serve(misnamed, other, lambda _: {})
     for decoy in (f"{word}_pkg/{short}", f"{kind}Stamped"):
         made = compile_service(decoy, "---\nint32 found").cls
@@ -100,13 +101,13 @@ def find_by_type(context: CheckContext) -> None:
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], ended: str = "") -> None:
     """Assert that the function returns all services of type `kind`; `mine` contains the check's services.
 
-    `incomplete` is the hint for a missing service; the service `ended` existed earlier.
+    `incomplete` is the hint for a missing service. The service `ended` no longer exists.
     """
     names = context.run("services_of", kind, hints=ERRORS).returned()
     _is_a_list_of_names(context, names)
     found: list[str] = of_kind(list, names, "the result")
     types = {service.name: service.type for service in context.look().services}
-    # The right result includes services of other nodes.
+    # Services of other nodes also belong to the right result.
     right = mine | {name for name, actual in types.items() if actual == kind}
     missing, extra = sorted(right.difference(found)), sorted(set(found) - right)
     context.require(
@@ -152,9 +153,10 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
 
 
 def _why_wrong(types: set[str | None], kind: str) -> str:
-    """Return the hint for wrong names; `types` contains the types of the services with these names.
+    """Return the hint for a list with wrong names.
 
-    None means that the service does not exist, and "" means that the server is dead.
+    `types` contains the type of the service for each of these names: None if there is no such service, and ""
+    if its server is dead.
     """
     if None in types:
         return "Your list contains strings that are not names of services. Return only the names of services."

@@ -15,7 +15,7 @@ class Case:
     """The behaviour of a switch in a call, and the value that `move` must return."""
 
     name: str  # `name` is the name of the case in the titles of assertions.
-    there: bool  # `there` is True if the switch is already in the requested position.
+    there: bool  # True if the switch is already in the requested position.
     obeys: bool  # `obeys` is True if the switch moves.
     success: bool  # `success` is the value in the response.
     expected: str  # `expected` is the value that `move` must return.
@@ -115,7 +115,7 @@ class FakeSwitch:
     message: str
 
     def handle_set(self, request: Message) -> Fields:
-        """Move or do not move, and return the response that the case describes."""
+        """Behave as the case describes: move or do not move, and return its response."""
         self.is_open = bool(request.data) if self.case.obeys else self.is_open
         return {"success": self.case.success, "message": self.message}
 
@@ -132,7 +132,7 @@ class FakeSwitch:
     deadline=25.0,
 )
 def move_and_verify(context: CheckContext) -> None:
-    """Try four kinds of switches, and use each of them to move in both directions."""
+    """Call move() with switches that behave differently; each switch has to open and to close."""
     for case in CASES:
         for to_open in context.random.shuffled([True, False]):
             _move(context, case, to_open)

@@ -1,4 +1,4 @@
-"""The node `add_two_floats_client`: its type differs from the server's type, so `add_two_ints` refuses it.
+"""The node `add_two_floats_client`: a client with a wrong type; `add_two_ints` refuses the connection.
 
 The client's definition has the same name, AddTwoInts, but its fields have the type float64 instead of int64.
 This happens in practice if a definition was changed, and only the client was built again. When a client
@@ -18,7 +18,7 @@ USAGE = "usage: add_two_floats_client A B   (two numbers, such as 1.5 2)"
 
 
 def main() -> None:
-    """Call with the numbers on the command line.
+    """Call `add_two_ints` with the numbers on the command line.
 
     The exit status is 1 after a refusal, and 2 for wrong arguments.
     """

@@ -26,8 +26,8 @@ def main() -> None:
 def add(node: str, kind: type | ServiceType, read: Callable[[str], float], usage: str) -> int:
     """Call `add_two_ints` as the node `node` with the two arguments; return the exit status.
 
-    `kind` is the type that the client uses. `read` converts an argument to a number, and raises ValueError
-    for an invalid argument.
+    `kind` is the service type that the client uses. `read` converts an argument to a number, and raises
+    ValueError for an invalid argument.
     """
     try:
         a, b = map(read, rospy.myargv(sys.argv)[1:])

@@ -14,7 +14,7 @@ USAGE = "usage: on_off_client   (no arguments: it sends 0 or 1 at random)"
 
 
 def main() -> None:
-    """Make one call; the exit status is 1 if it fails, and 2 for wrong arguments."""
+    """Make one call; the exit status is 1 if the call fails, and 2 if the arguments are wrong."""
     if len(rospy.myargv(sys.argv)) > 1:
         sys.exit(complain(USAGE, 2))
     number = random.randint(0, 1)  # noqa: S311 -- the number is not a secret

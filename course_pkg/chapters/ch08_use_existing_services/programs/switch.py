@@ -1,7 +1,7 @@
 """The node `switch`: clients can open and close a switch, and read its position.
 
-The services are `~set` (std_srvs/SetBool: True opens and False closes the switch), `~toggle` and `~report`
-(std_srvs/Trigger), and `~reset` (std_srvs/Empty). The switch is closed at the start.
+The services are `~set` (std_srvs/SetBool), `~toggle` and `~report` (std_srvs/Trigger), and `~reset`
+(std_srvs/Empty). With `~set`, True opens the switch, and False closes it. The switch is closed at the start.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""09.5: a client that calls three services and then publishes turtle1's velocities for a second turtle."""
+"""09.5: a client that calls three services, and then repeats turtle1's velocities for a second turtle."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ FOLLOW_GOALS = {
     goals=FOLLOW_GOALS,
 )
 def bring_a_second_turtle(context: CheckContext) -> None:
-    """Serve all three services; in two other runs, one service is missing, or a call is refused."""
+    """Run the program with all three services, with a missing service, and with a refusing service."""
     follows(context, PROGRAM)
 
 
@@ -97,9 +97,9 @@ class Driver:
 
 
 def follows(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of spawn_turtle_plus.
+    """Assert that a program meets the requirements of the exercise about spawn_turtle_plus.
 
-    Three runs of the program overlap, because one run takes 5 s. During these 5 s, there is a fourth run.
+    Three runs of the program overlap, because one run takes 5 s. A fourth run takes place within these 5 s.
     """
     copy = program.prepare(context, program)
     name = context.random.word()
@@ -119,7 +119,7 @@ def follows(context: CheckContext, program: TurtleProgram) -> None:
         _stops_early(context, refusing, second, ["spawn", "toggle_forward"], LIMIT)
         with alone.world.run() as third:
             _stops_early(context, alone, third, ["spawn"], at_this_load(LIMIT))
-        # On a busy machine, this program may be slower than the first program.
+        # On a busy machine, the run with a missing service may take longer than the other runs.
         end = missing.called + LIMIT + at_this_load(LATE)
         _stops_early(context, missing, first, ["spawn"], end - time.monotonic())
 

@@ -48,12 +48,15 @@ IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtl
     goals=IMPROVED_GOALS,
 )
 def change_speed_and_stop(context: CheckContext) -> None:
-    """Set speeds, stop and start the turtle in both directions, and compare the published velocities."""
+    """Set speeds, stop and start the turtle, and compare the published velocities.
+
+    The check does this while the turtle moves straight ahead, and while it turns.
+    """
     is_improved(context, PROGRAM)
 
 
 def is_improved(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of improved_pubvel_toggle."""
+    """Assert that a program meets the requirements of the exercise about improved_pubvel_toggle."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, *SERVICES)
@@ -100,7 +103,7 @@ def is_improved(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def _changes_speed(context: CheckContext, world: World, stream: Stream, toggle: Service) -> Service:
-    """Set speeds, and try impossible speeds; return a proxy of the service that sets the speed."""
+    """Set allowed and impossible speeds; return a proxy of the service that sets the speed."""
     change = world.service(
         "change_speed",
         CHANGE_SPEED,
@@ -234,7 +237,7 @@ def _starts_and_stops(
         _says(context, switch, moving=True, already=True)
         if turning:
             toggle()
-    # These calls come one immediately after the other, so several calls come between two messages.
+    # The next calls follow each other without a pause, so that several calls occur between two messages.
     for moving in (False, True):
         for already in (False, True):
             _says(context, switch, moving=moving, already=already)

@@ -21,7 +21,7 @@ from course_pkg.ros import Snapshot
 DRIVER, SECOND = "improved_pubvel_toggle", "spawn_turtle_plus"
 ALWAYS = {"/turtlesim", f"/{DRIVER}"}
 READY = 20.0  # On a busy machine, a launch file must start its nodes within this time in s.
-# The script starts the course's program instead of the student's program from an earlier exercise.
+# This script replaces the student's program from an earlier exercise; it starts the course's program.
 STAND_IN = '#!/bin/bash\nexec rosrun course_pkg {name} "$@"\n'
 
 
@@ -67,12 +67,12 @@ START = f"""%%writefile {FILE.path}
     start=START,
 )
 def two_turtles_or_one(context: CheckContext) -> None:
-    """Compare the nodes that roslaunch would start; then start them with a separate master."""
+    """Compare the list of nodes in the launch file; then start these nodes with a separate master."""
     launches(context, FILE)
 
 
 def launches(context: CheckContext, file: LaunchFile) -> None:
-    """Assert that a launch file does what the exercise requires of exercise3.launch."""
+    """Assert that a launch file meets the requirements of the exercise about exercise3.launch."""
     copy = _copy(context, file)
     for argument, wanted in (("addturtle:=false", False), ("", False), ("addturtle:=true", True)):
         listed = copy.run(f"roslaunch --nodes {file.path} {argument}", within=20.0)

@@ -12,8 +12,9 @@ from course_pkg.checking.peers.service_calls import Service
 
 PROGRAM = script("pubvel_toggle_plus")
 KIND = "course_pkg/ChangeRate"
-AT_FIRST = 2.0  # The first rate is in messages per second.
-# At the end, the check sets this rate (messages per second); the next message then comes after 1000 s.
+AT_FIRST = 2.0  # The program starts with this rate in messages per second.
+# At the end, the check sets this rate in messages per second. The program then publishes its next message
+# only after 1000 s.
 TINY = 0.001
 OTHER_RATE = (
     "The program did not publish at the rate that the client had set. Calculate the pause from "
@@ -80,12 +81,12 @@ RATE_GOALS = {CHANGED: 3, "Change only the direction with /toggle_forward.": 1}
     goals=RATE_GOALS,
 )
 def change_the_rate(context: CheckContext) -> None:
-    """Set rates and measure them; then try impossible rates."""
+    """Set rates and measure them; then set rates that are not allowed."""
     changes_its_rate(context, PROGRAM)
 
 
 def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of pubvel_toggle_plus."""
+    """Assert that a program meets the requirements of the exercise about pubvel_toggle_plus."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, "toggle_forward", "change_rate")
@@ -112,7 +113,7 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
 
 
 def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
-    """Set allowed rates and measure some of them, try forbidden rates, and return the last allowed rate.
+    """Set allowed and forbidden rates, and measure some of the allowed rates; return the last allowed rate.
 
     One rate is below 1 Hz, and its period is not close to a whole number of seconds. The number of rates is
     random.
@@ -187,9 +188,9 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
-    """Assert that the node refuses a request on purpose.
+    """Assert that the handler refuses a request; an unexpected exception does not count.
 
-    With rospy, the node does this with a ServiceException.
+    With rospy, the handler refuses a request with a ServiceException.
     """
     (number,) = fields.values()
     why = (

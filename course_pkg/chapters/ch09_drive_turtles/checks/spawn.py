@@ -24,10 +24,11 @@ SPAWN = "turtlesim/Spawn"
 TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
 LIMIT = 5.0  # LIMIT is the time in s for which the student's program waits for a service.
 NO_WAIT = "The call fails if the service has not started yet. First wait for the service, for at most 5 s."
-NO_WAIT_ENDS = 1.0  # A program that ends earlier than this time in s does not wait for the service.
+# If a program ends within this time in s, its hint says that it does not wait for the service.
+NO_WAIT_ENDS = 1.0
 WITHOUT_A_WAIT = 0.5  # A program that does not wait ends within this time in s.
 LATE = 2.5  # LATE is the additional time in s that the program may need to start and to end.
-EARLY = 3.0  # If a program ends earlier than this time in s, its limit is not 5 s.
+EARLY = 3.0  # If a program ends within this time in s, it does not wait for 5 s.
 REFUSED = "a second MyTurtle is refused, and the exit status is 1"
 GIVES_UP = "without /spawn, the program gives up after 5 s with the exit status 1"
 
@@ -65,7 +66,7 @@ def wait_and_spawn(context: CheckContext) -> None:
 
 
 def spawns(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of spawn_turtle.
+    """Assert that a program meets the requirements of the exercise about spawn_turtle.
 
     The runs overlap, because one run takes 5 s.
     """
@@ -84,7 +85,7 @@ def spawns(context: CheckContext, program: TurtleProgram) -> None:
 def _served_late(context: CheckContext, world: World, running: Running) -> tuple[float, Finished]:
     """Start a server while the program is waiting.
 
-    Returns the start time of the program (s, time.monotonic()), and how the program ended.
+    Returns the start time of the program (s, time.monotonic()), and the result of the program.
     """
     began = world.begins(running)
     wait_until(lambda: running.status is not None, at_this_load(WITHOUT_A_WAIT), 0.05)

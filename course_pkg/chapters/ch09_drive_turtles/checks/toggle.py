@@ -93,7 +93,7 @@ def toggle_direction(context: CheckContext) -> None:
 
 
 def toggles(context: CheckContext, program: TurtleProgram) -> None:
-    """Assert that a program does what the exercise requires of pubvel_toggle."""
+    """Assert that a program meets the requirements of the exercise about pubvel_toggle."""
     world = World(context, program.prepare(context, program), program)
     with world.simulator(), world.run() as running:
         world.serves(running, "toggle_forward")
@@ -128,7 +128,7 @@ def _counts_each_call(toggle: Service, stream: Stream) -> None:
 def toggles_the_stream(
     toggle: Service, stream: Stream, times: int = 1, straight: tuple[float, float] = STRAIGHT
 ) -> None:
-    """Toggle to turning, and back to straight ahead; `times` is the number of repetitions."""
+    """Toggle twice: first to turning, then back to straight ahead; do this `times` times."""
     for _ in range(times):
         toggle()
         stream.becomes(TURNING, ONE_CALL, TOGGLED)

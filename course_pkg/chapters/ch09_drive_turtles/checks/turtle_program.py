@@ -26,7 +26,7 @@ MANIFEST = """\
   <buildtool_depend>catkin</buildtool_depend>
 </package>
 """
-# With this path, ROS finds the package before the package is built.
+# With this path, ROS finds the package without a build.
 SETUP = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 
 
@@ -34,9 +34,9 @@ SETUP = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 class TurtleProgram:
     """A program that the student writes in an exercise.
 
-    `file` is the path of the program in the package; `command` is the part of the rosrun command after the
-    package. `prepare` asserts that the file is a program. The function returns a copy of the package from
-    which rosrun can start the program.
+    `file` is the path of the program in the package. `command` is the argument of rosrun that names the
+    program. The function `prepare` asserts that the file is a program, and returns a copy of the package.
+    rosrun can start the program from this copy.
     """
 
     package: Package

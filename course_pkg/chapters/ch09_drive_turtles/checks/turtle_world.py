@@ -30,7 +30,8 @@ class World:
     """A new namespace for the student's program.
 
     A relative name in the program, such as "spawn", is resolved in this namespace. The absolute names of
-    `services` and of the turtles' topics are remapped to it; `turtle` is the name of an additional turtle.
+    `services` and of the turtles' topics are remapped to this namespace. `turtle` is the name of an
+    additional turtle.
     """
 
     def __init__(
@@ -53,12 +54,12 @@ class World:
         return f"{self._space}/{relative}"
 
     def run(self, arguments: str = "") -> Running:
-        """Start the student's program with arguments such as "_level:=5"; the result is a context manager."""
+        """Start the student's program with arguments such as "_level:=5"; use it in a `with` block."""
         line = f"{self._program.line} {self._arguments} {arguments}"
         return self._copy.start(line, worded=self._program.line)
 
     def simulator(self) -> Running:
-        """Start the simulator; the result is a context manager."""
+        """Start the simulator; use it in a `with` block."""
         line = f"rosrun turtlesim turtlesim_node __ns:={self._space} __name:={SIMULATOR}"
         return self._copy.start(line, worded="rosrun turtlesim turtlesim_node")
 
@@ -90,9 +91,9 @@ class World:
         return running.stop()
 
     def serves(self, running: Running, *names: str) -> None:
-        """Wait until the student's program serves all these services.
+        """Wait until the student's program serves all services in `names`.
 
-        Otherwise, report what happened.
+        If a service is missing, report what happened.
         """
         assertion = f"{self._program.line} starts a node that offers {_listed(names)}"
         began, seen = time.monotonic(), 0.0
@@ -122,7 +123,7 @@ class World:
         )
 
     def _own_services(self, *, loggers: bool) -> list[str]:
-        """Return the services of the student's program by their names in this namespace."""
+        """Return the relative names of the services that the student's program serves."""
         found = [each for each in self._context.look().services if each.name.startswith(f"{self._space}/")]
         simulator = self.name(SIMULATOR)
         return [

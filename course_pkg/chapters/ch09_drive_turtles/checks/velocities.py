@@ -18,7 +18,7 @@ KEEP_COMING = "the program publishes velocities all the time"
 # SILENCE is the maximum time in s without a message; during the check, the programs publish at least twice
 # per second.
 SILENCE = 4.0
-# Within this time in s after a response, a message that was sent before the call may still arrive.
+# After a response, a message from before the call may still arrive within this time in s.
 FLYING = 0.05
 SILENT = (
     "No velocity arrived for 4 s. In each round of the loop, publish a message, even if the velocity is "
@@ -48,7 +48,7 @@ class Stream:
         )
 
     def next(self, count: int, within: float = SILENCE) -> list[Arrival]:
-        """Return the next `count` messages; assert that no message takes longer than `within` s."""
+        """Return the next `count` messages; assert that each message arrives within `within` s."""
         before = len(self._subscription.arrivals)
         for number in range(before + 1, before + count + 1):
             if len(self._subscription.wait(number, within)) < number:
@@ -69,7 +69,7 @@ class Stream:
     def becomes(self, wanted: tuple[float, float], assertion: str, hints: Hints) -> None:
         """Assert that the velocity is `wanted` (m/s, rad/s) from now on.
 
-        The assertion ignores messages that arrived earlier.
+        Messages that arrived before the call of this method are ignored.
         """
         now = time.monotonic()
         arrival = self.next(1)[-1]
@@ -99,7 +99,7 @@ class Stream:
     def has_rate(self, wanted: float, assertion: str, hints: Hints) -> None:
         """Assert that `wanted` messages per second arrive.
 
-        The first messages may still arrive at the old rate.
+        After a change of the rate, the first messages may still arrive at the old rate.
         """
         count = max(2, int(wanted))
         measured = rate(self.next(count + 2)[1:])

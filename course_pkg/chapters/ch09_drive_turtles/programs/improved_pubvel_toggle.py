@@ -1,4 +1,7 @@
-"""The node `improved_pubvel_toggle`: `pubvel_toggle_plus` with services for the speed and for stopping."""
+"""The node `improved_pubvel_toggle`: `pubvel_toggle_plus` with two more services.
+
+One service sets the speed, and the other service stops the turtle.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The node `pubvel_toggle_plus`: `pubvel_toggle` with a service `change_rate` for its publishing rate."""
+"""The node `pubvel_toggle_plus`: `pubvel_toggle` with one more service.
+
+The service `change_rate` sets the publishing rate.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The node `spawn_turtle_plus`: spawns MyTurtle, and also publishes turtle1's velocities for it."""
+"""The node `spawn_turtle_plus`: spawns MyTurtle, and sends the velocities of turtle1 also to MyTurtle."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SPEED = 2.0  # m/s
 
 
 def main() -> None:
-    """Spawn MyTurtle, toggle turtle1, set its speed, and publish turtle1's velocities for MyTurtle."""
+    """Spawn MyTurtle, toggle turtle1, set turtle1's speed, and repeat turtle1's velocities for MyTurtle."""
     rospy.init_node("spawn_turtle_plus")
     prepare_node()
     spawn_or_exit()

@@ -149,7 +149,10 @@ def _puts_and_takes(context: CheckContext, put: Service, take: Service) -> None:
 
 
 def _shares_nothing(context: CheckContext, another: str, put: Service, take: Service) -> None:
-    """Put an item into the first basket, and then an item into a new basket; the new basket has one item."""
+    """Put an item into the first basket, and then an item into a new basket.
+
+    If the new basket does not have exactly one item, the two baskets share their items.
+    """
     put()
     worded = f"Basket({LIMIT:g})"
     opened = context.run("checked_basket.open_another", Its("Basket"), LIMIT, another, worded=worded)
@@ -243,7 +246,7 @@ def _waits_for_an_item(context: CheckContext, put: Service, take: Service) -> No
 
 
 def _shares_the_items(context: CheckContext, put: Service, take: Service) -> None:
-    """Let several clients wait, and put fewer items than clients, with a pause after each item."""
+    """Let several clients wait, and put items one by one; there are fewer items than clients."""
     items = context.random.integer(2, 4)
     clients = items + context.random.integer(2, 4)
     pause = (LAST - LATER) / (items - 1)

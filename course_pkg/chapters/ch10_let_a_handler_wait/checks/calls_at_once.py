@@ -18,10 +18,12 @@ from course_pkg.waiting import wait_until
 TRIGGER = "std_srvs/Trigger"
 TOGETHER = 1.0  # The server waits at most this many s until the other calls have arrived.
 LIMIT = 6.0  # LIMIT is the time limit in s for the student's function.
-# A function must return within this many s after the last response; otherwise, it may sleep instead of
-# joining its threads.
+# The function must return within this many s after the last response. A function that sleeps for a fixed time
+# may take longer than a function that joins its threads.
 PROMPT = 0.3
-LONGER = 1.0  # In an additional round, the calls are longer than PROMPT by this many s.
+# The calls of the first round take this many s. If the function returns too late, a third round has longer
+# calls.
+LONGER = 1.0
 
 # This code reports each call through a persistent proxy, on the thread that makes the call.
 KERNEL_CODE = (
@@ -68,7 +70,7 @@ class Proxies:
 
     @remote
     def called(self, proxy: Value) -> None:
-        """Record a call through the persistent proxy with the id `proxy`, on the current thread."""
+        """Record that the current thread makes a call through the persistent proxy with the id `proxy`."""
         self._threads.setdefault(str(proxy), set()).add(threading.current_thread())
         self.calls += 1
 
@@ -92,7 +94,7 @@ class Gate:
         self._changed = threading.Condition()
 
     def __call__(self, _: Message) -> dict[str, Json]:
-        """Handle a request: wait for the other clients, and return a different text for each client."""
+        """Handle a request: wait for the other clients, and return the next text in the list."""
         with self._changed:
             word = self._words[self.requests % len(self._words)]
             self.requests += 1
@@ -148,9 +150,10 @@ ERRORS = [
     deadline=30.0,
 )
 def calls_at_once(context: CheckContext) -> None:
-    """Respond only after all clients have called; use two different numbers of clients.
+    """Run the function with two numbers of clients; the server responds only after all of them have called.
 
-    The calls of the first round take longer, so that a join() with a short timeout ends before a call ends.
+    The calls of the first round take longer. If a function uses join() with a short timeout, it therefore
+    returns too early.
     """
     context.prepare(KERNEL_CODE)
     context.run("proxy_watch.begin")
@@ -233,7 +236,7 @@ def _calls_itself(context: CheckContext, server: ScriptedServer) -> None:
 
 
 def _shares_no_proxy(context: CheckContext, proxies: Proxies, server: ScriptedServer) -> None:
-    """Assert that each persistent connection to the service belongs to a recorded call."""
+    """Assert that all persistent connections come from calls that `proxies` has recorded."""
     persistent = [header for header in server.received.headers if header.get("persistent") in ("1", "true")]
     context.require(
         "all calls wait for their responses at the same time",

@@ -15,14 +15,14 @@ from course_pkg.waiting import wait_until
 DETECT = "course_pkg/DetectCustomer"
 COUNTER = "std_msgs/UInt32MultiArray"
 SLACK = 1.5  # On a busy machine, a call may take this many s longer.
-# If no customer comes, request.patience has this value in s. A handler that waits twice as long exceeds
-# SLACK.
+# This value of `patience` (s) is for calls without a customer. A handler that waits twice as long exceeds the
+# limit.
 LONG = 2.0
 LATER = 0.6  # A customer comes after this many s.
 PATIENCE = 5.0  # request.patience has this value in s, which is longer than every wait for a customer.
-CHANGE = 2.2  # After this many s, the customers change although no client waits.
-# A handler that waits for notifications makes few calls of watch.next(). If a handler without such a wait
-# makes fewer calls than this in LONG s, its pauses are too long.
+CHANGE = 2.2  # After this many s, the customers at the counter change again.
+# A handler that waits for notifications makes few calls of watch.next(). If a handler does not wait for
+# notifications, and makes fewer calls of watch.next() than this in LONG s, its pauses are too long.
 SELDOM = 8
 LOOKS = 3000  # In LONG s, a loop without a pause calls watch.next() more than this many times.
 
@@ -111,7 +111,7 @@ FOUND = (
 def wait_for_a_customer(context: CheckContext) -> None:
     """Call without a customer, with a customer who is there, and with a customer who comes later.
 
-    Then make several calls at the same time.
+    At the end, make several calls at the same time.
     """
     counter, name = (f"/{context.random.word()}" for _ in range(2))
     context.prepare(A_SHOP)
@@ -142,13 +142,13 @@ class _Shop:
         self._await("told", True)
 
     def there(self, *numbers: int) -> None:
-        """Publish that exactly these customers are at the counter."""
+        """Publish the numbers of the customers who are at the counter."""
         if self._saying:
             self._saying.stop()
         self._saying = self._context.publish(self._counter, COUNTER, [{"data": numbers}], every=0.05)
 
     def later(self, seconds: float, *numbers: int) -> None:
-        """Publish after `seconds` s that these customers are at the counter."""
+        """After `seconds` s, publish the numbers of the customers who are at the counter."""
         Timer(seconds, self.there, numbers).start()
 
     def await_sight(self, count: int) -> None:
@@ -220,7 +220,7 @@ def _somebody(context: CheckContext, detect: Service, shop: _Shop, *, rarely: bo
         ),
     )
     _same_time(context, response, again)
-    shop.later(LATER / 2)  # The known customer leaves; this change must not end the wait.
+    shop.later(LATER / 2)  # The customer leaves; this change must not end the wait of the next call.
     shop.later(LATER, coming)
     response = detect(after=known, patience=PATIENCE)
     context.require(
@@ -296,7 +296,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
     coming = context.random.integer(1000, 9000)
     shop.there()
     shop.await_sight(0)
-    _no(context, detect(after=0, patience=0.0))  # The customers of the earlier calls have left.
+    _no(context, detect(after=0, patience=0.0))  # At this time, no customer is left from the earlier calls.
     shop.later(LATER, coming)
     shop.later(CHANGE, coming - 1, coming)
     patience = LATER + SLACK + 1.0
@@ -328,7 +328,7 @@ def _several(context: CheckContext, detect: Service, shop: _Shop) -> None:
 
 
 def _at_once(context: CheckContext, assertion: str, took: float, after: float = 0.0, hint: str = "") -> None:
-    """Assert that the response came immediately after the customer.
+    """Assert that the response came immediately after the customer had come.
 
     The customer came `after` s after the request.
     """

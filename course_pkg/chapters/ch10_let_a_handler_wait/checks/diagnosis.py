@@ -1,4 +1,4 @@
-"""10.7: the causes of six observations of threads that wait too long, or that do not wait."""
+"""10.7: six observations of waiting threads, and the cause of each observation."""
 
 from __future__ import annotations
 

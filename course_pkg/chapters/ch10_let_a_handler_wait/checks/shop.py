@@ -82,7 +82,7 @@ class Till:
         self._changed = threading.Condition()
 
     def await_crowd(self) -> None:
-        """Let the next call wait until there is a second call; the wait takes at most MEETING s."""
+        """Let the next call wait for a second call, for at most MEETING s."""
         self._meets = True
 
     def __call__(self, request: Message) -> Act:
@@ -138,7 +138,10 @@ PUT_BACK = "Put the thing back if the call of the till's service fails."
     goals=[SOLD, PUT_BACK, "Sell to 50 clients at the same time."],
 )
 def no_lock_across_a_call(context: CheckContext) -> None:
-    """Buy once with a till that calls /left; then buy with tills that fail; then buy in 50 threads."""
+    """Buy from the student's shop, with different tills.
+
+    The first till calls /left, and other tills fail. At the end, 50 threads buy at the same time.
+    """
     buy, left, charge = (f"/{context.random.word()}" for _ in range(3))
     cents = context.random.integer(100, 900)
     count = context.random.integer(28, 36)

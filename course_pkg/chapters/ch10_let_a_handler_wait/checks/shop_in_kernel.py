@@ -59,8 +59,8 @@ checked_shop = CheckedShop()
 class CheckedShelf:
     """A shelf with `count` things. The kernel has a proxy for the shelf.
 
-    Each read and each write returns when another thread reads, or after a short time. Therefore, two threads
-    without a lock read the same number. With a lock, no other thread can read during this time.
+    Each read and each write waits for a short time, and ends early if another thread reads. Therefore, two
+    threads without a lock read the same number. With a lock, no other thread can read during this time.
     """
 
     def __init__(self, count: int) -> None:

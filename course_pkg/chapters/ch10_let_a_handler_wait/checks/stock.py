@@ -1,4 +1,4 @@
-"""10.4: a handler that runs in fifty threads at a time."""
+"""10.4: a handler that runs in fifty threads at the same time."""
 
 from __future__ import annotations
 

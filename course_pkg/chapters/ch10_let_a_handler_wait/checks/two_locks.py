@@ -10,13 +10,14 @@ from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
 from course_pkg.checking.placed import remote
 from course_pkg.checking.plain_values import Value
 
-# A thread of the check waits for a lock, or tries to acquire it repeatedly, for at most this many s.
+# If a thread cannot acquire a lock within this many s, the check assumes a deadlock.
 LIMIT = 4.0
 THREADS, MOVES = 4, 6  # There are THREADS threads, and each thread makes MOVES moves.
-RUN = 14.0  # The time limit in s for all threads together: three deadlocks, one after another, and the moves.
+RUN = 14.0  # This time limit in s for all threads is enough for three consecutive deadlocks and all moves.
 
 MEETING = 0.01  # A thread that holds a lock waits at most this many s for another thread.
-FIRST_MEETING = 0.3  # The first thread waits at most this many s, so that the other threads can start.
+# The thread that acquires the first lock waits at most this many s for the other threads.
+FIRST_MEETING = 0.3
 
 # This code calls the student's function once, or in several threads; `pair` is a proxy for a CheckedPair.
 KERNEL_CODE = """
@@ -52,9 +53,9 @@ class Deadlock(Exception):
 
 
 class CheckedLock:
-    """A lock; `acquire` returns when another thread has acquired the other lock, or after a short time.
+    """A lock; `acquire` also waits for a short time, so that another thread can acquire the other lock.
 
-    Therefore, two threads that acquire the two locks in opposite order always block each other. A thread that
+    Two threads that acquire the two locks in opposite order therefore always block each other. A thread that
     waits too long gets an error, so that all threads end.
     """
 
@@ -253,7 +254,7 @@ MOVED = "Move a thing in one thread, but do not move a thing from an empty shelf
 def move_without_deadlock(context: CheckContext) -> None:
     """Move things in one thread, even from an empty shelf.
 
-    After that, move things in both directions at the same time.
+    At the end, let several threads move things in both directions at the same time.
     """
     context.prepare(KERNEL_CODE)
     numbers = sorted(context.random.integers(2, 1, 99))

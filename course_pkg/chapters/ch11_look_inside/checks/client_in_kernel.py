@@ -60,7 +60,10 @@ class Client:
         context.require("a client object can be created", holds=made.returned() is None)
 
     def measure(self, hints: Hints) -> Result:
-        """Measure a random box, each box twice; a complete response becomes a dict with the volume."""
+        """Call the method measure with random sides; every second call uses the sides of the call before.
+
+        If the client returns a complete response, the result is a dict with the volume.
+        """
         if self._measured % 2 == 0:
             self.sides = self._context.random.numbers(3, 0.5, 9.0)
         self._measured += 1
@@ -73,7 +76,7 @@ class Client:
 class ResettingPort:
     """A program that listens at the old address of a server.
 
-    The program is not a ROS server, and resets each connection.
+    The program does not implement TCPROS, and resets each connection.
     """
 
     def __init__(self, uri: str) -> None:
@@ -92,7 +95,7 @@ class ResettingPort:
         self._listener.close()
 
     def _reset(self) -> None:
-        with suppress(OSError):  # The listening socket is closed when the block ends.
+        with suppress(OSError):  # The end of the block closes the listening socket.
             while True:
                 connection, _ = self._listener.accept()
                 self.connections += 1

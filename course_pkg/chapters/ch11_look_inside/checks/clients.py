@@ -67,7 +67,7 @@ STORED = "Look up the address once, and use the stored address for all calls."
     ],
 )
 def persistent_client(context: CheckContext) -> None:
-    """Call a server that responds, refuses, closes the connection, stops, or starts at another address."""
+    """Call a server that responds, refuses, hangs up or stops, and a server at a new address."""
     name = f"/{context.random.word()}"
     volumes = context.random.numbers(8, 10.0, 90.0)
     acts: list[Act] = [{"volume": each} for each in volumes[:5]]
@@ -107,7 +107,7 @@ def persistent_client(context: CheckContext) -> None:
 def _next_act(acts: list[Act]) -> Act:
     """Return the server's next action. A refusal is repeated until the check removes it from the list.
 
-    If the list is empty, close the connection.
+    If the list is empty, the server closes the connection.
     """
     if not acts:
         return HangUp()
@@ -171,7 +171,10 @@ def _one_connection(context: CheckContext, server: ScriptedServer, assertion: st
 def _reports_a_refusal(
     context: CheckContext, client: Client, server: ScriptedServer, swallowed: str, repeated: str
 ) -> None:
-    """Assert that a refusal leads to an error after one call; `swallowed` and `repeated` are hints."""
+    """Assert that a refused call raises an error, and that the client does not repeat the call.
+
+    `swallowed` is the hint if no error is raised, and `repeated` is the hint if the call is repeated.
+    """
     before = len(server.requests)
     client.measure(ERRORS).raised(
         "a refusal is raised", "ServiceException", saying="not this box", hints=swallowed
@@ -281,7 +284,7 @@ SAID_NO = (
     goals=[STORED, "Look up the address again if no server is at the stored address any more."],
 )
 def client_with_a_known_address(context: CheckContext) -> None:
-    """Call a service that runs, is unregistered, refuses, or has moved to another address."""
+    """Call a running service, an unregistered service, a refusing service, and a service at a new address."""
     name = f"/{context.random.word()}"
     numbers = [context.random.numbers(2, 10.0, 90.0) for _ in range(3)]
     answers: list[Act] = [dict(zip(("area", "volume"), each, strict=True)) for each in numbers]
@@ -311,7 +314,7 @@ def _finds_it_after_a_reset(
 ) -> None:
     """Start another program at the server's port, and start the server at another address.
 
-    Then stop the server: another program that is not a server listens at its registered address.
+    At the end, stop the server. Its registered address then belongs to a program that resets each connection.
     """
     former.leave()
     assertion = "a server that moved is found again"

@@ -49,9 +49,10 @@ ERRORS = [
     ),
 ]
 WITHIN = 3.0  # WITHIN is the time limit in s for one call.
-# Wait this many s before sending the next part to a client that peeks at the bytes without reading them.
+# The check waits at most this many s until the client has read a piece. A client that only peeks at the bytes
+# does not remove them from the socket.
 PEEKING = 0.4
-PAUSE = 0.5  # Two consecutive pieces of a message are sent with this pause in s.
+PAUSE = 0.5  # Two consecutive pieces of a message are separated by a pause of this many s.
 CONNECTING = 5.0  # CONNECTING is the time limit in s for the kernel to connect.
 
 
@@ -93,9 +94,9 @@ RECEIVED = "Return exactly `count` bytes, even if the bytes arrive in pieces."
     needs=["pack_header"],
 )
 def packed_header(context: CheckContext) -> None:
-    """Compare headers with random fields, with a letter that needs two bytes, and without fields.
+    """Compare the returned bytes with the correct headers for several dicts of fields.
 
-    The last header is longer than 255 bytes.
+    The fields are random fields, a letter that needs two bytes, no fields, and a field longer than 255 bytes.
     """
     word = context.random.word
     context.prepare(TYPE_OF_HEADER)
@@ -107,7 +108,7 @@ def packed_header(context: CheckContext) -> None:
     ):
         assertion = f"{what}: the bytes are a header of TCPROS"
         packed = context.run("pack_header", fields, hints=ERRORS).returned()
-        # TCPROS allows every order of the fields
+        # TCPROS allows any order of the fields.
         orders = [dict(order) for order in permutations(fields.items())]
         expected = [list(_packed(order)) for order in orders]
         context.expect(
@@ -139,7 +140,7 @@ def _packed(
     lengths: bool = True,
     code: str = "utf-8",
 ) -> bytes:
-    """Return the bytes of the right header, or of a header with the mistake that the arguments describe."""
+    """Return the bytes of a correct header; with other arguments, the header contains a mistake."""
     texts = [f"{name}{joint}{value}" for name, value in fields.items()]
     coded = [(count(text), text.encode(code)) for text in texts]
     body = b"".join((struct.pack(order, length) if lengths else b"") + data for length, data in coded)
@@ -246,7 +247,7 @@ NOT_RAISED: Hints = [
 def exact_read(context: CheckContext) -> None:
     """Send the bytes in one piece, in several pieces, and with additional bytes.
 
-    After that, close the connection too early.
+    At the end, close the connection before all bytes are sent.
     """
     word = context.random.word
     whole, following = word(12).encode(), word(12).encode()
@@ -285,7 +286,7 @@ CLOSED = "The function closed the socket. Leave the socket open, because the cal
 class OtherEnd:
     """The check's end of the connection to the student's socket.
 
-    The object sends `pieces`, and does not close the connection before the end of the block.
+    The object sends `pieces`, and keeps the connection open until the `with` block ends.
 
     Each piece is sent after the client has read the previous piece. Therefore, a client that reads only once
     gets only one piece. There is a pause of `pause` s before each piece.
@@ -322,7 +323,7 @@ class OtherEnd:
         return False
 
     def _send(self) -> None:
-        with suppress(OSError):  # The kernel has closed its socket, or has not connected.
+        with suppress(OSError):  # The kernel may have closed its socket, or may never connect.
             sock, _ = self._listener.accept()
             with sock:
                 self._sock = sock

@@ -43,10 +43,12 @@ class ProtocolMistake(Exception):
 
 
 class TcprosServer:
-    """Responds to geometry calls with the two `numbers`, area and volume, until the end of the block.
+    """Responds to geometry calls with the area and the volume in `numbers`.
 
-    With a `refusal`, the server sends this error message instead of a response. With `in_handshake`, the
-    message is in the server's header. With `slowly`, the server sends each byte separately.
+    If `refusal` is not empty, the server sends this error message instead of a response. With `in_handshake`,
+    the server already sends it in the connection header.
+
+    With `slowly`, the server sends each byte separately.
     """
 
     def __init__(

@@ -46,7 +46,8 @@ def read_arguments(arguments: Sequence[str]) -> tuple[str, list[int]] | None:
 
 
 def _add_up(session: str, amounts: list[int]) -> None:
-    MasterClient(master_uri()).pid()  # Without a master, init_node would wait for ever.
+    # This call raises an error if no master runs; init_node would wait for ever.
+    MasterClient(master_uri()).pid()
     rospy.init_node("session_client", anonymous=True)
     prepare_node()
     again = rospy.has_param("~rate")

@@ -16,7 +16,7 @@ from course_pkg.srv import AddUp, AddUpRequest, AddUpResponse
 
 FIELD = "session"
 LARGEST = 2**31 - 1  # LARGEST is the maximum value of an int32.
-# At most this many sessions are stored; a new session replaces the session with the oldest last call.
+# At most this many sessions are stored. A new session replaces the session that has been unused for longest.
 MOST = 1000
 
 
@@ -24,7 +24,8 @@ class Sessions:
     """The totals of all sessions; a lock protects them, because rospy handles each call on its own thread."""
 
     def __init__(self) -> None:
-        # Each value contains the total and the number of calls; the dict has the order of the last calls.
+        # Each value contains the total and the number of calls; the session with the latest call is the last
+        # item.
         self._totals: dict[str, tuple[int, int]] = {}
         self._lock = threading.Lock()
 

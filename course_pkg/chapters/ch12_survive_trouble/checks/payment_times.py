@@ -1,4 +1,4 @@
-"""Measures times for 12.3; each result is the shortest of several times, because the machine may be busy."""
+"""Measures times for 12.3; each time is measured repeatedly, because the machine may be busy."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from course_pkg.checking.peers.faulty_server import Fault, FaultyServer
 
 TRY = 0.5  # TRY is the time limit in s for one attempt.
 PAUSE = 0.1  # PAUSE is the time in s before the second attempt.
-# In the fastest payment, the sum of the first pause and the time for a new connection is at most this, in s.
+# The shortest first pause, together with the time for a new connection, may take at most this many s.
 FIRST = 1.8 * PAUSE
-PAYMENTS = 5  # The check makes at most this many payments; the fastest payment counts.
-# The deadline comes after this many s. At the deadline, the client is in its fourth pause, which would end
-# after 1.5 s.
+PAYMENTS = 5  # Each time is measured in at most this many payments.
+# The deadline of a payment is this many s after its start. At this time, the client is in its fourth pause,
+# which would end after 1.5 s.
 AT_END = 0.9
 ENDED = 1.3  # The fastest of these payments may take at most this many s.
 AT_WORK = 0.5  # A client must make attempts for at least this many s.
@@ -33,7 +33,7 @@ OVERSLEPT = (
 
 
 def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let one attempt fail, and measure the pause after it; the shortest pause of several payments counts."""
+    """Let one attempt fail, and measure the next pause; repeat this, and use the shortest pause."""
     pauses = []
     for _ in range(PAYMENTS):
         before = len(till.arrivals)
@@ -53,7 +53,7 @@ def pauses_for_a_moment(context: CheckContext, name: str, till: FaultyServer) ->
 
 
 def pauses_after_a_timeout(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let one attempt reach its limit, and measure the pause after it; the longest pause counts."""
+    """Let one attempt reach its limit, and measure the next pause; repeat this, and use the longest pause."""
     pauses = []
     for _ in range(PAYMENTS):
         before = len(till.arrivals)
@@ -73,7 +73,7 @@ def pauses_after_a_timeout(context: CheckContext, name: str, till: FaultyServer)
 
 
 def ends_without_a_till(context: CheckContext) -> None:
-    """Pay while no till is running; the fastest of several payments counts."""
+    """Pay several times while no till is running, and use the time of the fastest payment."""
     times = []
     for _ in range(PAYMENTS):
         cents = context.random.integer(100, 900)

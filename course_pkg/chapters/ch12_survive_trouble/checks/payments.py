@@ -1,4 +1,4 @@
-"""12.3: the payments that a till stores, and an assertion that a payment succeeds."""
+"""12.3: the payments that a till stores, and functions that run a payment and examine its result."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from course_pkg.checking.result import Result
 from course_pkg.ros.protocol.json_channel import Json
 
 CHARGE = "course_pkg/Charge"
-DEADLINE = 6.0  # In cases where the client succeeds, the deadline comes after this many s.
+DEADLINE = 6.0  # If the payment is expected to succeed, its deadline is this many s after its start.
 ERRORS = [
     (
         matches("TimesUp"),
@@ -76,7 +76,7 @@ def pays_after(
 ) -> int:
     """Assert that a payment succeeds; return the number of requests.
 
-    `words` is a text that describes the state of the till.
+    `words` describes the state of the till in an assertion.
     """
     before, charged, arrived = len(till.requests), len(books.charged), len(till.arrivals)
     result = pay(context, name, context.random.integer(100, 900), deadline)

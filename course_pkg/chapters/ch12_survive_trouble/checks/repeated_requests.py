@@ -86,9 +86,9 @@ FAILED = "If the purse fails, charge the request when it is sent again. Refuse a
     },
 )
 def charge_once(context: CheckContext) -> None:
-    """Send new and repeated requests; let the purse fail; send a request without an id.
+    """Send new requests, repeated requests, requests for which the purse fails, and one without an id.
 
-    After that, send 50 requests at the same time.
+    Later, send 50 requests at the same time.
     """
     name = f"/{context.random.word()}"
     context.prepare(KERNEL_CODE)
@@ -119,8 +119,8 @@ def charge_once(context: CheckContext) -> None:
 class CheckedPurse:
     """A purse for the student's till. The kernel has a proxy for the purse.
 
-    A call of take() returns when there is another call with the same amount, or after a short time.
-    Therefore, two repeated requests without a lock always run at the same time in this check.
+    Each call of take() waits for a short time, and ends early if another call has the same amount. Therefore,
+    two repeated requests without a lock always run at the same time in this check.
     """
 
     def __init__(self) -> None:
@@ -148,12 +148,12 @@ class CheckedPurse:
             self.took.append(cents)
 
     def await_crowd(self) -> None:
-        """Let the next call of take() wait longer. The other calls can then start even on a busy machine."""
+        """Let the next call of take() wait longer, so that the other calls can start on a busy machine."""
         self._long_waits = 1
 
 
 def _opened(context: CheckContext, name: str) -> tuple[CheckedPurse, Result]:
-    """Serve `name` with a new Till; return the Till's purse, and the result of the call that creates it."""
+    """Serve `name` with a new Till; return the purse of this Till, and the result of Till(purse)."""
     purse = CheckedPurse()
     context.place("checked_purse", purse)
     its = Its("Till"), Its("checked_purse")
@@ -225,7 +225,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
 
 
 def _only_one(words: str) -> Hints:
-    """Return the hint `words` for the case that the purse was used only once."""
+    """Return a list with the hint `words`; it is shown if the purse was used at most once."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -247,7 +247,7 @@ def _fails_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> 
 
 
 def _fails_for_twins(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send a request twice at the same time, and let the purse fail once.
+    """Send the same request twice at the same time; one call of take() fails.
 
     A till that returns a receipt must have charged the request exactly once.
 
@@ -326,7 +326,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
 
 
 def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send so many requests that two random receipt numbers would probably be equal."""
+    """Send many requests, so that two random receipt numbers would probably be equal."""
     purse.meeting = 0.0
     requests = [
         {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}

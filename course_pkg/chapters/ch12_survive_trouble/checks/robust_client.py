@@ -29,13 +29,13 @@ TRY = 0.5  # TRY is the time limit in s for one attempt, as in the exercise.
 # The pause before the second attempt takes this many s; each further pause is twice as long as the previous
 # pause.
 PAUSE = 0.1
-SHORT = 1.0  # In the case in which the client must stop its attempts, the deadline comes after this many s.
+SHORT = 1.0  # If the till never responds, the deadline is this many s after the start of the payment.
 SLACK = 1.5  # On a busy machine, a payment may take this many s longer.
 AWAY = 0.5  # A killed till starts again after this many s, so the second attempt finds no server.
 A_LITTLE = 0.2  # This time in s is shorter than one attempt.
 KEEPING = 2.0  # The check waits at most this many s for a payment that ends in time.
-MOST = 5  # If the pauses grow slowly, at most this many attempts fail.
-LONG = 12.0  # In the case with MOST failing attempts, the deadline comes after this many s.
+MOST = 5  # In the longer test of the pauses, this many attempts fail.
+LONG = 12.0  # In the longer test of the pauses, the deadline is this many s after the start of the payment.
 
 SLOW_GROWTH = (
     "The pauses do not grow fast enough. After each failed call, make the next pause at least twice as long."
@@ -70,7 +70,7 @@ REPEATED = "Pay exactly once at a till that fails and recovers."
     },
 )
 def a_robust_client(context: CheckContext) -> None:
-    """Pay at a till that works, refuses, fails and recovers, or never responds."""
+    """Run pay() with a working, a refusing, a recovering, and a silent till."""
     books, name = Books(context), f"/{context.random.word()}"
     till = context.faulty(name, CHARGE, books.work)
     _pays(context, name, till, books)
@@ -223,7 +223,7 @@ def _repeats_a_bad_return(context: CheckContext, name: str, till: FaultyServer) 
 def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries: int) -> None:
     """If the till is slow, assert that the client made several attempts.
 
-    At a till that responds in time, the client must make only one attempt.
+    If the till responds in time, the client must make only one attempt.
     """
     context.require(
         "the receipt is returned at the end",
@@ -249,7 +249,10 @@ def _limits_each_try(context: CheckContext, name: str, till: FaultyServer, tries
 
 
 def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Books) -> None:
-    """Let three attempts fail; the third pause shows whether the pauses grow. Pauses may be longer."""
+    """Let three attempts fail, and assert that the third pause is long enough.
+
+    If the pauses grow slowly, test their growth with more failed attempts.
+    """
     before = len(till.arrivals)
     till.plan.extend([Fault(HangUp())] * 3)
     pays_after(context, name, till, books, "failing three times")
@@ -271,7 +274,7 @@ def _pauses_grow(context: CheckContext, name: str, till: FaultyServer, books: Bo
         actual=f"{pauses[2]:.2f} s",
         hints=SLOW_GROWTH,
     )
-    # The pauses grow slowly, so MOST failing attempts fit before the deadline.
+    # The pauses grow slowly, so MOST attempts can fail before the deadline.
     if pauses[2] < 8 * PAUSE:
         before = len(till.arrivals)
         till.plan.extend([Fault(HangUp())] * MOST)
@@ -316,10 +319,10 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
 
 
 def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) -> None:
-    """Let the till respond after the deadline, but within the 0.5 s of an attempt.
+    """Let the till respond after the deadline, but within the time limit of an attempt (0.5 s).
 
-    On a busy machine, a client may notice its deadline late. Therefore, the check repeats the payment until a
-    payment ends in time.
+    On a busy machine, even a right client may sometimes end after its deadline. Therefore, the check repeats
+    the payment until a payment ends in time.
     """
     returned: list[Json] = []
 

@@ -1,4 +1,4 @@
-"""12.1: a call with a time limit through a proxy that has no time limit."""
+"""12.1: a function that calls a service with a time limit."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Held:
         self._released = threading.Event()
 
     def release(self) -> None:
-        """Let the response go."""
+        """Allow the server to send the response."""
         self._released.set()
 
     def wait(self) -> None:
@@ -85,7 +85,7 @@ class Adder:
         self.requests = 0
 
     def __call__(self, request: Message) -> Act:
-        """Handle a request to the scripted server."""
+        """Handle a request to the server."""
         self.requests += 1
         total = {"sum": request.a + request.b}
         if isinstance(self.act, Late):
@@ -123,7 +123,10 @@ def a_call_with_a_limit(context: CheckContext) -> None:
 
 
 def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) -> None:
-    """Send the response of a call after its TimeoutError, and before the response of the next call."""
+    """Let one call reach its time limit, send its late response, and make the next call.
+
+    The next call must not return the late response.
+    """
     adder.act = held = Held()
     _gives_up(context, name, LIMIT)
     held.release()
@@ -132,7 +135,7 @@ def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) ->
 
 
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
-    """Mix responses, refusals and missing responses in a random order.
+    """Call a server that responds, refuses or does not respond, in a random order.
 
     The limit is always the same. Therefore, a function fails if it has a fixed list of results, or if it
     chooses the result by the limit.

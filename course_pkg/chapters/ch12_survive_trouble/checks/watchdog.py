@@ -15,14 +15,14 @@ from course_pkg.ros.protocol.master_api import MasterClient
 from course_pkg.waiting import wait_until
 
 EVERY = 0.1  # EVERY is the time in s between two polls of the watchdog.
-SELDOM = 0.5  # Even on a busy machine, the shortest of several pauses takes less than this many s.
+SELDOM = 0.5  # The shortest of several pauses must be less than this many s, even on a busy machine.
 CALLS = 4  # CALLS is the maximum number of calls to the master in one poll.
 SOON = 5.0  # SOON is the time limit in s for a few polls on a busy machine.
 # If the check cannot observe the polls of a watchdog, the check stops the master for this many s instead.
 AWAY = 3.0
 LEFT_ALONE = 0.8  # A wrong watchdog would register the name again within this many s.
 LATE = 0.5  # After stop(), the check waits this many s for a wrong registration.
-LAST = 2  # After stop() has returned, a watchdog may still make this many polls.
+LAST = 2  # A few polls may still follow stop(); this is their maximum number.
 READY = 15.0  # READY is the time limit in s for the start of a master.
 
 ENDLESS = "Watchdog(...) does not return. Run the endless loop in a thread that you start in __init__."
@@ -134,7 +134,8 @@ def _registers_again(
     polled = wait_until(lambda: watched.looks > looks + 2, AWAY)
     often = not polled or bool(wait_until(lambda: watched.looks > looks + 5, AWAY))
     master = second.start()
-    # A watchdog may detect a master in another way, for example with rosgraph.is_master_online.
+    # A watchdog can poll in a way that is not counted here, for example with rosgraph.is_master_online. The
+    # check therefore also accepts a watchdog that registers the service again.
     context.require(
         "without a master, the watchdog continues to poll",
         holds=polled or bool(wait_until(lambda: master.lookup_service(name), SOON)),
@@ -313,9 +314,10 @@ def _stops(context: CheckContext, watched: CheckedMaster) -> None:
 
 
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
-    """Call stop() during a poll; return "quiet" if the watchdog then registers nothing and polls no more.
+    """Call stop() during a poll; return "quiet" if the watchdog then stops correctly.
 
-    Otherwise, return what went wrong.
+    After stop(), a correct watchdog registers nothing, and makes at most LAST polls. Otherwise, the result
+    describes the mistake.
     """
     watched.hold()
     if not watched.inside.wait(SOON):

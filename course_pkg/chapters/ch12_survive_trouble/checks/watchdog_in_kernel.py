@@ -54,13 +54,14 @@ checked_watch = CheckedWatch()
 class CheckedMaster:
     """Calls a master for the watchdog, and records these calls.
 
-    After hold(), the master reports that it knows no services, so the watchdog registers its service again.
-    The registration waits until stop() has returned. If stop() itself waits for the end of the registration,
-    the registration waits for at most `slow` s.
+    After hold(), the master reports that it knows no services. The watchdog therefore registers its service
+    again. This registration waits until stop() has returned, but at most `slow` s, because stop() may wait
+    for the watchdog's thread.
     """
 
     def __init__(self, uri: str, slow: float) -> None:
-        # `addresses` contains the last arguments of each registration call.
+        # For each registration call, `addresses` contains the address of the service and the address of the
+        # node.
         self.addresses: list[list[str]] = []
         # `registered` contains the times of the registrations (s, time.monotonic()).
         self.registered: list[float] = []

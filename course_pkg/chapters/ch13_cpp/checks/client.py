@@ -60,7 +60,7 @@ REPEATS = "Call the service at most 3 times, with pauses. End with exit status 1
 def patient_client(context: CheckContext) -> None:
     """Run the client with servers that respond, refuse twice, always refuse or start late.
 
-    Also run the client without a server.
+    Run the client also without a server.
     """
     folder = compiled(context, FILE)
     shapes = _prints_the_answer(context, folder)
@@ -98,7 +98,8 @@ def _prints_the_answer(context: CheckContext, folder: Folder) -> set[str]:
 def _prints_a_volume_of_0(context: CheckContext, folder: Folder) -> None:
     """Respond with the volume 0.
 
-    Then only the return value of call() shows whether the client got a response.
+    The volume 0 does not show whether there was a response, so the program has to use the return value of
+    call().
     """
     name, sides, _ = _random_box(context)
     context.serve(name, BOX, lambda _: {"volume": 0.0})
@@ -240,7 +241,7 @@ def _random_box(context: CheckContext) -> tuple[str, list[float], float]:
 def _refusing(
     context: CheckContext, name: str, times: int, volume: float
 ) -> tuple[ScriptedServer, list[float]]:
-    """Start a server that refuses the first calls; return the server and the times of all calls (s)."""
+    """Start a server that refuses its first calls; return the server, and a list of call times (s)."""
     calls: list[float] = []
 
     def act(_: object) -> Refuse | dict[str, float]:

@@ -118,7 +118,10 @@ def _builds(context: CheckContext, finished: Finished) -> None:
 
 
 def _lacks_roscpp(text: str) -> bool:
-    """Return whether the program is linked with catkin_LIBRARIES although roscpp is not a component."""
+    """Return whether the program is linked with catkin's libraries, although `roscpp` is missing.
+
+    Without `roscpp` in find_package, the variable catkin_LIBRARIES does not contain the library roscpp.
+    """
     code = re.sub(r"#[^\n]*", "", text)
     return (
         bool(re.search(r"(?i)target_link_libraries\s*\([^)]*catkin_LIBRARIES", code)) and "roscpp" not in code

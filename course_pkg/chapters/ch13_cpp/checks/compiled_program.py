@@ -47,7 +47,10 @@ def compiled(context: CheckContext, file: str) -> Folder:
 
 
 def started(context: CheckContext, folder: Folder, service: str, name: str) -> Running:
-    """Start ./program with a random node name; its `service` (such as "box") is remapped to `name`."""
+    """Start ./program as a node with a random name.
+
+    The program's service `service`, such as "box", is remapped to the name `name`.
+    """
     line = ["./program", f"/{service}:={name}", f"__name:={context.random.word()}"]
     return folder.start(*line, worded=f"the program that serves /{service}")
 
@@ -68,7 +71,7 @@ def serves(context: CheckContext, running: Running, service: str, name: str, cod
 
 
 def _drops_the_service(code: str) -> bool:
-    """Return whether the code does not store the result of advertiseService, so that the service ends."""
+    """Return whether the code drops the result of advertiseService; the service then ends at once."""
     return bool(re.search(r"(?:^|[;{}])\s*\w+\.advertiseService", code))
 
 

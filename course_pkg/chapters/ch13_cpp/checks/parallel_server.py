@@ -16,7 +16,8 @@ THINKING, COUNTING = 0.4, 0.05  # These times in s are the same as in the file t
 # The time between two responses may be at most this many s. If all calls overlap, this time is shorter. If a
 # call has to wait for a thread, this time is longer.
 APART = 0.15
-# The check repeats six calls for this many s until they overlap. On a busy machine, a call may start late.
+# The check makes six simultaneous calls. If they do not all overlap, the check repeats them for at most this
+# many s. Several rounds can be necessary, because a call may start late on a busy machine.
 OVERLAPPING = 3.0
 
 START = f"""%%writefile {FILE}
@@ -128,7 +129,8 @@ def number_server(context: CheckContext) -> None:
 def _still_thinks(context: CheckContext, code: str, took: float) -> None:
     """Assert that the code of think() and count() is unchanged.
 
-    A call must also take as long as in the given file; `took` is its duration in s.
+    A call must also take at least as long as with the code that the exercise provides. `took` is the duration
+    of a call in s.
     """
     context.require(
         "think() and count() take as long as before",
@@ -149,8 +151,7 @@ def _still_thinks(context: CheckContext, code: str, took: float) -> None:
 def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str) -> None:
     """Assert that six simultaneous calls get six numbers; repeat the calls until all six overlap.
 
-    If a call waits for a thread, the think() of this call begins only when another call has ended. In this
-    case, the response is late by the duration of think().
+    If a call has to wait for a thread, its response is late by the duration of think().
     """
     numbers_to_come = itertools.count(2)
     took: list[float] = []

@@ -1,4 +1,4 @@
-"""13.2: a repaired C++ server; the given handler and main function contain mistakes."""
+"""13.2: a C++ server that the student repairs; its handler and its main function contain mistakes."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ RETURNED_FALSE = (
     start=START,
 )
 def box_server(context: CheckContext) -> None:
-    """Compile a copy, start it with a random service name, and call it."""
+    """Compile a copy of the student's file, start it with a random service name, and call the service."""
     folder = compiled(context, FILE)
     name = f"/{context.random.word()}"
     with started(context, folder, "box", name) as running:

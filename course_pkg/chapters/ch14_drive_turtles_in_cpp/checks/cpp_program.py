@@ -26,7 +26,7 @@ def cpp(name: str) -> TurtleProgram:
 
 
 def _compiled(context: CheckContext, program: TurtleProgram) -> BuiltPackage:
-    """Compile one file with catkin's options, because CMake would take some seconds longer."""
+    """Compile one file with catkin's compiler options; a build with CMake would take longer."""
     if missing := missing_for_cpp():
         raise ToolMissing(missing)
     copy = runnable_copy(context, program.package, [program.path])

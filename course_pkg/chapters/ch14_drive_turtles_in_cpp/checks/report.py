@@ -16,7 +16,7 @@ THREADS = cpp("report_threads")
 QUEUE = cpp("report_queue")
 SERVICES = ("battery", "report")
 GROUPS = 30  # number of groups of simultaneous calls
-FAILED = 2  # A call may fail in this number of groups.
+FAILED = 2  # Failed calls are accepted in this number of groups.
 FEW, MANY = 3, 8  # The numbers of simultaneous clients.
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 HANGS = (
@@ -143,9 +143,10 @@ def _code(context: CheckContext, program: TurtleProgram) -> str:
 
 
 def _leaves_battery_in_the_global_queue(code: str) -> bool:
-    """Return whether a NodeHandle creates /battery and certainly never gets a callback queue.
+    """Return whether /battery certainly uses the global queue.
 
-    The answer is False if the handle is initialized with a value, copied or passed to a function.
+    For the result True, three conditions must hold for the NodeHandle that creates /battery: it is declared
+    without arguments, it never gets another queue, and it is never copied or passed to a function.
     """
     created = re.search(r'(\w+)\s*\.\s*advertiseService\s*\(\s*"/?battery"', code)
     if created is None or not re.search(rf"NodeHandle\s+{created[1]}\s*;", code):
@@ -191,8 +192,8 @@ def _groups(report: Service, clients: int) -> Iterator[Reply]:
     """Yield the replies to many groups of simultaneous calls.
 
     On a busy machine, the calls of one group may arrive one after another, so one group is not enough. If
-    threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, a call may fail in
-    at most FAILED groups; after a deadlock, all later calls fail.
+    threads share a ServiceClient, about one of 5,000 calls fails in roscpp. Therefore, failed calls are
+    accepted in FAILED groups. After a deadlock, all later calls fail, so a deadlock is still found.
     """
     failed = 0
     for _ in range(GROUPS):

@@ -157,8 +157,8 @@ class Run:
     def end(self, within: float = ENDING) -> Run:
         """Wait until the program ends.
 
-        If the program still runs `within` s after its node was on the graph, stop the program; `status` is
-        then None.
+        The program is stopped if it still runs `within` s after its node was on the graph. In this case,
+        `status` is None.
         """
         self.is_on_the_graph()
         wait_until(self.has_ended, within, 0.05)
@@ -186,7 +186,7 @@ class Run:
 class _Detector:
     """A detector that finds a customer only if `patience` is equal to `wait`.
 
-    It refuses a call if `patience` is REFUSED.
+    The detector refuses a call if `patience` is REFUSED.
     """
 
     def __init__(self, wait: float) -> None:

@@ -13,7 +13,7 @@ FIRST = 1000  # The first joint state has this stamp in s; each following stamp 
 COUNT = 24
 EFFORT = 7  # The joint state with this index has an infinite effort.
 FEW_EFFORTS = 9  # The joint state with this index has fewer efforts than names.
-LARGE = 11  # The sum of the positions of the joint state with this index is too large for a float.
+LARGE = 11  # In the joint state with this index, the sum of all positions is too large for a float.
 EMPTY = 21  # The joint state with this index has no joints.
 
 
@@ -68,7 +68,8 @@ class JointState:
 def joint_states(context: CheckContext) -> list[JointState]:
     """Return joint states.
 
-    The first joint state, the last joint state, and each joint state after an invalid joint state are valid.
+    Some of these joint states are invalid. The first and the last joint state are valid, and each invalid
+    joint state is followed by a valid joint state.
     """
     states = [_joint_state(context, number) for number in range(COUNT)]
     states[3].position = states[3].position[:2]

@@ -18,7 +18,7 @@ START = f"%%writefile {FILE}\n..."
 HARDWARE = ("counter_camera", "robot", "receipt_printer")
 READING = 20.0  # READING is the time limit in s for roslaunch to read the file on a busy machine.
 OF_CASHIER = re.compile(r"^/robot_cashier/wait: *(.+)$", re.MULTILINE)
-# This code reads a launch file with the given arguments, and prints its nodes and parameters.
+# This code lets roslaunch read a launch file with the given arguments, and prints its nodes and parameters.
 READER = """
 import re, sys
 from roslaunch.config import load_config_default
@@ -199,7 +199,7 @@ def _number(text: str) -> float | None:
 def starts_programs(
     context: CheckContext, printed: str, assertion: str = "each node has its own program"
 ) -> None:
-    """Assert that each node in the output of READER runs the program with the node's name."""
+    """Assert that each node in READER's output runs the program that has the same name as the node."""
     for node, started in re.findall(r"^node /(\S+) (.*\S)", printed, re.MULTILINE):
         wanted = f"my_cashier {node}.py" if node in NODES else f"course_pkg {node}"
         context.require(

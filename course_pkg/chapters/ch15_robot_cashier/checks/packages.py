@@ -50,7 +50,7 @@ MY_CASHIER = Package(
 
 
 def program(name: str) -> Program:
-    """Return the script `name` of the package; `name` has no ending .py."""
+    """Return the script `name` of the package; `name` does not include ".py"."""
     return Program(f"scripts/{name}.py", name)
 
 

@@ -1,4 +1,4 @@
-"""Replaces the node receipt_printer: it prints lines, jams, refuses lines, and pauses."""
+"""Replaces the node receipt_printer; a check can let the printer jam, refuse lines, or wait."""
 
 from __future__ import annotations
 

@@ -19,8 +19,7 @@ def refused(
 ) -> None:
     """Assert that the service refuses a request with an error message that contains `word`.
 
-    The first hint is used if the call is not refused, and the second hint if the message does not contain the
-    word.
+    `hints` contains the hints for a call that is not refused, and for an error message without the word.
     """
     rest = [(matches(""), hints)] if isinstance(hints, str) else list(hints)
     bug = (matches("error processing|handler returned"), BUG)

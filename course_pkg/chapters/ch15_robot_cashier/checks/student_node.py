@@ -26,11 +26,11 @@ from course_pkg.workspace import explain
 
 # A node must be on the graph within this many s; it takes 1 s on an idle machine.
 STARTING = 40.0
-# All names of a node must exist this many s after its first name; if the node started late, it gets more
-# time.
+# All names of a node must exist this many s after its first name. A node that started late gets more time.
 COMPLETE = 3.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
-WITH_SLASH = "with_slash"  # The check remaps global names to names in this namespace.
+# The check remaps global names to this namespace, and thus detects programs that use global names.
+WITH_SLASH = "with_slash"
 MISSING = (
     "The node called a service that did not exist yet, and rospy.ServiceException ended the node. "
     "Catch this exception, and call the service again later."
@@ -40,7 +40,7 @@ OF_EVERY_NODE = ("/get_loggers", "/set_logger_level")
 
 @dataclass(frozen=True)
 class Interface:
-    """The relative names of the services and topics that a node serves, publishes on and subscribes to."""
+    """The relative names of a node's services, of its published topics, and of its subscribed topics."""
 
     services: Sequence[str] = ()
     publishes: Sequence[str] = ()
@@ -71,7 +71,9 @@ class Interface:
 def student_node(
     context: CheckContext, name: str, interface: Interface, *, calls: Sequence[str] = ()
 ) -> Iterator[str]:
-    """Start the student's program `name` with rosrun; yield its namespace when all its names exist.
+    """Start the student's program `name` with rosrun; when the node is complete, yield its namespace.
+
+    A node is complete if all names of its interface exist.
 
     `calls` are the services that the program calls as a client.
     """
@@ -139,10 +141,11 @@ def complete(
 
 
 def still(started: float, least: float) -> float:
-    """Call this when a node has its first name; return the time until which its other names must exist.
+    """Return the time until which a node must have all its names; it has its first name now.
 
-    The result is at least `least` s from now, and later on a busy machine. `started` and the result are in s
-    of time.monotonic().
+    The result is `least` s from now, or more if the start of the node took long.
+
+    `started` and the result are in s of time.monotonic().
     """
     now = time.monotonic()
     return now + max(least, 3 * (now - started))

@@ -1,4 +1,4 @@
-"""15.7, 15.8 and 15.9: a till that adds prices, prints each item first, and can be reset."""
+"""15.7, 15.8 and 15.9: a till that prints each item, adds its price, and can be reset."""
 
 from __future__ import annotations
 
@@ -130,7 +130,10 @@ PRINTED = "Print one line for each item, and store the price only after the line
     goals={SUMMED: 3, "Refuse negative cents. Write the item and the cents into the error message.": 1},
 )
 def the_sum(context: CheckContext) -> None:
-    """Set items, some of them twice; compare the total; send items that the till must refuse."""
+    """Send items to the till, send some of them again, and send items that the till must refuse.
+
+    Compare the total.
+    """
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         _totals(context, total, {}, COUNT, SUM)
@@ -226,7 +229,7 @@ ORDER = (
 def the_printed_till(context: CheckContext) -> None:
     """Set items with a printer that works or refuses; then set many items at the same time.
 
-    After that, set an item without a printer.
+    Later, set an item while no printer is running, and again with a new printer.
     """
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
@@ -397,9 +400,9 @@ LEFT = (
     },
 )
 def the_reset(context: CheckContext) -> None:
-    """Reset a till with items, a till without items, and a till with a free item.
+    """Reset a till with items, a till without items, and a till with an item that costs 0 cents.
 
-    Then reset during the printing of a line.
+    Later, call till/reset while a line is being printed, and after the printer has ended.
     """
     with running_till(context, TOTAL, RESET) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
@@ -407,7 +410,7 @@ def the_reset(context: CheckContext) -> None:
         _resets(context, reset, "already empty", EMPTY)
         items = _items(context, 2)
         paid = sum(cents for _, cents in items)
-        old = items[1][1]  # The first item is set with this price first, and later with its own price.
+        old = items[1][1]  # The first item gets this price, and later its own price.
         for item, cents in ((items[0][0], old), *items):
             till.set(item=item, cents=cents)
         _resets(context, reset, f"paid {paid} cents", [(f"paid {paid + old} cents", TWICE), (ANYTHING, PAID)])

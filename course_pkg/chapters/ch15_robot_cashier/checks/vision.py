@@ -73,7 +73,7 @@ SHOWN = "For each valid frame, publish whether the frame shows a customer."
     goals={SHOWN: 3, "Publish nothing for malformed frames.": 1},
 )
 def the_vision(context: CheckContext) -> None:
-    """Send frames with about as many dark points as the limit, padded frames, and malformed frames."""
+    """Send frames whose number of dark points is near the limit, padded frames, and invalid frames."""
     with student_node(context, NAME, INTERFACE) as space:
         seen = context.subscribe(f"{space}/{SEEN}", BOOL)
         seen.published()
@@ -89,7 +89,7 @@ def the_vision(context: CheckContext) -> None:
 
 @dataclass(frozen=True)
 class Frame:
-    """A valid frame, whether it shows a customer, and the hint for a wrong message."""
+    """A valid frame, the right message for this frame, and the hint for a wrong message."""
 
     assertion: str
     image: Image
@@ -145,7 +145,7 @@ def image_of(context: CheckContext, width: int, height: int, dark: int, style: S
 def _valid_frames(context: CheckContext, width: int, height: int) -> list[Frame]:
     tenth = width * height // 10
     odd_width, odd_height = width + 1, height + 1
-    odd_dark = odd_width * odd_height // 10  # This number is less than a tenth of the points, by 0.1.
+    odd_dark = odd_width * odd_height // 10  # This number is 0.1 less than a tenth of the points.
     return [
         Frame(assertion, image_of(context, width, height, dark, style), customer, hint)
         for assertion, dark, customer, style, hint in (

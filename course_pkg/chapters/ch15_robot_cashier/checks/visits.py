@@ -37,7 +37,7 @@ NEXT_CALL = 6.0  # NEXT_CALL is the time limit in s for the next call on a busy 
 
 
 class Step(NamedTuple):
-    """One call that the node must make: its `patience`, the response, and the name of this response."""
+    """One call that the node must make: the required `patience`, the response, and the response's name."""
 
     waits: bool  # If `waits` is True, `patience` must be ~wait; otherwise, `patience` must be 0.
     act: Act
@@ -198,7 +198,10 @@ def the_visits(context: CheckContext) -> None:
 
 
 class Alone:
-    """Tests a node without a till: a customer comes, and leaves after one call."""
+    """A detector for a test in which no till is running.
+
+    The detector reports a customer in the first call, and no customer in later calls.
+    """
 
     def __init__(self) -> None:
         self.patiences: list[float] = []
@@ -237,7 +240,7 @@ class Detector:
 
 
 class Till:
-    """Refuses the second reset; for each reset, it stores the number of earlier calls to the detector."""
+    """Refuses only its second call; for each call, stores how often the detector was called before."""
 
     def __init__(self, detector: Detector) -> None:
         self.resets: list[int] = []

@@ -1,4 +1,4 @@
-"""15.11: the student's whole system; the check launches it, uses it like a customer, and causes faults."""
+"""15.11: the student's whole system; the check launches it, acts as a customer, and causes faults."""
 
 from __future__ import annotations
 
@@ -28,12 +28,13 @@ from course_pkg.waiting import wait_until
 
 # On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
 STARTING = 40.0
-# All other nodes must exist this many s after the first node; if the first node started late, they get more
+# All other nodes must exist this many s after the first node. If the first node started late, they get more
 # time.
 COMPLETE = 6.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 REACTION = 5.0  # A greeting, a reset, or the detector's reaction to a change may take this many s.
-# Killed nodes must run again within this many s, or within twice the start time if this is longer.
+# Killed nodes must run again within this many s. If the system needed more than half of this time to start,
+# they get twice the start time.
 BACK = 8.0
 EVERY = 0.1  # EVERY is the time in s between two frames.
 WAIT = 1.5  # The argument `wait` has this value in s.
@@ -46,8 +47,8 @@ SERVICES = {
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
 SYSTEM = "roslaunch starts the whole system"  # The text is the title of an assertion.
-VISITS = 2  # After the restart, at most this many customers come until the system greets one of them.
-MANY = 6  # Two customers make this many simultaneous calls.
+VISITS = 2  # After the restart, the check lets up to this many customers come, until one is greeted.
+MANY = 6  # The number of simultaneous calls in the test with two customers.
 
 NOT_LAUNCHED = (
     "The command roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the "
@@ -100,7 +101,7 @@ AFTERWARDS = (
     start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
 )
 def the_whole_system(context: CheckContext) -> None:
-    """Use the system like two customers, cause faults of printer and camera, and kill all nodes."""
+    """Let two customers use the system, let the printer and the camera fail, and kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
     command = f"python3 -c '{READER}' {FILE} hardware:=false"
     programs = package.start(command, worded="roslaunch")
@@ -131,7 +132,7 @@ def the_whole_system(context: CheckContext) -> None:
 class Counter:
     """The camera of the counter.
 
-    The camera publishes a frame every 0.1 s, even if no customer is there; it can also publish no frames.
+    The camera publishes a frame every 0.1 s, with or without a customer. A check can also stop the frames.
     """
 
     def __init__(self, context: CheckContext, topic: str) -> None:
@@ -219,7 +220,10 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer soon returns `customer`; the report shows `hint` if a call fails."""
+        """Return whether detect_customer soon returns `customer`.
+
+        The report shows `hint` if a call fails.
+        """
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:
@@ -332,7 +336,7 @@ class Shop:
 
 
 def _restarts_killed_nodes(context: CheckContext, package: BuiltPackage, space: str, within: float) -> None:
-    """Kill the four nodes; each node must run again within `within` s, as a new process."""
+    """Kill the four nodes; each node must run again as a new process within `within` s."""
     before = {node: _pid(context.look(), f"{space}/{node}") for node in NODES}
     package.folder.command("kill", "-9", *map(str, before.values()), worded="kill -9 for each node")
 

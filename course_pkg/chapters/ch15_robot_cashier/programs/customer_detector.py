@@ -27,9 +27,10 @@ class CustomerDetector:
     def handle_detect(self, request: AwaitCustomerRequest) -> bool:
         """Return True as soon as there is a customer, and False after `patience` s.
 
-        Raise ServiceException if `patience` is out of range, or if the camera sends no messages.
+        Raises ServiceException if `patience` is out of range, or if the camera sends no messages.
         """
-        if not 0.0 <= request.patience <= LONGEST:  # The condition is False for NaN.
+        # NaN is refused, too, because a comparison with NaN is False.
+        if not 0.0 <= request.patience <= LONGEST:
             message = f"patience is {request.patience:g} s, but it has to be from 0 to {LONGEST:g} s"
             raise rospy.ServiceException(message)
         try:

@@ -60,22 +60,22 @@ class RobotCashier:
                 self._empty_till()
 
     def _is_there(self, wait: float, otherwise: bool = False) -> bool:
-        """Return whether a customer comes within `wait` s; if the call fails, return `otherwise`."""
+        """Return whether a customer comes within `wait` s; after a failed call, return `otherwise`."""
         try:
             return bool(self._detect.call(patience=wait, timeout=wait + GRACE).found)
         except FAILED as error:
-            if not self._over.is_set():  # If the node was not shut down, the failure has another cause.
+            if not self._over.is_set():  # After a shutdown, the error is expected and is not logged.
                 rospy.logwarn_throttle(QUIET, "Cannot detect customers, trying again: %s", error)
             self._over.wait(AGAIN)
             return otherwise
 
     def _await_departure(self) -> None:
-        """Return when the customer has left. A failed call does not mean that the customer has left."""
+        """Wait until the customer has left; after a failed call, continue to wait."""
         while not self._over.wait(POLL) and self._is_there(0, otherwise=True):
             pass
 
     def _empty_till(self) -> None:
-        """Reset the till once; without a till, the cashier continues."""
+        """Reset the till once; if this fails, the cashier continues."""
         try:
             self._reset.call(timeout=GRACE)
         except FAILED as error:

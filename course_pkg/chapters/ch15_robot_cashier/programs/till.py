@@ -1,8 +1,8 @@
 """The node `till`: adds the prices of a customer's items.
 
-The node has three services: `till/set` (course_pkg/TillSet) sets the price of an item, `till/total`
-(course_pkg/TillTotal) returns the sum, and `till/reset` (std_srvs/Trigger) removes all items. A price is
-added only after `print_line` (course_pkg/PrintLine) has printed it.
+The service `till/set` (course_pkg/TillSet) sets the price of an item, `till/total` (course_pkg/TillTotal)
+returns the sum, and `till/reset` (std_srvs/Trigger) removes all items. A price is added only after its line
+has been printed with the service `print_line` (course_pkg/PrintLine).
 """
 
 from __future__ import annotations

@@ -20,13 +20,15 @@ from course_pkg.ros.node.action_server import ActionServer
 
 WAIT = 2.0  # The client waits this many s for an action server.
 LONG = 6.0  # A robot needs this many s for a goal, and the client cancels this goal.
-PROMPT = 4.0  # If the robot needs 0.3 s for a goal, the client may take this many s on a busy machine.
+PROMPT = 4.0  # With a robot that needs 0.3 s, the whole call may take this many s on a busy machine.
 ENOUGH = 5.0  # If the robot finishes in time, the client has this time limit in s.
 BRIEF = 0.2  # If the robot ignores the cancellation, the client has this time limit in s.
 LATE = 0.6  # A late robot starts this many s after the call.
-SECONDS = 0.8  # The client must cancel the goal after this many s; the time is not a whole number.
+# The client must cancel the goal after this many s. The number is not whole, so a client that rounds it
+# fails.
+SECONDS = 0.8
 SLACK = 3.0  # On a busy machine, a call may take this many s longer.
-LONGEST = 4.7  # If a client must give up after WAIT, the client may take this many s on a busy machine.
+LONGEST = 4.7  # If no robot runs, the call may take this many s on a busy machine.
 BOUND = (
     "A wait without a time limit did not end. Pass a rospy.Duration above 0 to both wait_for_server "
     "and wait_for_result."
@@ -69,7 +71,7 @@ class Robot:
         self.cancelled_all = self.cancelled_all or not cancelled.id
 
     def execute(self, goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
-        """Finish after the robot's time or after a cancellation; the result is the same in both cases."""
+        """Finish after `seconds` s, or after a cancellation; the result is the same in both cases."""
         self.goals.append(goal)
         began = time.monotonic()
         if self._stubborn:
@@ -106,7 +108,11 @@ CANCELLED = "Cancel the goal when the time limit is over, and return the number 
     goals=[FETCHED, CANCELLED, "Wait at most 2 s for the action server."],
 )
 def bounded_goal(context: CheckContext) -> None:
-    """Run the function without a robot, and with robots that are fast, slow, late, or cannot be cancelled."""
+    """Run the function without a robot, and with robots that behave differently.
+
+    The robots are a fast robot, a slow robot, a robot that starts late, and a robot that ignores
+    cancellations.
+    """
     _in_time(context)
     context.fulfilled(FETCHED)
     _too_late(context)
@@ -272,7 +278,7 @@ def _goes_on(context: CheckContext) -> None:
 
 
 def _comes(context: CheckContext) -> None:
-    """Start a robot while the client is waiting for the action server; this robot aborts the goal."""
+    """Start a robot while the client waits for the action server; this robot aborts its goal."""
     name, fetched = f"/{context.random.word()}", context.random.integer(20, 90)
     robot = Robot(fetched, 0.1, aborts=True)
     with ExitStack() as ending:
@@ -302,7 +308,8 @@ def _comes(context: CheckContext) -> None:
                 "a server that starts within 2 s gets the goal",
                 expected=str(fetched),
                 actual=str(result.returned()),
-                # If the client waited for a result, then it sent the goal before the robot started.
+                # A call of this length means that the client waited for a result: it did not wait for the
+                # server, and its goal was lost.
                 hint=UNSENT if result.took > ENOUGH else too_short,
             )
 

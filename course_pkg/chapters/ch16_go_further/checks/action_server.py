@@ -140,7 +140,7 @@ def _wrong_feedback(things: int) -> Hints:
 
 
 def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
-    """Send a quick goal; if it was too slow, the machine may be busy, so send the goal again."""
+    """Send a quick goal. If the goal takes too long, send it again, because the machine may be busy."""
     things = context.random.integer(3, 4)
     each = context.random.number(*QUICK, digits=3)
     limit = Deadline(BUSY)
@@ -173,7 +173,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
 
 
 def _pace(at: list[float], alone: float) -> float:
-    """Return the median time between two messages in s, or `alone` for fewer than two messages."""
+    """Return the median time between two messages in s, or `alone` if there is only one message."""
     gaps = [after - before for before, after in itertools.pairwise(at)]
     return statistics.median(gaps) if gaps else alone
 
@@ -188,7 +188,7 @@ def _sends_feedback(context: CheckContext, feedback: Subscription, before: int, 
 
 
 def _is_on_time(context: CheckContext, at: list[float], began: float, each: float) -> None:
-    """Assert that each feedback message comes at the time when a thing has been fetched."""
+    """Assert that each feedback message arrives when the robot has fetched one more thing."""
     context.require(
         "the feedback arrives while the goal is executed",
         holds=at[-1] - at[0] > 0.4 * (len(at) - 1) * each,
@@ -345,7 +345,8 @@ def _ends_as(context: CheckContext, client: actionlib.SimpleActionClient, assert
 def _is_over(client: actionlib.SimpleActionClient, timeout: float) -> bool:
     """Return whether the goal ends within `timeout` s.
 
-    The client's method wait_for_result() misses the end of a goal that ends before send_goal() returns.
+    The client's method wait_for_result() cannot be used: if a goal ends before send_goal() returns, this
+    method does not notice its end.
     """
     handle = client.gh
     assert handle is not None

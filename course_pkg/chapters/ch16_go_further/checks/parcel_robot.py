@@ -1,6 +1,6 @@
 """16.4: a whole node with a topic, a service, an action and a parameter.
 
-The student decides which name is a topic, a service or an action.
+The student decides for each name whether it is a topic, a service or an action.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ from course_pkg.waiting import wait_until
 
 USUAL = 5  # Without an argument, the robot has the capacity for this many parcels.
 FEW = 4  # The first robot has the capacity for this many parcels, which is less than the default.
-PARCELS = 3  # A delivery has this many parcels, which is less than the smallest capacity.
+PARCELS = 3  # Each delivery has this many parcels, which both robots can carry.
 EACH = 0.2  # A robot needs this many s for one parcel.
 PERIOD = 0.2  # The robot publishes the charge of its battery every PERIOD s.
-LONG = 2.5  # In the last goal with too many parcels, each parcel would take this many s.
+LONG = 2.5  # In the last goal, which has too many parcels, each parcel would need this many s.
 ENDING = 4.0  # ENDING is the time limit in s for the end of a goal.
-SETTLING = 1.0  # After a delivery, the charge of the battery is right within this many s.
+SETTLING = 1.0  # After a delivery, the right charge must be published within this many s.
 NOT_AT_ONCE = 0.9  # A goal that took at least this fraction of its full time was not aborted immediately.
 
 START = f"""%%writefile {FILE}
@@ -64,7 +64,10 @@ LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows
     goals=[DELIVERED, STOPPED, LIMITED, "Open and close the door."],
 )
 def parcel_robot(context: CheckContext) -> None:
-    """Start robots with and without a capacity; read the battery, move the door, send and cancel goals."""
+    """Start two robots, with and without a capacity as argument, and use all their names.
+
+    The check reads the battery, opens and closes the door, and sends and cancels goals.
+    """
     folder = context.folder(files=[FILE])
     with started(context, folder, f"_capacity:={FEW}") as first, started(context, folder) as second:
         battery = context.subscribe(first.name("battery"), "std_msgs/Float32")
@@ -263,9 +266,12 @@ def _cancels(
 
 
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
-    """Assert that the impossible goal, which came before the last goal, did not change the charge."""
+    """Assert that a goal with too many parcels did not change the charge.
+
+    The goal with too many parcels came before the last goal.
+    """
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
-    battery.during(3 * PERIOD)  # A wrong charge may be published only for a short time.
+    battery.during(3 * PERIOD)  # Wait for further messages, because a wrong charge may follow.
     context.expect(
         "an impossible delivery delivers nothing",
         expected=f"a charge of {charge:g}",
@@ -294,7 +300,8 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
             )
         ],
     )
-    time.sleep(2 * EACH)  # In this time, a function that continues after set_aborted would deliver a parcel.
+    # A function that does not return after set_aborted would deliver a parcel in this time.
+    time.sleep(2 * EACH)
     client.send_goal(FetchGoal(things=capacity, seconds=0.0))
     _ends_as(
         context,
@@ -312,7 +319,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
 def _aborts_at_once(
     context: CheckContext, client: actionlib.SimpleActionClient, capacity: int, each: float
 ) -> None:
-    """Send a goal with one parcel too many; the delivery of one parcel would take `each` s."""
+    """Send a goal with one parcel too many and a time of `each` s per parcel."""
     began = time.monotonic()
     client.send_goal(FetchGoal(things=capacity + 1, seconds=each))
     _ends_as(

@@ -1,6 +1,6 @@
 """Functions that start the student's parcel robot.
 
-They also find out whether each name is a topic, a service or an action.
+The functions also find out whether each name is a topic, a service or an action.
 """
 
 from __future__ import annotations
@@ -71,7 +71,10 @@ def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
 
 
 def offers_what_fits(context: CheckContext, robot: Robot) -> None:
-    """Wait until the robot has its three names; assert that each name is of the right kind."""
+    """Wait until the robot has registered its three names, and assert that each has the right kind.
+
+    The kind of a name is topic, service or action.
+    """
     deadline = time.monotonic() + at_this_load(STARTING)
     found: dict[str, str] = {}
     while time.monotonic() < deadline:
@@ -120,7 +123,7 @@ def _kind(seen: Snapshot, robot: Robot, full: str) -> str:
 
 
 def _elsewhere(seen: Snapshot, robot: Robot, name: str) -> bool:
-    """Return whether the robot uses an absolute or a private name instead of the relative name."""
+    """Return whether the robot uses `name` as an absolute or private name, instead of a relative name."""
     return bool(_kind(seen, robot, f"/{name}") or _kind(seen, robot, f"{robot.node}/{name}"))
 
 

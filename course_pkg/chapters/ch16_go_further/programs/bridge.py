@@ -1,4 +1,4 @@
-"""The node `bridge`: programs without ROS can call services through it, with JSON over a websocket.
+"""The node `bridge`: programs without ROS call services with JSON messages over a websocket.
 
 The bridge listens only on this computer. The bridge implements the service calls of the rosbridge protocol
 (sections 3.4.6 and 3.4.7 of

@@ -1,7 +1,8 @@
 """The node `fetcher`: a robot with the action `fetch`; it fetches the things of a goal one by one.
 
-A goal contains the number of `things`, and the `seconds` for each thing. The robot publishes feedback after
-each thing. The result contains the number of fetched things, even after a cancellation.
+A goal contains the number of things (`things`), and the time for each thing in s (`seconds`). The robot
+publishes feedback after each thing. The result contains the number of fetched things, even after a
+cancellation.
 """
 
 from __future__ import annotations
@@ -16,7 +17,10 @@ LONGEST = 60.0  # LONGEST is the maximum time in s for a single thing.
 
 
 def fetch(goal: FetchGoal, server: actionlib.SimpleActionServer) -> None:
-    """Execute `goal`; stop after the current thing if the goal is cancelled; abort an impossible goal."""
+    """Execute `goal`; a goal with invalid numbers is aborted.
+
+    If the goal is cancelled, the robot stops after the current thing.
+    """
     if goal.things < 0 or not 0.0 <= goal.seconds <= LONGEST:
         server.set_aborted(FetchResult(), f"no robot fetches {goal.things} things in {goal.seconds:g} s each")
         return
