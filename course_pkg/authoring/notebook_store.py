@@ -45,7 +45,7 @@ class NotebookStore:
             yield from _if_different(self.root / "notebooks" / path.name, text_of(derived(solution)))
 
     def orphans(self) -> list[Path]:
-        """Return the students' notebooks without a solution."""
+        """Return the students' notebooks for which `solutions` contains no notebook."""
         names = {path.name for path in self.solutions()}
         derived = sorted((self.root / "notebooks").glob("[0-9][0-9]_*.ipynb"))
         return [path for path in derived if path.name not in names]

@@ -208,7 +208,7 @@ class Callback(TeacherHandler):
 
 
 class About(Handler):
-    """Sends the settings of the service that students may know."""
+    """Sends those settings of the service that students are allowed to see."""
 
     async def get(self) -> None:
         """Send the teacher's name, and after how many days results are deleted."""

@@ -97,7 +97,7 @@ def server_port(ip: str, candidates: Sequence[int]) -> int:
 class _Address(NamedTuple):
     """The address at which the server listens, and its token.
 
-    Both come from a file that the server writes.
+    The server writes the address and the token into a file.
     """
 
     url: str

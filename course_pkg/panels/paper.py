@@ -1,7 +1,7 @@
-"""Paper for the still picture of a panel: rows from top to bottom, as an SVG that needs no script.
+"""Draws the still picture of a panel as an SVG without scripts, row by row from top to bottom.
 
-A viewer of notebooks puts the picture into its page, so the picture has no ids and no style sheet, which
-another picture of the page could meet. Its colours are those of look.css in the light theme.
+A viewer of notebooks inserts several pictures into one page. Ids and style sheets of different pictures could
+conflict, so a picture contains neither. The colours are the colours of the light theme in look.css.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 from xml.etree.ElementTree import Element, SubElement, tostring
 
-# The traits of a panel, by name: JSON, as a page gets them.
+# The keys are the names of a panel's traits, and the values are JSON data.
 State: TypeAlias = Mapping[str, Any]
 
 GROUND, RAISED, WASH = "#ffffff", "#f4f6f8", "#e8f0fb"
@@ -22,11 +22,12 @@ SANS = "Arial, Helvetica, 'Liberation Sans', sans-serif"
 MONO = "Menlo, Consolas, 'DejaVu Sans Mono', monospace"
 
 WIDTH = 760.0  # px
-EDGES = 16.0  # px from the border of the picture to what is in it
-SIZE, SMALL = 13.0, 12.0  # px of a letter
-LEADING = 1.5  # the height of a line, to the size of its letters
-MONO_LETTER = 0.61  # the width of a letter, to its size
-# The widths of letters, to their size, in DejaVu Sans, which is the widest of the fonts that may be taken.
+EDGES = 16.0  # distance in px between the border of the picture and its content
+SIZE, SMALL = 13.0, 12.0  # font sizes in px
+LEADING = 1.5  # height of a line divided by the font size
+MONO_LETTER = 0.61  # width of a letter of the monospaced font divided by the font size
+# Widths of letters divided by the font size. The font is DejaVu Sans, because a viewer of the picture may use
+# this font, and the other possible fonts are narrower.
 WIDTHS = {
     **dict.fromkeys("iljI'|.,:; ", 0.32),
     **dict.fromkeys('frt()[]/`-!"', 0.41),
@@ -40,7 +41,7 @@ MARKED = re.compile(r"`([^`]*)`|\*([^*]+)\*")
 
 @dataclass(frozen=True)
 class Style:
-    """How a text looks."""
+    """The font and the colour of a text."""
 
     size: float = SIZE
     bold: bool = False
@@ -48,7 +49,7 @@ class Style:
     colour: str = TEXT
 
     def width(self, text: str) -> float:
-        """Return about how wide a text is (px), in the widest of the fonts that a viewer may take."""
+        """Return the approximate width of a text in px, for the widest font that a viewer may use."""
         if self.mono:
             return len(text) * MONO_LETTER * self.size
         letters = sum(WIDTHS.get(each, CAPITAL if each.isupper() else LETTER) for each in text)
@@ -66,7 +67,7 @@ CODE, FAINT_CODE = Style(SMALL, mono=True), Style(SMALL, mono=True, colour=MUTED
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table: where it begins, how wide its texts may become (px), and how they look."""
+    """A column of a table: its left edge (px), the maximum width of its texts (px), and their style."""
 
     left: float
     width: float
@@ -74,7 +75,7 @@ class Column:
 
 
 class Paper:
-    """A picture that grows downwards; `y` is where the next row begins (px)."""
+    """A picture to which rows are added at the bottom; `y` is the top of the next row in px."""
 
     def __init__(self, title: str, width: float = WIDTH) -> None:
         self.title = title
@@ -90,14 +91,14 @@ class Paper:
     def write(
         self, text: str, style: Style = PLAIN, *, left: float = EDGES, width: float | None = None
     ) -> None:
-        """Write a paragraph, in as many lines as it needs, and go below it."""
+        """Write a paragraph in one or more lines, and move `y` below the paragraph."""
         lines = wrapped(text, style, (self.width - EDGES - left) if width is None else width)
         for line in lines:
             self.put(line, left, self.y + style.height / 2, style)
             self.y += style.height
 
     def put(self, text: str, x: float, middle: float, style: Style = PLAIN, *, anchor: str = "start") -> None:
-        """Write one line whose letters have their middle at the height `middle`; `y` stays."""
+        """Write one line. `middle` is the y coordinate of the middle of its letters. `y` does not change."""
         attributes = {
             "x": number(x),
             "y": number(middle + 0.35 * style.size),
@@ -112,12 +113,12 @@ class Paper:
         self.add("text", **attributes).text = clean(text)
 
     def label(self, label: str, text: str, *, left: float = 112.0, mono: bool = True) -> None:
-        """Write a label, and beside it a text."""
+        """Write a label, and write a text to the right of the label."""
         self.put(label, EDGES, self.y + CODE.height / 2, FAINT)
         self.write(text, CODE if mono else PLAIN, left=EDGES + left)
 
     def row(self, columns: Sequence[Column], texts: Sequence[str], *, room: float = 4.0) -> None:
-        """Write texts side by side, each below the head of its column, and go below the highest."""
+        """Write one text into each column of a table, and move `y` below the highest text."""
         top = low = self.y
         for column, text in zip(columns, texts, strict=True):
             self.y = top
@@ -126,12 +127,12 @@ class Paper:
         self.y = low + room
 
     def input(self, text: str, *, left: float, width: float) -> None:
-        """Draw a field to type into, with what is in it; `y` stays."""
+        """Draw an input field and the text in it; `y` does not change."""
         self.box(left, self.y, width, 26, fill=GROUND, edge=EDGE)
         self.put(cut(text, CODE, width - 14), left + 8, self.y + 13, CODE)
 
     def button(self, text: str, left: float, *, main: bool = False) -> float:
-        """Draw a button, and return where the next one can begin; `y` stays."""
+        """Draw a button, and return the left edge of the next button; `y` does not change."""
         style = Style(colour=GROUND if main else TEXT)
         width = style.width(text) + 24
         self.box(left, self.y, width, 28, fill=ACCENT if main else RAISED, edge=ACCENT if main else EDGE)
@@ -139,7 +140,7 @@ class Paper:
         return left + width + 8
 
     def radio(self, text: str, left: float, *, chosen: bool = False) -> float:
-        """Draw one of several options, and return where the next one can begin; `y` stays."""
+        """Draw one of several options, and return the left edge of the next option; `y` does not change."""
         self.add(
             "circle", cx=left + 7, cy=self.y + 10, r=6, fill=GROUND, stroke=ACCENT if chosen else EDGE
         ).set("stroke-width", "1.5")
@@ -149,7 +150,7 @@ class Paper:
         return left + 20 + PLAIN.width(text) + 20
 
     def options(self, texts: Iterable[str], chosen: str = "", *, left: float = EDGES) -> None:
-        """Draw all options of a question, side by side as far as there is room, and go below them."""
+        """Draw the options of a question in one or more rows, and move `y` below the options."""
         at = left
         for text in texts:
             if at > left and at + 20 + PLAIN.width(text) > self.width - EDGES:
@@ -164,7 +165,7 @@ class Paper:
         return self.add("rect", x=x, y=y, width=width, height=height, rx=rx, fill=fill, stroke=edge)
 
     def band(self, text: str, *, bad: bool = False) -> None:
-        """Write a paragraph on a coloured ground from edge to edge."""
+        """Write a paragraph on a coloured background that is as wide as the picture."""
         lines = wrapped(text, PLAIN, self.inside)
         self.box(1, self.y, self.width - 2, 12 + len(lines) * PLAIN.height, fill=ERROR_WASH if bad else WASH)
         self.y += 6
@@ -172,13 +173,13 @@ class Paper:
         self.y += 14
 
     def rule(self, room: float = 8.0) -> None:
-        """Draw a line from edge to edge."""
+        """Draw a horizontal line across the whole picture."""
         self.y += room
         self.add("path", d=f"M1 {number(self.y)}H{number(self.width - 1)}", stroke=LINE)
         self.y += room
 
     def add(self, tag: str, **attributes: float | str) -> Element:
-        """Add an element and return it; an underscore in a name of an attribute stands for a hyphen."""
+        """Add an element, and return it. In the names of attributes, each underscore becomes a hyphen."""
         made = Element(tag)
         for name, value in attributes.items():
             made.set(name.replace("_", "-"), value if isinstance(value, str) else number(value))
@@ -186,11 +187,11 @@ class Paper:
         return made
 
     def put_in(self, part: Element) -> None:
-        """Add an element that was made elsewhere."""
+        """Add an element that the caller has created."""
         self._parts.append(part)
 
     def svg(self, description: str = "") -> str:
-        """Return the picture, an element on each line, so that a change of it can be read."""
+        """Return the picture as an SVG with one element per line, so that diffs are readable."""
         width, height = number(self.width), number(self.y + 12)
         root = Element("svg", {"xmlns": "http://www.w3.org/2000/svg", "viewBox": f"0 0 {width} {height}"})
         root.attrib |= {"width": width, "height": height, "role": "img"}
@@ -207,17 +208,17 @@ class Paper:
 
 
 def clean(text: str) -> str:
-    """Return a text without the characters that XML has no place for."""
+    """Replace the characters that XML does not allow."""
     return NOT_IN_XML.sub("\N{REPLACEMENT CHARACTER}", text)
 
 
 def prose(text: str) -> str:
-    """Return a text of the panels without the marks for code and for emphasis."""
+    """Remove the Markdown characters for code and emphasis from a text."""
     return MARKED.sub(lambda found: found[1] or found[2] or "", text)
 
 
 def cut(text: str, style: Style, width: float) -> str:
-    """Return a text, shortened if it is wider than `width` px."""
+    """Return the text; if it is wider than `width` px, shorten the text, and end it with an ellipsis."""
     if style.width(text) <= width:
         return text
     while text and style.width(text + "…") > width:
@@ -226,7 +227,7 @@ def cut(text: str, style: Style, width: float) -> str:
 
 
 def wrapped(text: str, style: Style, width: float) -> list[str]:
-    """Return the lines of a text, none wider than `width` px; the indent of a line stays."""
+    """Split a text into lines of at most `width` px. The lines keep their indentation."""
     lines: list[str] = []
     for paragraph in clean(text).split("\n"):
         indent = paragraph[: len(paragraph) - len(paragraph.lstrip())].replace(" ", "\N{NO-BREAK SPACE}")
@@ -243,7 +244,7 @@ def wrapped(text: str, style: Style, width: float) -> list[str]:
 
 
 def _pieces(word: str, style: Style, width: float) -> list[str]:
-    """Return a word, in several pieces if it alone is too wide."""
+    """Split a word into several pieces if the word is wider than `width` px."""
     most = max(1, int(width / style.width("n")))
     if style.width(word) <= width:
         return [word]
@@ -251,5 +252,5 @@ def _pieces(word: str, style: Style, width: float) -> list[str]:
 
 
 def number(value: float) -> str:
-    """Return a number of px as an SVG has it."""
+    """Return a number of px as text with at most one decimal place."""
     return f"{value:.1f}".removesuffix(".0")

@@ -6,6 +6,7 @@ kernel, when a notebook is saved. A kernel needs no time for pictures.
 
 from __future__ import annotations
 
+import ast
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -24,6 +25,8 @@ from course_pkg.panels.turtles.still import still as turtles
 from course_pkg.panels.types.still import still as types
 from course_pkg.panels.wire.still import still as wire
 
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+
 
 class Still(NamedTuple):
     """The function that draws the picture of a panel.
@@ -36,13 +39,22 @@ class Still(NamedTuple):
 
     @property
     def code(self) -> str:
-        """The source code of the panel's modules and of paper.py.
+        """The source code of the panel's modules and of paper.py, without comments and docstrings.
 
         If this source code changes, a picture with measured times is drawn again.
         """
         folder = Path(str(sys.modules[self.draw.__module__].__file__)).parent
         files = (*sorted(folder.glob("*.py")), Path(paper.__file__))
-        return "".join(file.read_text("utf-8") for file in files)
+        return "\n".join(_without_docstrings(file.read_text("utf-8")) for file in files)
+
+
+def _without_docstrings(source: str) -> str:
+    """Return the source code of a module without comments and docstrings."""
+    module = ast.parse(source)
+    for node in ast.walk(module):
+        if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
+            node.body = node.body[1:] or [ast.Pass()]
+    return ast.unparse(module)
 
 
 # The keys are the folders of the panels. The saved state of a widget contains the same folder name.

@@ -1,4 +1,4 @@
-"""The commands `course doctor` and `course lock`, and the class of all commands."""
+"""The commands `course doctor` and `course lock`, and the base class of all commands."""
 
 from __future__ import annotations
 

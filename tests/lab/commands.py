@@ -104,6 +104,14 @@ def own_namespace(kind: str) -> str:
     return os.readlink(f"/proc/self/ns/{kind}")
 
 
+def network_namespace(pid: int) -> str:
+    """Return the network namespace of a process, or "" if the process has ended."""
+    try:
+        return os.readlink(f"/proc/{pid}/ns/net")
+    except OSError:
+        return ""
+
+
 def listening(pids: list[int]) -> set[tuple[str, int]]:
     """Return the IPv4 addresses and ports on which the processes listen, in all networks."""
     found = set()

@@ -52,7 +52,7 @@ def reader(
 
 
 def pages(site: Path) -> list[str]:
-    """Return the file names of a site's pages, except the book."""
+    """Return the file names of a site's pages, except book.html, which contains all chapters."""
     return sorted(path.name for path in site.glob("*.html") if path.name != "book.html")
 
 

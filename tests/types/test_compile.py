@@ -1,4 +1,4 @@
-"""Tests that a type made from text is equal to the built type."""
+"""Tests that a type from the text of a definition is equal to the type that catkin built."""
 
 from __future__ import annotations
 

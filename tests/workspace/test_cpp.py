@@ -55,7 +55,7 @@ MISTAKES = {
     "no return": (
         "bool measure(int& n) { n = 1; }\nint main() {}\n",
         1,
-        "return true or return false at",
+        "at the end of every branch of the function",
     ),
     "a semicolon lost": ("int main() {\n  int n = 1\n  return n;\n}\n", 3, "for a missing ; or bracket"),
     "a name misspelt": ("int main() {\n  return cuont;\n}\n", 2, "The compiler does not know the name cuont"),

@@ -120,8 +120,8 @@ def run_catkin_make(folder: Folder, before: str, options: str = "", *, within: f
 def copied(context: CheckContext, package: Package, *, examined: str, alone: bool = False) -> BuiltPackage:
     """Copy a package that needs no build, because it contains only Python programs and launch files.
 
-    rosrun and roslaunch find its programs in `src`, as in a built workspace. If `alone` is true, only the
-    file `examined` comes from the student.
+    rosrun and roslaunch find the package's programs in `src`, as in a built workspace. If `alone` is true,
+    only the file `examined` comes from the student.
     """
     files = [package.path(examined) if alone else package.folder]
     folder = context.folder(files=files, texts={**_own_files(package, examined), SETUP: IN_SRC})

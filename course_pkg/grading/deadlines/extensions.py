@@ -25,7 +25,7 @@ class Extensions:
 
 
 def extensions_of(people: Mapping[str, Person]) -> Extensions:
-    """Return the extensions of the students in the roster; an empty cell means no extension.
+    """Return the deadline extension of each student in the roster; an empty cell means no extension.
 
     Raises GradingError if a value is not a number of days.
     """

@@ -22,8 +22,7 @@ from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
 from course_pkg.grading.flags.tokens import cpp_statements
 from course_pkg.grading.flags.work import Answer
 
-# If a function, a class or another block contains at least this many statements, these statements together
-# are one feature.
+# Statements of a function, class or other block count as one feature if there are at least this many.
 BLOCK = 3
 PAIRS = 400  # One name produces at most this many pairs, because a name in many lines is not characteristic.
 LONG = 12  # A characteristic string has at least this many characters.

@@ -98,7 +98,7 @@ def _with_magic(source: str, first_line: str) -> tuple[str, list[str]]:
 
 
 def _without_markers(source: str) -> tuple[str, list[str]]:
-    """Put each marker in brackets; the text is split into lines with str.splitlines, as in nbval."""
+    """Put brackets around each nbval marker. Split the text with str.splitlines, as nbval does."""
     lines = source.splitlines(keepends=True)
     found = [_marker(line) for line in lines]
     if not any(found):

@@ -26,7 +26,7 @@ class Rebuilt:
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
     # `answers` contains, for each part, the source that runs; this can be the unchanged blank cell.
     answers: Mapping[str, str]
-    # The keys are the parts without an answer, and the values are the reasons for the student.
+    # The keys are the parts without an answer, and each value is the reason that the student sees.
     missing: Mapping[str, str] = field(default_factory=dict)
     untouched: frozenset[str] = frozenset()  # The student did not change the cells of these parts.
     notes: tuple[str, ...] = ()  # The notes tell the student about everything unusual in the notebook.

@@ -148,7 +148,7 @@ class Session:
         try:
             return read_overrides(self._out).digest != self._overrides.digest
         except GradingError:
-            return True  # An incomplete file may contain a wrong row.
+            return True  # In an incomplete file, a wrong row is allowed.
 
     def _shown(self, rows: Rows) -> dict[str, Plain]:
         numbered = ((self._numbers.get(key), row) for key, row in rows.items())

@@ -1,7 +1,8 @@
 """Reads Moodle's offline grading worksheet, and writes a copy with new grades and feedback comments.
 
 An instructor switches on the feedback type "Offline grading worksheet" of an assignment, and downloads the
-worksheet ("Download grading worksheet"). Later, the instructor uploads the copy ("Upload grading worksheet").
+worksheet ("Download grading worksheet"). Later, the instructor uploads the completed copy ("Upload grading
+worksheet").
 
 The layout is from Moodle's source. mod/assign/gradingtable.php writes the columns Identifier ("Participant
 12345"), Full name, further fields such as Email address or ID number, Status, Group, Marker, Grade, Maximum

@@ -1,4 +1,4 @@
-"""A timeline as a still picture: the whole recording, with what timeline.js draws on its canvas."""
+"""Draws a timeline as a still picture of the whole recording, like timeline.js on its canvas."""
 
 from __future__ import annotations
 
@@ -30,10 +30,12 @@ WAIT, WAIT_EDGE = "#fbe6e4", "#b0342c"
 CALLBACK, CALLBACK_EDGE = "#cfe0f7", "#3a6fb5"
 WORD, NAME = Style(11.0), Style(12.0, bold=True)
 NAMES = {"lookup": "look-up", "connect": "connect", "request": "request", "publish": "publish"}
-MARK = 14.0  # px: what is narrower is a small mark, what is wider a bar with a word in it
-APART = {True: 8.0, False: 3.0}  # px: arrows of messages, and of calls, that are closer are left out
-TICKS = 8  # at most, on the axis of time
-HEAD = 7.0  # px, length of an arrowhead
+MARK = 14.0  # px: a narrower event is drawn as a small symbol, and a wider event as a bar with a text
+# Minimum distance in px between two arrows of messages (True) or of calls (False). Arrows that are closer to
+# each other are not drawn.
+APART = {True: 8.0, False: 3.0}
+TICKS = 8  # maximum number of marks on the time axis
+HEAD = 7.0  # length of an arrowhead in px
 LEGEND = (
     ("bar", WAIT, WAIT_EDGE, "waits"),
     ("bar", HANDLER, HANDLER_EDGE, "handler"),
@@ -45,7 +47,7 @@ LEGEND = (
 
 
 def still(state: State) -> str:
-    """Return the recording from its start to its end, with who waited for whom in sentences below."""
+    """Draw the whole recording, and write below it which node waited for which node."""
     recorded = state["recorded"]
     said = sentences(recorded["waits"])
     paper = Paper(f"A timeline of {', '.join(lane['node'] for lane in recorded['lanes']) or 'no node'}")
@@ -128,7 +130,7 @@ class _Diagram:
         self.paper.add("polygon", points=points, fill=colour)
 
     def _draw_band(self, band: Band, top: float) -> None:
-        """Draw events that are too close to be told apart as one bar with their number."""
+        """Draw events that are too close to each other as one bar with the number of the events."""
         fill, edge = _colours("wait" if band.what == "calls" else band.kind)
         x, y, wide = EDGES + band.left, top + band.top + band.height / 4, band.right - band.left
         bar = self.paper.box(x, y, wide, band.height / 2, fill=fill, edge=edge, rx=0)
@@ -165,7 +167,7 @@ class _Diagram:
         if wide > 3:
             bar.set("stroke", edge)
         if event.open:
-            bar.set("stroke-dasharray", "4 3")  # it had not ended
+            bar.set("stroke-dasharray", "4 3")  # The event was not finished when the recording ended.
         for word in _words(event):
             if event.height >= 11 and WORD.width(word) <= wide - 10:
                 self.paper.put(word, x + 5, y + event.height / 2, WORD)
@@ -173,7 +175,7 @@ class _Diagram:
 
 
 def _words(event: Event) -> Iterator[str]:
-    """Yield what may stand in a bar, the longest first."""
+    """Yield the possible texts of a bar, the longest text first."""
     if event.kind == "wait":
         waits = "still waits" if event.open else "waits"
         yield from ((f"{waits} for {event.peer}", waits) if event.peer else (waits,))
@@ -182,7 +184,7 @@ def _words(event: Event) -> Iterator[str]:
 
 
 def _colours(kind: str) -> tuple[str, str]:
-    """Return the colours of the ground and of the edge of an event."""
+    """Return the fill colour and the edge colour of an event."""
     if kind in BLOCKED:
         return WAIT, WAIT_EDGE
     return (CALLBACK, CALLBACK_EDGE) if kind in ("callback", "publish") else (HANDLER, HANDLER_EDGE)
@@ -203,7 +205,7 @@ def _draw_legend(paper: Paper) -> None:
 
 
 def ticks(length: float, most: int = TICKS) -> Sequence[tuple[float, str]]:
-    """Return the places and the texts of the marks on an axis from 0 to `length`."""
+    """Return the positions and the texts of the marks on an axis from 0 to `length`."""
     if length <= 0:
         return [(0.0, "0")]
     ten = 10.0 ** math.floor(math.log10(length / most))

@@ -5,8 +5,8 @@ A row begins with a time (ms since the recording began) and a turtle (its index 
     (ms, turtle, x, y, theta, colour)  the turtle is at this place: mm, mm, mrad; `colour` is the index in
                                        `palette` for the line from its previous row, or -1 for no line
     (ms, turtle, "gone")               the turtle has left
-    (ms, turtle, "undrawn", since)     there is no line since that time, because the pen was up
-    (ms, -1, "cleared")                the paper is empty again
+    (ms, turtle, "undrawn", since)     the turtle has drawn no line since this time, because the pen was up
+    (ms, -1, "cleared")                all lines were erased
 """
 
 from __future__ import annotations

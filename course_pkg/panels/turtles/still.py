@@ -1,4 +1,4 @@
-"""The turtles as a still picture: the paper with the trails, and the turtles where they were at the end."""
+"""Draws a still picture of the turtles: their trails, and the turtles at their final positions."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from xml.etree.ElementTree import Element, SubElement
 
 from course_pkg.panels.paper import EDGES, FAINT, Paper, State, Style, number
 
-SIDE = 500.0  # px of the simulator's own paper
-WORLD = 11088.889  # mm
-PEN = "3"  # px: no topic tells the width of a pen, and this is the usual one
-# What the panel draws below a turtle's shell: centres and half axes of head, feet and tail (px).
+SIDE = 500.0  # width and height in px of the simulator's window
+WORLD = 11088.889  # width and height in mm of the area in which the turtles move
+PEN = "3"  # the default width of a pen in px; the simulator publishes the width on no topic
+# The head, feet and tail, which the panel draws under the shell of a turtle: centres and half axes (px).
 LIMBS = (
     (19, 0, 7, 5),
     (11, 13, 6, 4),
@@ -23,13 +23,13 @@ LIMBS = (
 SHELLS = ("#2e7d32", "#1565c0", "#6a1b9a", "#ad5300", "#00695c", "#b71c1c")
 GREEN, WHITE, DARK = "#9ccc65", "#ffffff", "#10182b"
 
-Row = Sequence[Any]  # see recording.py
+Row = Sequence[Any]  # The docstring of recording.py describes the rows.
 
 
 def still(state: State) -> str:
-    """Return the paper as it is at the end; if the simulator has ended, as it was before."""
+    """Return a picture of the last state; if the simulator has ended, use the last state before its end."""
     recorded = state["recorded"]
-    # A check moves turtles of its own, in a namespace that is drawn at random.
+    # A check moves its own turtles, which are in a random namespace.
     own = {turtle for turtle, name in enumerate(recorded["names"]) if "/" not in name}
     rows = [list(row) for row in recorded["rows"] if not own or row[1] < 0 or row[1] in own]
     trails, here = _played(rows)
@@ -69,9 +69,9 @@ def _counted(names: Sequence[str]) -> str:
 
 
 def _played(rows: list[list[Any]]) -> tuple[list[tuple[int, list[tuple[float, float]]]], dict[int, Row]]:
-    """Return the trails, each with its colour and points (px), and the last row of each turtle."""
+    """Return the trails and the last row of each turtle. A trail is its colour and its points (px)."""
     for index, row in enumerate(rows):
-        if row[2] == "undrawn":  # the pen was up since that time
+        if row[2] == "undrawn":  # The pen was up since the time row[3].
             for earlier in rows[:index]:
                 if earlier[1] == row[1] and not isinstance(earlier[2], str) and earlier[0] > row[3]:
                     earlier[5] = -1
@@ -100,7 +100,7 @@ def _played(rows: list[list[Any]]) -> tuple[list[tuple[int, list[tuple[float, fl
 
 
 def _extend(points: list[tuple[float, float]], point: tuple[float, float]) -> None:
-    """Add a point to a trail; on a straight line, it takes the place of the point before it."""
+    """Add a point to a trail. If the last points are on a straight line, replace the last point."""
     if len(points) > 1:
         (x1, y1), (x2, y2), (x3, y3) = points[-2], points[-1], point
         if (

@@ -95,7 +95,7 @@ class PackageTypes(TypedDict):
     msg: list[str]
 
 
-# A use of a type is a service or a topic: its name, and the names of the nodes in each role.
+# A service or a topic that uses a type: its name, and the names of the nodes in each role.
 Use = dict[str, str | list[str]]
 Offers = dict[DefinitionKind, dict[str, list[Use]]]
 

@@ -19,7 +19,7 @@ LENGTH, KEY, MD5, OK, BAD, VALUE, RAW, GROUP = "length", "key", "md5", "ok", "ba
 
 
 class PieceState(TypedDict):
-    """A piece for the page."""
+    """The data of one piece of the bytes, as the page needs them."""
 
     role: str
     at: int

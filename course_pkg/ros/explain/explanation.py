@@ -65,7 +65,10 @@ def known(message: str) -> Explanation | None:
 
 
 def taught(chapter: str) -> str:
-    """Return the number and title of a chapter, such as "chapter 06, Write a client", or ""."""
+    """Return the number and title of a chapter, such as "chapter 06, Write a client".
+
+    For an unknown chapter, return "".
+    """
     title = CHAPTERS.get(chapter, "")
     return f"chapter {chapter}, {title}" if title else ""
 

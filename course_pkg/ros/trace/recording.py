@@ -29,7 +29,7 @@ Thread = tuple[str, int]
 
 
 class SpanData(TypedDict):
-    """A span as JSON data; a transfer is [connection, number, name of the other node]."""
+    """A span as JSON data; a message in it is [connection, message number, name of the other node]."""
 
     kind: str
     name: str

@@ -11,7 +11,16 @@ from pathlib import Path
 
 import pytest
 
-from tests.lab.commands import alive, all_gone, below, having, listening, own_namespace, running
+from tests.lab.commands import (
+    alive,
+    all_gone,
+    below,
+    having,
+    listening,
+    network_namespace,
+    own_namespace,
+    running,
+)
 from tests.lab.graph.messages import Messages
 from tests.lab.test_jupyterlab import Service
 from tests.lab.test_run import course_run, names
@@ -39,12 +48,12 @@ def test_kernels_and_terminals_share_a_private_network(served: Service) -> None:
     [shell] = eventually(lambda: having(b"bash\0--rcfile\0", below(served.process)))
     # nsenter enters the network and then calls exec(), so the shell is in the network only after a short
     # time.
-    assert eventually(lambda: os.readlink(f"/proc/{shell}/ns/net") == network)
+    assert eventually(lambda: network_namespace(shell) == network)
     assert course_run("sh", "-c", "readlink /proc/self/ns/net; rosnode list").stdout.split() == [
         network,
         "/rosout",
     ]
-    outside = [each for each in below(served.process) if os.readlink(f"/proc/{each}/ns/net") != network]
+    outside = [each for each in below(served.process) if network_namespace(each) != network]
     assert listening(outside) == {("127.0.0.1", served.port)}
 
     [kernel] = served.kernels()

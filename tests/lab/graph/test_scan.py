@@ -1,4 +1,4 @@
-"""Another user, and another lab of the same user, find only the page of a running `course lab`."""
+"""Tests that other users and other labs can reach only the page of a running `course lab`."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class Wall:
 
 
 def counts(*messages: int, every: float = 2.0) -> list[Activity]:
-    """Return an Activity for each number in `messages`, which is the message count of /chatter.
+    """Return one Activity for each number in `messages`. The number is the message count of /chatter.
 
     The times of two consecutive Activity objects differ by `every` s.
     """

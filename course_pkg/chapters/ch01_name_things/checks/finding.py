@@ -42,7 +42,7 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             f"{wanted}x": others[2],
             wanted: volume,
         }
-        # The order is random, because the master lists services in the order of their registration.
+        # Register the services in a random order, because the master lists them in this order.
         servers = {
             name: context.serve(name, GEOMETRY, lambda _, v=named[name]: {"volume": v, "area": v + 1})
             for name in context.random.shuffled([*named])

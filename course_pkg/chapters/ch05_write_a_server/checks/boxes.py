@@ -202,7 +202,7 @@ def _refused(context: CheckContext, get_geometry: Service, negative: Mapping[str
 
 
 def _unclear(named: list[str], numbers: list[float], side: str, value: float, reason: str) -> str:
-    """Return the hint for a message that does not name exactly the negative `side` and its `value`.
+    """Return the hint for a message without the negative `side` and its `value`, or with other sides, too.
 
     `named` contains the sides in the message, and `numbers` contains its numbers.
     """

@@ -146,7 +146,7 @@ def _in_a_random_order(context: CheckContext) -> None:
 
 
 def _never_there(context: CheckContext, name: str, hint: str) -> None:
-    """Call the function with a limit of 0.5 s for a missing service.
+    """Call the function for a missing service, with a time limit of 0.5 s.
 
     Within this limit, rospy looks for the service twice. A result after 1.4 s is too late.
     """

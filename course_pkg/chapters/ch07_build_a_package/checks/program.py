@@ -140,7 +140,7 @@ def _never_ends(done: Finished) -> bool:
 def serves(
     context: CheckContext, running: Running, package: BuiltPackage, program: Program, name: str, node: str
 ) -> None:
-    """Wait until the program serves `name` as the node `node`; otherwise, report what happened."""
+    """Wait until the node `node` offers the service `name`; report why if it does not do so in time."""
     assertion = f"rosrun starts it, and it serves {program.service}"
     deadline = time.monotonic() + STARTING
     while (found := context.look().service(name)) is None:

@@ -1,4 +1,4 @@
-"""The checks of chapter 08: find, call and translate services, and diagnose failures."""
+"""The checks of chapter 08: find and call services, convert one service to another, and diagnose failures."""
 
 from course_pkg.chapters.ch08_use_existing_services.checks.calls_of_any_type import call_of_any_type
 from course_pkg.chapters.ch08_use_existing_services.checks.command_lines import line_for_a_terminal

@@ -94,7 +94,7 @@ NO_LINE: Hints = [
     deadline=38.0,
 )
 def line_for_a_terminal(context: CheckContext) -> None:
-    """Run the returned lines in bash; some values need quotes for bash or for YAML."""
+    """Run the lines that the function returned in bash. Some values need quotes for bash or YAML."""
     for example in example_calls(context):
         name = f"/{context.random.word()}"
         server = context.serve(name, example.kind, lambda _, answer=example.answer: answer)

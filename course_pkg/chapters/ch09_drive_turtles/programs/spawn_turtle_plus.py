@@ -16,7 +16,7 @@ SPEED = 2.0  # m/s
 
 
 def main() -> None:
-    """Spawn MyTurtle, toggle turtle1, set turtle1's speed, and repeat turtle1's velocities for MyTurtle."""
+    """Spawn MyTurtle, toggle the pen of turtle1, set its speed, and copy its velocities to MyTurtle."""
     rospy.init_node("spawn_turtle_plus")
     prepare_node()
     spawn_or_exit()

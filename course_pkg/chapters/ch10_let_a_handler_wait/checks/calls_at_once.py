@@ -25,7 +25,7 @@ PROMPT = 0.3
 # calls.
 LONGER = 1.0
 
-# This code reports each call through a persistent proxy, on the thread that makes the call.
+# For each call that uses a persistent proxy, this code sends a report on the thread of the call.
 KERNEL_CODE = (
     SMALL_STACKS
     + """

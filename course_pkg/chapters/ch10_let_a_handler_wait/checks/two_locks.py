@@ -53,7 +53,7 @@ class Deadlock(Exception):
 
 
 class CheckedLock:
-    """A lock; `acquire` also waits for a short time, so that another thread can acquire the other lock.
+    """A lock whose `acquire` first waits for a short time; then another thread can acquire the second lock.
 
     Two threads that acquire the two locks in opposite order therefore always block each other. A thread that
     waits too long gets an error, so that all threads end.

@@ -33,7 +33,7 @@ SHORT = 1.0  # If the till never responds, the deadline is this many s after the
 SLACK = 1.5  # On a busy machine, a payment may take this many s longer.
 AWAY = 0.5  # A killed till starts again after this many s, so the second attempt finds no server.
 A_LITTLE = 0.2  # This time in s is shorter than one attempt.
-KEEPING = 2.0  # The check waits at most this many s for a payment that ends in time.
+KEEPING = 2.0  # The check waits at most this many s for the end of a payment that ends in time.
 MOST = 5  # In the longer test of the pauses, this many attempts fail.
 LONG = 12.0  # In the longer test of the pauses, the deadline is this many s after the start of the payment.
 

@@ -103,7 +103,7 @@ def started(
 ) -> Running:
     """Start a program in the namespace `space`.
 
-    The exercise's global names are also remapped to this namespace.
+    The exercise's global names are remapped to the namespace, too.
     """
     remapped = [f"/{each}:={space}/{WITH_SLASH}/{each}" for each in names]
     given = [f"_{key}:={value}" for key, value in (parameters or {}).items()]
