@@ -138,6 +138,19 @@ replace("def handle_geometry … request.height)", """class Measurer:
 replace('if __name__ == "__main__"', "def main()")
 replace('rospy.Service("/getGeometry", geometry, handle_geometry)', 'Measurer()\n    rospy.loginfo("ready")')
 replace("spin()", "spin()\n\n\nif __name__ == '__main__':\n    main()")
+# %% 07.4 right: a dataclass in the script
+replace("import rospy\n", """import dataclasses
+
+import rospy
+
+
+@dataclasses.dataclass
+class Size:
+    area: float = 0.0
+    volume: float = 0.0
+
+
+""")
 # %% 07.4 wrong: no shebang | hint: Without a shebang, Linux runs the
 replace("#!/usr/bin/env python3\n", "")
 # %% 07.4 wrong: the shebang in line 2 | hint: The shebang is in the

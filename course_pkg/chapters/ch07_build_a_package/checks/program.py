@@ -35,7 +35,9 @@ def began(*args, **kwargs):
 for name in ("init_node", "Service", "ServiceProxy", "wait_for_service", "spin", "myargv"):
     setattr(rospy, name, began)
 spec = importlib.util.spec_from_file_location(pathlib.Path(sys.argv[1]).stem, sys.argv[1])
-spec.loader.exec_module(importlib.util.module_from_spec(spec))
+module = importlib.util.module_from_spec(spec)
+sys.modules[spec.name] = module  # dataclasses looks up the module there
+spec.loader.exec_module(module)
 sys.exit(77)
 """
 IMPORTED = 77  # An import has this exit status if it ends without sys.exit or os._exit.
