@@ -15,7 +15,7 @@ from _pytest.mark import ParameterSet
 from course_pkg.authoring.blank import handed_out
 from course_pkg.authoring.cells import check_of, code_cells
 from course_pkg.authoring.notebook_store import NotebookStore, read
-from course_pkg.checking.parts import Part, every_part
+from course_pkg.checking.parts import Part, chapters, every_part
 from course_pkg.checking.report import Report, Verdict
 from course_pkg.sandbox.job import PartJob
 from tests.checking.answers.example_answers import Answer, every_answer
@@ -32,8 +32,8 @@ pytestmark = pytest.mark.timeout(900)  # time limit in s for a test that waits i
 USUAL = {True: (2,), False: (1,)}
 # parts that build or start programs
 BUILDS = ("04.1", "04.3", "04.4", "04.5", "07.", "09.", "13.", "14.", "15.")
-# number of answers of such a part in a usual run
-BUILT: dict[bool, tuple[int, ...]] = {True: (), False: (1,)}
+# The first part of each chapter. All answers of a part in BUILDS are slow, unless the part is in FIRST.
+FIRST = {f"{chapter}.1" for chapter in chapters()}
 A_CORE = 2  # sandboxes per core, because answers wait for nodes and messages most of the time
 STORED = {
     check: cell["outputs"][0]["data"]
@@ -86,8 +86,8 @@ def _params() -> Iterator[ParameterSet]:
     count: Counter[tuple[str, bool]] = Counter()
     for answer in ANSWERS:
         count[answer.check, answer.right] += 1
-        usual = BUILT if answer.check.startswith(BUILDS) else USUAL
-        chosen = count[answer.check, answer.right] in usual[answer.right]
+        usual = answer.check in FIRST or not answer.check.startswith(BUILDS)
+        chosen = usual and count[answer.check, answer.right] in USUAL[answer.right]
         yield pytest.param(answer, marks=() if chosen else pytest.mark.slow, id=_name(answer))
 
 
@@ -113,7 +113,13 @@ def test_right_passes_and_wrong_is_refused_with_its_hint(answer: Answer, report:
         assert report.html() == stored["text/html"]
 
 
-@pytest.mark.parametrize("part", PARTS.values(), ids=lambda part: part.check)
+@pytest.mark.parametrize(
+    "part",
+    [
+        pytest.param(part, id=check, marks=() if check in FIRST else pytest.mark.slow)
+        for check, part in PARTS.items()
+    ],
+)
 def test_blank_exercise_is_not_attempted(part: Part, report: Report) -> None:
     """A blank exercise is neither a failure nor an error: its result is "not attempted"."""
     assert report.verdict is Verdict.NOT_ATTEMPTED, str(report)
