@@ -2,39 +2,32 @@
 
 from __future__ import annotations
 
-import json
 import os
 import signal
-import socket
 import sys
 import tempfile
-import time
 import webbrowser
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager, suppress
-from http.client import HTTPConnection, HTTPException
+from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 from types import FrameType
-from typing import NamedTuple, NoReturn
-from urllib.parse import SplitResult, quote, urlsplit
+from typing import NoReturn
+from urllib.parse import quote
 
-from course_pkg.errors import CourseError, PortBusy, SetupError
+from course_pkg.errors import PortBusy, SetupError
 from course_pkg.lab.graph.graph import Which, graph_of_this_command
 from course_pkg.lab.graph.notes import notes
 from course_pkg.lab.graph.settings import settings_for
 from course_pkg.lab.opened_notebook import notebook_to_open, write_workspace
 from course_pkg.lab.own_files import make_own_files
+from course_pkg.lab.server_start import Address, PortTaken, await_server, end_of, log_of, start_kernel
 from course_pkg.ports import free_port
 from course_pkg.ros.process.supervised import SupervisedProcess
 from course_pkg.setup import Places
 from course_pkg.workspace import make_own_workspace
 
 PORTS = (*range(8888, 8938), 0)  # the ports to try; Jupyter tries the same ports, and 0 means any free port
-# The server has to start within this time in s. The server usually needs 2 s. If its files are not in the
-# disk cache, it needs much longer.
-READY = 60.0
-LOOK = 0.01  # This is the time in s between two checks whether the server answers.
-KEPT_LINES = 12  # number of lines of the server's log in an error message
 
 
 def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, shared: bool = False) -> int:
@@ -51,8 +44,32 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     make_own_files(places)
     notebook = notebook_to_open(places.own, asked)
     _make_workspace()
-    chosen = server_port(ip, PORTS if port is None else [port])
     which = Which.SHARED if shared else Which.RUNNING if os.environ.get("ROS_MASTER_URI") else Which.NEW
+    start = partial(_serve, places, notebook, ip=ip, browser=browser, which=which)
+    if port is not None:
+        return start(server_port(ip, [port]), retries=0)
+    with suppress(PortTaken):
+        return start(server_port(ip, PORTS))
+    with suppress(PortTaken):
+        return start(server_port(ip, [0]))
+    return start(server_port(ip, [0]))
+
+
+def _serve(
+    places: Places,
+    notebook: str,
+    port: int,
+    *,
+    ip: str,
+    browser: bool,
+    which: Which,
+    retries: int | None = None,
+) -> int:
+    """Run JupyterLab on `port`, or on one of the next `retries` ports, until a signal arrives.
+
+    If `retries` is None, JupyterLab uses its default number of retries. Raises PortTaken if another program
+    took the port during the start.
+    """
     with (
         _stopping_on_signals(),
         tempfile.TemporaryDirectory(prefix="course-lab-", dir=_short_folder()) as folder,
@@ -60,15 +77,15 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     ):
         scratch = Path(folder)
         write_workspace(scratch / "workspaces", notebook)
-        settings = _settings(places, ip, chosen, scratch) | settings_for(graph)
+        settings = _settings(places, ip, port, scratch) | settings_for(graph)
         # An author opens a notebook in solutions/, and needs to see all files of the checkout.
         settings["CourseContents.everything"] = bool(notebook) and not notebook.startswith("notebooks/")
-        if port is not None:
-            settings["ServerApp.port_retries"] = 0
+        if retries is not None:
+            settings["ServerApp.port_retries"] = retries
         with _server(places, settings, scratch) as server:
             try:
-                address = _await_server(server, scratch)
-                _start_kernel(address, notebook)
+                address = await_server(server, scratch)
+                start_kernel(address, notebook)
                 _announce(address, notebook, places.own, browser)
                 if graph:
                     graph.wait_for_master()
@@ -79,7 +96,7 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
             except _Stop:
                 sys.stderr.write("\nEnding JupyterLab and the master.\n")
                 return 0
-            sys.stderr.write(_tail(_log(scratch)))
+            sys.stderr.write(end_of(log_of(scratch)))
             return server.returncode or 0
 
 
@@ -92,20 +109,6 @@ def server_port(ip: str, candidates: Sequence[int]) -> int:
         raise PortBusy(
             f"JupyterLab cannot listen on {ip}:{candidates[-1]}: {reason}. Omit --port to get a free port."
         ) from error
-
-
-class _Address(NamedTuple):
-    """The address at which the server listens, and its token.
-
-    The server writes the address and the token into a file.
-    """
-
-    url: str
-    token: str
-
-    @property
-    def base(self) -> SplitResult:
-        return urlsplit(self.url)
 
 
 class _Stop(BaseException):
@@ -146,7 +149,7 @@ def _server(places: Places, settings: Mapping[str, object], scratch: Path) -> It
         "JUPYTER_RUNTIME_DIR": str(scratch / "runtime"),
     }
     options = [f"--{name}={value}" for name, value in settings.items()]
-    with _log(scratch).open("wb") as output:
+    with log_of(scratch).open("wb") as output:
         server = SupervisedProcess(
             [str(places.python), "-m", "course_pkg.lab", *options],
             output=output,
@@ -221,48 +224,7 @@ def _make_workspace() -> None:
         )
 
 
-def _await_server(server: SupervisedProcess, scratch: Path) -> _Address:
-    """Wait until the server accepts connections, and return its address.
-
-    Raises CourseError if the server ends, or does not listen within READY seconds.
-    """
-    deadline = time.monotonic() + READY
-    # The server writes this file just before it listens.
-    info = scratch / "runtime" / f"jpserver-{server.pid}.json"
-    while True:
-        with suppress(OSError, ValueError):
-            seen = json.loads(info.read_text())
-            address = _Address(seen["url"], seen["token"])
-            socket.create_connection((address.base.hostname, seen["port"]), timeout=READY).close()
-            return address
-        if server.wait(LOOK):
-            raise CourseError(
-                f"JupyterLab ended with status {server.returncode} during its start:\n{_tail(_log(scratch))}"
-            )
-        if time.monotonic() > deadline:
-            raise CourseError(f"JupyterLab did not answer within {READY:g} s:\n{_tail(_log(scratch))}")
-
-
-def _start_kernel(address: _Address, notebook: str) -> None:
-    """Start the notebook's kernel while the page loads, so that the page finds a running kernel.
-
-    If this fails, the page starts the kernel itself. If the page cannot start the kernel either, the page
-    shows the reason.
-    """
-    if not notebook:
-        return
-    kernel = {"name": "python3"}
-    session = {"path": notebook, "name": Path(notebook).name, "type": "notebook", "kernel": kernel}
-    headers = {"Authorization": f"token {address.token}", "Content-Type": "application/json"}
-    with (
-        suppress(OSError, HTTPException),
-        closing(HTTPConnection(address.base.netloc, timeout=READY)) as server,
-    ):
-        server.request("POST", f"{address.base.path}api/sessions", json.dumps(session), headers)
-        server.getresponse().read()
-
-
-def _announce(address: _Address, notebook: str, root: Path, browser: bool) -> None:
+def _announce(address: Address, notebook: str, root: Path, browser: bool) -> None:
     page = f"lab/tree/{quote(notebook)}" if notebook else "lab"
     url = f"{address.url}{page}?token={address.token}"
     opened = browser and webbrowser.open(url)
@@ -272,11 +234,3 @@ def _announce(address: _Address, notebook: str, root: Path, browser: bool) -> No
         "Ctrl-C here ends JupyterLab, its kernels, and the ROS master.\n"
     )
     sys.stdout.flush()
-
-
-def _log(scratch: Path) -> Path:
-    return scratch / "server.log"
-
-
-def _tail(log: Path) -> str:
-    return "\n".join(log.read_text(errors="replace").splitlines()[-KEPT_LINES:]) + "\n"
