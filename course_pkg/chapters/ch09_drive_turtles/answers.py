@@ -105,6 +105,11 @@ replace('rospy.init_node("pubvel_toggle … rate.sleep()', "main()")
 replace('\nforward = True', '\nforward = False')
 # %% 09.2 wrong: the handler publishes a velocity of 0 | hint: A message contained a wrong velocity
 replace("    return EmptyResponse()", "    publisher.publish(Twist())\n    return EmptyResponse()")
+# %% 09.2 wrong: the handler publishes, too | hint: Each call published another message
+replace("    return EmptyResponse()", """    message = Twist()
+    message.linear.x, message.angular.z = float(forward), float(not forward)
+    publisher.publish(message)
+    return EmptyResponse()""")
 # %% 09.2 wrong: twice as fast | hint: To drive straight ahead, set linear.x = 1.0
 replace('linear.x = 1.0', 'linear.x = 2.0')
 # %% 09.2 wrong: no global | hint: After the call, the turtle still goes straight ahead
@@ -159,6 +164,15 @@ replace('used != frequency', 'used < 0')
 # %% 09.3 wrong: a table of rates | hint: The program did not publish at the rate that the client had set
 based_on("sleeps for the pause")
 replace("rospy.sleep(1.0 / frequency)", "rates = (0.5, 1, 2, 2.5, 4, 5, 10, 20, 50, 100)\n        rospy.sleep(1 / min(rates, key=lambda each: abs(each - frequency)))")
+# %% 09.3 wrong: a whole number of rounds | hint: The program did not publish at the rate that the client had set
+replace("used, rate = frequency, rospy.Rate(frequency)\n    while", "rounds, rate = 0, rospy.Rate(100)\n    while")
+replace("        message = Twist()", """        rate.sleep()
+        rounds += 1
+        if rounds < int(100 / frequency):
+            continue
+        rounds = 0
+        message = Twist()""")
+replace("        if used … rate.sleep()", "        pass")
 # %% 09.3 wrong: returns the new rate | hint: The field `before` contains the new rate
 replace('before=before', 'before=frequency')
 # %% 09.3 wrong: an empty response | hint: The field `before` has its default value, 0.0

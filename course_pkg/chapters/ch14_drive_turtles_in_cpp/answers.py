@@ -138,6 +138,14 @@ int main(int argc, char** argv) {
 
 # %% 14.3 wrong: the loop keeps its rate | hint: A Rate object cannot change its rate
 replace('      rate = ros::Rate(used);\n', '')
+# %% 14.3 wrong: a whole number of rounds | hint: The program did not publish at the rate that the client had set
+replace("double used = driver.frequency;\n  ros::Rate rate(used);", "int rounds = 0;\n  ros::Rate rate(100);")
+replace("    if (used … rate.sleep();", """    rate.sleep();
+    if (++rounds < static_cast<int>(100 / driver.frequency)) {
+      continue;
+    }
+    rounds = 0;
+    publisher.publish(driver.velocity());""")
 # %% 14.3 wrong: whole numbers | hint: Store the rate as a float in Python, or as a double in C++
 replace('double frequency', 'int frequency')
 replace('double used', 'int used')

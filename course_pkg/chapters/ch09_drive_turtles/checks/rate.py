@@ -115,10 +115,10 @@ def changes_its_rate(context: CheckContext, program: TurtleProgram) -> None:
 def sets_rates(context: CheckContext, change: Service, stream: Stream) -> float:
     """Set allowed and forbidden rates, and measure some of the allowed rates; return the last allowed rate.
 
-    One rate is below 1 Hz, and its period is not close to a whole number of seconds. The number of rates is
-    random.
+    One rate is below 1 Hz, and its period is not close to a whole number of seconds. The period of another
+    rate is not close to a whole number of hundredths of a second. The number of rates is random.
     """
-    fast, slow = context.random.number(28.0, 34.0), context.random.number(0.6, 0.7)
+    fast, slow = context.random.number(34.5, 38.5), context.random.number(0.6, 0.7)
     others = context.random.numbers(context.random.integer(1, 4), 5.0, 90.0)
     before = AT_FIRST
     for wanted in (fast, *others, 100.0, slow, fast):

@@ -112,6 +112,7 @@ def toggles(context: CheckContext, program: TurtleProgram) -> None:
                 "ros::Rate(2)), and call its method sleep() once after each message."
             ),
         )
+        stream.has_no_extra_messages(toggle, "the program publishes twice per second", RATE)
         stream.moves_turtle()
 
 

@@ -9,6 +9,7 @@ from course_pkg.chapters.ch09_drive_turtles.checks.turtle_world import World, ou
 from course_pkg.checking import CheckContext
 from course_pkg.checking.assertions import Hints, same
 from course_pkg.checking.commands.folder import Running
+from course_pkg.checking.peers.service_calls import Service
 from course_pkg.checking.peers.subscription import Arrival, Subscription, rate
 from course_pkg.checking.plain_values import Fields
 from course_pkg.waiting import wait_until
@@ -26,6 +27,7 @@ SILENT = (
 )
 # A measured rate may differ from the right rate by this fraction, because the machine may be busy.
 NEAR = 0.25
+CALLS = 12  # The check makes this many calls at the same time.
 
 
 class Stream:
@@ -111,6 +113,23 @@ class Stream:
             expected=f"{wanted:g} messages per second",
             actual=f"{measured:.1f} messages per second",
             hints=hints,
+        )
+
+    def has_no_extra_messages(self, service: Service, assertion: str, usual: float) -> None:
+        """Make CALLS calls at the same time, and assert that no message arrives for each call.
+
+        `usual` is the number of messages per second without calls.
+        """
+        before, began = len(self._subscription.arrivals), time.monotonic()
+        service.at_once([{}] * CALLS)
+        took = self.next(1)[-1].at - began
+        arrived = len(self._subscription.arrivals) - before
+        self._context.require(
+            assertion,
+            holds=arrived < took * usual + CALLS / 2,
+            expected="the same rate while clients call the service",
+            actual=f"{arrived} messages in {took:.1f} s",
+            hints="Each call published another message. Publish only in the loop, not in the handler.",
         )
 
     def moves_turtle(self) -> None:
