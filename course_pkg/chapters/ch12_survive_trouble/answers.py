@@ -107,6 +107,8 @@ replace("raise errors[0]", "raise RuntimeError(str(errors[0]))")
 replace("        raise errors[0]", "        raise TimeoutError(str(errors[0]))")
 # %% 12.1 wrong: always waits for the whole time | hint: The function still waited after the response had arrived
 replace("thread.join(seconds)", "time.sleep(seconds)")
+# %% 12.1 wrong: looks ten times | hint: The function still waited after the response had arrived
+replace("thread.join(seconds)", "for _ in range(10):\n        time.sleep(seconds / 10)\n        if not thread.is_alive():\n            break")
 # %% 12.1 wrong: a fixed limit | hint: The function did not wait for the given time
 replace("thread.join(seconds)", "thread.join(3 * seconds if seconds < 1 else seconds)")
 # %% 12.1 wrong: does not wait | hint: The response came in time, but the function raised TimeoutError

@@ -39,6 +39,8 @@ file(COPY ${CMAKE_CURRENT_BINARY_DIR}/box_server DESTINATION ${CATKIN_DEVEL_PREF
 replace("add_executable(box_server src/box_server.cpp)", """file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/other.cpp "#include <ros/ros.h>
 int main(int c, char** v) { ros::init(c, v, \\"x\\"); }")
 add_executable(box_server ${CMAKE_CURRENT_BINARY_DIR}/other.cpp)""")
+# %% 13.1 wrong: all files in the folder | hint: CMake built box_server from all the files in the folder src
+replace("add_executable(box_server src/box_server.cpp)", "file(GLOB SOURCES src/*.cpp)\nadd_executable(box_server ${SOURCES})")
 # %% 13.1 wrong: linked before it is declared | hint: Write add_executable above this line
 replace("add_executable", "target_link_libraries(box_server ${catkin_LIBRARIES})\nadd_executable")
 replace("cpp)\ntarget_link_libraries(box_server ${catkin_LIBRARIES})", "cpp)")

@@ -13,6 +13,7 @@ from course_pkg.checking.result import Result
 ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
 LONG = 4.0  # This time limit in s is longer than every call.
+VERY_LONG = 25.0  # A function that looks ten times within this many s returns the response too late.
 HELD = 10.0  # The server holds a response back for at most this many s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.
 SLACK = 1.2  # On a busy machine, a call may take this many s longer.
@@ -111,9 +112,9 @@ def a_call_with_a_limit(context: CheckContext) -> None:
     name, adder = f"/{context.random.word()}", Adder()
     context.prepare(KERNEL_CODE)
     context.serve(name, ADD, adder)
-    for act in (None, Late(WORK, {})):
+    for act, limit in ((None, LONG), (Late(WORK, {}), VERY_LONG)):
         adder.act = act
-        _responds(context, name, adder)
+        _responds(context, name, adder, limit)
     failures: list[Refuse | HangUp] = [Refuse(f"no {context.random.integer(100, 999)}"), HangUp()]
     for failure in context.random.shuffled(failures):
         adder.act = failure
@@ -161,10 +162,10 @@ def _call(context: CheckContext, name: str, seconds: float, a: int, b: int) -> R
     )
 
 
-def _responds(context: CheckContext, name: str, adder: Adder) -> None:
+def _responds(context: CheckContext, name: str, adder: Adder, limit: float = LONG) -> None:
     a, b = context.random.integers(2, 3, 1000)
     before = adder.requests
-    result = _call(context, name, LONG, a, b)
+    result = _call(context, name, limit, a, b)
     label = "if a response comes in time, the function returns it"
     context.require(label, holds=not result.error, actual=result.error, hints=ERRORS)
     context.require(

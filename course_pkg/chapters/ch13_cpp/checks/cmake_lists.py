@@ -58,6 +58,12 @@ int main(int argc, char** argv) {
 }
 """  # A random text replaces DRAWN, so only a program built from this file prints the text.
 
+OTHER_PROGRAM = "int main() { return 0; }\n"  # CMakeLists.txt must not use this file.
+SECOND_MAIN = (
+    "CMake built box_server from all the files in the folder src, but a program can have only one main(). "
+    "Write only src/box_server.cpp into add_executable."
+)
+
 
 @part(
     "13.1",
@@ -72,7 +78,11 @@ def cmake_list_file(context: CheckContext) -> None:
     require_tools()
     drawn = context.random.word(12)
     code = PROGRAM.replace("DRAWN", drawn)
-    texts = {f"{PACKAGE}/package.xml": MANIFEST, f"{PACKAGE}/src/box_server.cpp": code}
+    texts = {
+        f"{PACKAGE}/package.xml": MANIFEST,
+        f"{PACKAGE}/src/box_server.cpp": code,
+        f"{PACKAGE}/src/{context.random.word()}.cpp": OTHER_PROGRAM,
+    }
     folder = context.folder(files=[FILE], texts=texts)
     _builds(context, run_catkin_make(folder, f"{LIMITS};", within=BUILDING))
     there = folder.command("test", "-x", BUILT)
@@ -105,6 +115,8 @@ def _builds(context: CheckContext, finished: Finished) -> None:
     fault = explain(printed) or Fault(
         "catkin_make failed", f"Read the end of the output of catkin_make: {last}."
     )
+    if "multiple definition of `main'" in printed or "duplicate symbol" in printed:
+        fault = Fault("main() is defined twice", SECOND_MAIN, file="cpp_boxes/CMakeLists.txt")
     if not fault.file.endswith("CMakeLists.txt"):  # The check's own program has no mistake.
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
         if _lacks_roscpp(context.source(f"file:{FILE}")):
