@@ -104,6 +104,11 @@ replace("\n                return", "")
 # %% 16.1 wrong: succeeds in the loop | hint: The goal ended after the first thing, because set_succeeded ends the goal
 replace("+ 1))\n        self.server.set_succeeded(FetchResult(fetched=goal.things))", """+ 1))
             self.server.set_succeeded(FetchResult(fetched=fetched + 1))""")
+# %% 16.1 wrong: checks after the last thing, too | hint: Call set_succeeded after the last thing, and check for a cancellation only
+replace("        self.server.set_succeeded", """        if self.server.is_preempt_requested():
+            self.server.set_preempted(FetchResult(fetched=goal.things))
+            return
+        self.server.set_succeeded""")
 # %% 16.1 wrong: a second for each | hint: The duration of the robot's work is wrong
 replace("goal.seconds", "1")
 # %% 16.1 wrong: a fifth of a second for each | hint: The duration of the robot's work is wrong

@@ -32,6 +32,7 @@ QUICK, LONG = (0.03, 0.05), (0.22, 0.3)
 TIMEOUT = 6.0  # TIMEOUT is the time limit in s for a goal that needs less than 1 s.
 # For this many s, the check repeats a goal that was too slow, because a busy machine may delay messages.
 BUSY = 2.0
+LAST = 0.2  # LAST is the time in s for the thing during which the check cancels the goal.
 STARTING = 2.0  # STARTING is the time limit in s for the start of a server.
 CANCELLING = 3.0  # A goal must end within this many s after its cancellation.
 FIXED = (
@@ -75,6 +76,7 @@ def executed_goal(context: CheckContext) -> None:
     context.fulfilled(EXECUTED)
     _cancels(context, client, feedback)
     _fetches_nothing(context, client)
+    _cancels_during_the_last_thing(context, client)
 
 
 def _is_served(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
@@ -299,6 +301,31 @@ def _fetches_nothing(context: CheckContext, client: actionlib.SimpleActionClient
         expected=0,
         actual=client.get_result().fetched,
         hints=COUNTED_ON,
+    )
+
+
+def _cancels_during_the_last_thing(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
+    """Cancel a goal while the robot fetches its last thing: the goal then ends as SUCCEEDED.
+
+    On a busy machine, the cancellation can arrive before the thing or after it. The result shows the first
+    case, and in the second case a right server and a wrong server behave in the same way.
+    """
+    client.send_goal(FetchGoal(things=1, seconds=LAST))
+    wait_until(lambda: client.get_state() == GoalStatus.ACTIVE, LAST)
+    time.sleep(LAST / 4)  # The server examines the goal for a cancellation after it becomes active.
+    client.cancel_goal()
+    result = client.get_result() if _is_over(client, TIMEOUT) else None
+    complete = result is not None and result.fetched == 1
+    context.require(
+        "a goal is executed to its end",
+        holds=not (complete and client.get_state() == GoalStatus.PREEMPTED),
+        expected="SUCCEEDED",
+        actual="PREEMPTED, after the last thing",
+        hints=(
+            "The goal was cancelled while the robot fetched the last thing, and it ended as PREEMPTED "
+            "although all things were fetched. Call set_succeeded after the last thing, and check for a "
+            "cancellation only before each thing."
+        ),
     )
 
 
