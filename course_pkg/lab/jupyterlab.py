@@ -48,10 +48,9 @@ def serve_lab(asked: str | None, *, port: int | None, ip: str, browser: bool, sh
     start = partial(_serve, places, notebook, ip=ip, browser=browser, which=which)
     if port is not None:
         return start(server_port(ip, [port]), retries=0)
-    with suppress(PortTaken):
-        return start(server_port(ip, PORTS))
-    with suppress(PortTaken):
-        return start(server_port(ip, [0]))
+    for candidates in (PORTS, [0]):
+        with suppress(PortTaken):
+            return start(server_port(ip, candidates))
     return start(server_port(ip, [0]))
 
 

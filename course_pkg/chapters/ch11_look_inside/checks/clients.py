@@ -67,7 +67,7 @@ STORED = "Look up the address once, and use the stored address for all calls."
     ],
 )
 def persistent_client(context: CheckContext) -> None:
-    """Call a server that responds, refuses, hangs up or stops, and a server at a new address."""
+    """Let the server respond, refuse a call, close the connection, end, and start again at a new address."""
     name = f"/{context.random.word()}"
     volumes = context.random.numbers(8, 10.0, 90.0)
     acts: list[Act] = [{"volume": each} for each in volumes[:5]]

@@ -111,12 +111,7 @@ def _builds(context: CheckContext, finished: Finished) -> None:
         context.require(RULE, holds=True)
         return
     printed = f"{finished.out}\n{finished.err}"
-    last = " / ".join([line for line in printed.strip().splitlines() if line.strip()][-3:])
-    fault = explain(printed) or Fault(
-        "catkin_make failed", f"Read the end of the output of catkin_make: {last}."
-    )
-    if "multiple definition of `main'" in printed or "duplicate symbol" in printed:
-        fault = Fault("main() is defined twice", SECOND_MAIN, file="cpp_boxes/CMakeLists.txt")
+    fault = _fault_in(printed)
     if not fault.file.endswith("CMakeLists.txt"):  # The check's own program has no mistake.
         fault = replace(fault, file="cpp_boxes/CMakeLists.txt", line=0)
         if _lacks_roscpp(context.source(f"file:{FILE}")):
@@ -126,6 +121,16 @@ def _builds(context: CheckContext, finished: Finished) -> None:
         expected="a successful build",
         actual=f"{fault.place}: {fault.problem}" if fault.place else fault.problem,
         hint=fault.remedy,
+    )
+
+
+def _fault_in(printed: str) -> Fault:
+    """Return the cause of a failed build, from the output of catkin_make."""
+    if "multiple definition of `main'" in printed or "duplicate symbol" in printed:
+        return Fault("main() is defined twice", SECOND_MAIN, file="cpp_boxes/CMakeLists.txt")
+    last = " / ".join([line for line in printed.strip().splitlines() if line.strip()][-3:])
+    return explain(printed) or Fault(
+        "catkin_make failed", f"Read the end of the output of catkin_make: {last}."
     )
 
 
