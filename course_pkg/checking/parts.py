@@ -110,7 +110,7 @@ def folder_of(chapter: str) -> Path:
 
 
 def folders_for(chapter: str) -> list[Path]:
-    """Return a sorted list: the folder of a chapter, such as "14", and of each chapter that it imports from.
+    """Return, sorted, the folder of a chapter, such as "14", and the folders of the chapters that it imports.
 
     Indirect imports are included. For an unknown chapter, the list is empty.
     """
@@ -161,7 +161,7 @@ def secret_paths() -> list[Path]:
 
 
 def _modules() -> dict[str, str]:
-    """Return the module of each chapter, by its number."""
+    """Return a dict that maps the number of each chapter to the name of the chapter's module."""
     names = [module.name for module in pkgutil.iter_modules(importlib.import_module(CHAPTERS).__path__)]
     return {found[1]: f"{CHAPTERS}.{found[0]}" for name in names if (found := FOLDER.fullmatch(name))}
 
@@ -189,7 +189,7 @@ def start_of(check: str) -> str:
 
 
 def find(check: str) -> Part:
-    """Return the part with the id `check`; only its own chapter is imported.
+    """Return the part with the id `check`; import only the chapter of this part.
 
     Raises UnknownCheck if there is no such part; the message contains similar ids.
     """

@@ -4,7 +4,7 @@ The record shows students their progress in the course. Students can change the 
 own folder. The record is therefore never used for a grade.
 
 Grades come from check runners that `course grade` starts. The import-linter contract in pyproject.toml
-forbids this import in the packages grading and sandbox.
+forbids that the packages grading and sandbox import this module.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """A check's folders on the kernel's computer, and the commands that run in them.
 
-A check never changes the student's own files: it uses copies, together with its own files. The commands get
-the course's environment, not the kernel's environment. A package that a student has sourced therefore cannot
-replace a package that the check builds.
+A check never changes the student's own files: the check uses copies of them, and files of the check. The
+commands get the course's environment, not the kernel's environment. A package that a student has sourced
+therefore cannot replace a package that the check builds.
 """
 
 from __future__ import annotations
@@ -117,9 +117,10 @@ class _Running:
 
 
 def _place(name: str) -> str:
-    """Return the path at which a file is copied into a folder of the check.
+    """Return the path of a file's copy, relative to the check's folder.
 
-    A relative path does not change. For an absolute path, only the file name is used.
+    A relative path does not change. For an absolute path, or a path outside the folder, use only the file
+    name.
     """
     path = Path(os.path.normpath(name))
     return path.name if path.is_absolute() or ".." in path.parts else str(path)
@@ -142,7 +143,7 @@ def _environment(folder: Path) -> dict[str, str]:
     """Return the course's environment; PWD is set because catkin_make uses it as the working directory."""
     try:
         known = environment.merged(Places.of(), os.environ)
-    except (OSError, ValueError):  # Without a finished set-up, the current environment is used.
+    except (OSError, ValueError):  # If the course's set-up is incomplete, use the current environment.
         known = dict(os.environ)
     return {**known, "PWD": str(folder), "PYTHONUNBUFFERED": "1"}
 
@@ -175,7 +176,7 @@ def _finished(command: Sequence[str], folder: Path, timeout: float) -> Reply:
 
 
 def _scheduled(pid: int) -> Reply:
-    """Return the CPU time of a process's main thread, and its waiting time for a CPU, in s.
+    """Return how long a process's main thread has run, and how long it has waited for a CPU, in s.
 
     Source: /proc/PID/schedstat, in ns (Documentation/scheduler/sched-stats.rst). If this file cannot be read,
     the result is empty.

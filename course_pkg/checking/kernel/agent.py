@@ -1,7 +1,7 @@
 """The kernel agent: it reads and runs the student's code when the check runner requests this.
 
-The agent makes no decisions. Student code can forge a reply, so the check runner trusts a reply only if it
-can observe the effect itself, such as a message.
+The agent does not decide whether the student's work is correct. Student code can forge a reply, so the check
+runner trusts a reply only if it can observe the effect itself, such as a message.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class PrintedText(io.TextIOBase):
         return True
 
     def write(self, text: str) -> int:
-        """Store `text` up to the limit."""
+        """Store `text`; the total length is limited to PRINTED characters."""
         self.text += text[: max(PRINTED - len(self.text), 0)]
         return len(text)
 
@@ -163,7 +163,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; by default, rospy keeps the stream that existed earlier."""
+    """Let rospy's log print to `stream`; otherwise, rospy prints to the stdout and stderr of its start."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -262,7 +262,7 @@ def _nothing() -> None: ...
 
 
 def _look_at_file(path: Path) -> Reply:
-    """Return the kind of a file; if the file is missing, also return similar names in its folder."""
+    """Return the kind of a file ("file", "blank" or "missing"), and similar names if the file is missing."""
     kind = _kind_of_file(path)
     beside = [each.name for each in path.parent.glob("*")] if kind == "missing" else []
     return {"kind": kind, "alike": [*difflib.get_close_matches(path.name, beside, n=2)]}

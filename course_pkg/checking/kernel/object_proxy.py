@@ -126,7 +126,7 @@ class _Connection(JsonChannel):
 
 
 def _class_of(item: dict[str, Json]) -> type:
-    """Return a class with the name, the methods and the attributes of the object's class."""
+    """Return a class with the name, methods and attributes that the real object's class has."""
     members: dict[str, Value] = {name: _method(name) for name in _names(item, "methods")}
     writable = set(_names(item, "writable"))
     for name in {*_names(item, "readable"), *writable}:

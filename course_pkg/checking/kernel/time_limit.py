@@ -34,7 +34,8 @@ class TimeLimit:
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._error = _coming_again(TimesUp)
-        self._raised = 0.0  # The time at which the error was last raised and not caught here.
+        # _end() raised the error, and did not catch it, for the last time at this time in s.
+        self._raised = 0.0
         self._stopped = False  # The value is true after the user has pressed the Stop button.
 
     def call(self, function: Callable[[], Value]) -> Value:
@@ -71,7 +72,9 @@ class TimeLimit:
             self._raised = now
             raise self._error
         try:
-            raise self._error  # SIGALRM is pending again, but the library can first clean up.
+            # This statement sends SIGALRM again, so _end() runs again soon; before this, the library can
+            # clean up.
+            raise self._error
         except BaseException:  # noqa: BLE001
             return
 
@@ -91,7 +94,7 @@ def _is_called(frame: FrameType | None) -> bool:
 
 
 def _coming_again(error: type[BaseException]) -> type[BaseException]:
-    """Return a subclass of `error`; each new instance of it sends SIGALRM to this process again.
+    """Return a subclass of `error`; each new instance of this subclass sends SIGALRM to this process again.
 
     Raise this class, not an instance. The `raise` statement then creates the instance. Python handles the new
     signal only after the exception has left the function. If the instance existed before the `raise`

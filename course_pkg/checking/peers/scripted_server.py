@@ -47,7 +47,7 @@ class Late:
 
 
 Act = Mapping[str, Value] | genpy.Message | Refuse | HangUp | Silence | Late
-Script = Callable[..., Act]  # A script returns the next action for a request.
+Script = Callable[..., Act]  # A script is a function that returns the server's action for a request.
 
 
 @dataclass
@@ -62,7 +62,7 @@ class Received:
 
 
 class ScriptedServer:
-    """Serves `name` during the block; after the block, the previous server is registered again."""
+    """Serves the service `name` during the block; afterwards, the previous server is registered again."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, script: Script) -> None:
         self.received = Received()

@@ -174,7 +174,7 @@ class PlacedObjects:
 def _done(
     item: object, names: Interface, do: str, name: str, args: list[Json], kwargs: dict[str, Json]
 ) -> object:
-    """Execute the request `do` ("call", "get" or "set") for `name`, if `names` allows it."""
+    """Execute the request `do` ("call", "get" or "set") for `name`, which must be a remote name."""
     if do == "call" and name in names.methods:
         return getattr(item, name)(*args, **kwargs)
     if do == "get" and name in names.readable:

@@ -1,6 +1,6 @@
 """Read a student's definition of a service type with ROS's own rules.
 
-Return a hint if the definition is invalid.
+If the definition is invalid, the report contains a hint.
 """
 
 from __future__ import annotations

@@ -17,7 +17,7 @@ def expect_geometry(
     volume: Hints,
     assertion: str = "area is width times length",
 ) -> None:
-    """Assert that a response contains the area `base`, and the volume of a box with this height.
+    """Assert that a response contains the area `base` and the volume `base` times `height`.
 
     `area` and `volume` are the hints for the two fields.
     """

@@ -119,8 +119,7 @@ class _Kernel:
             if self._shell is not None:
                 self._shell.add_programs(self._node.keep)
             atexit.register(self._at_exit)
-            # Without this line, a forked child that ends would unregister the services and topics of its
-            # parent.
+            # When a forked child process ends, it must not unregister the services and topics of its parent.
             os.register_at_fork(after_in_child=lambda: atexit.unregister(rospy.core._ros_atexit))
         self._node.renew()
         self._start_cleaner(master)

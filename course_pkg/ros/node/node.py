@@ -93,7 +93,7 @@ class Node:
         self._processes[f"process {process.pid}"] = process
 
     def record(self) -> AbstractContextManager[Recording]:
-        """Record the actions of all nodes of the course during a `with` block.
+        """Record the calls, messages and callbacks of all nodes of the course during a `with` block.
 
         The recording is empty until the block ends. If a node does not answer, the collection of the records
         takes up to 1 s.

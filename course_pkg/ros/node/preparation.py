@@ -1,9 +1,9 @@
 """Add the features of a course node to a process, after init_node().
 
 In rospy, one thread accepts all connections and also reads their headers. A client that connects and sends
-nothing therefore blocks new connections to all services and topics of the node. In a prepared node, this
-thread reads only headers that have arrived completely. A separate thread waits, for a limited time, for a
-header that arrives slowly.
+nothing therefore blocks new connections to all services and topics of the node. In a prepared node, the
+thread that accepts connections reads only headers that have arrived completely. A separate thread waits, for
+a limited time, for a header that arrives slowly.
 
 In the slave API (http://wiki.ros.org/ROS/Slave_API), `getBusStats` returns a list for the statistics of
 services. rospy leaves this list empty, and this module fills the list. `getCourseRecord` is an additional
@@ -157,7 +157,7 @@ def _readable(sock: socket.socket, count: int, deadline: float) -> bool:
 
 
 def _record(_handler: ROSHandler, _caller_id: str, since: float) -> tuple[int, str, str]:
-    """Return the record of this node from the time `since` (s of time.monotonic()), as JSON.
+    """Return the record of this node since the time `since` (s of time.monotonic()), as JSON.
 
     JSON is ten times as fast to encode as XML.
     """

@@ -60,9 +60,9 @@ def serve_until_shutdown(node: str, services: Mapping[str, Offered]) -> None:
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """Delay Ctrl-C until the end of the block.
+    """Delay Ctrl-C until the end of the `with` block.
 
-    While rospy calls the master, it holds a lock that its shutdown also needs.
+    While rospy calls the master, rospy holds a lock that the shutdown of rospy also needs.
     """
     came: list[int] = []
     before = {number: signal.signal(number, lambda number, _: came.append(number)) for number in END_SIGNALS}

@@ -69,7 +69,7 @@ class BoundedProxy(rospy.ServiceProxy):
         """End all running calls; each call raises CallCancelled in the thread that made it."""
         for call in list(self._running):
             call.actions.append(self._watchdog.arm(time.monotonic(), call.cancel))
-            # If the call had already ended before this action was armed, only the next lines disarm the
+            # If the call ended before arm() added this action to the watchdog, only the next lines remove the
             # action.
             if call.over:
                 self._disarm(call)

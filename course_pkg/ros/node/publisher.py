@@ -52,7 +52,7 @@ class Publisher:
 
     @property
     def advertised(self) -> bool:
-        """Whether this publisher can publish, which is false after stop()."""
+        """Whether this publisher can publish; false after stop()."""
         return self._publisher is not None
 
     @property

@@ -55,7 +55,8 @@ class Cells:
         self._runs: dict[str, CellRun] = {}
         self._cells: dict[str, str] = {}  # The dict maps the `source` of a run to the id of its cell.
         self._current: CellRun | None = None
-        # This is the number of runs inside the current run; for example, %%capture starts another run.
+        # This is the number of cell runs that began inside the current run; %%capture, for example, begins
+        # one.
         self._depth = 0
         self._paused = 0
 
@@ -86,7 +87,7 @@ class Cells:
         return run if run is not None and not self._paused and run.owns_this_thread() else None
 
     def created(self, thing: Hashable, close: Close) -> None:
-        """If there is a current run, record that this run created `thing`; `close` shuts `thing` down."""
+        """Record that the current run, if any, created `thing`; the function `close` shuts `thing` down."""
         if run := self.run:
             run.created[thing] = close
 

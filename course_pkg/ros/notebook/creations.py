@@ -1,7 +1,7 @@
 """Record in `Cells` which objects of rospy and actionlib a cell creates, and shut these objects down.
 
 rospy has no list of its Publisher and Subscriber objects. This module therefore replaces the methods that
-create these objects with methods that also record the objects. A method with unexpected parameters is not
+create these objects; each new method also records the object. A method with unexpected parameters is not
 replaced.
 """
 
@@ -83,7 +83,7 @@ def _ends_goals(close: Close) -> bool:
 
 @contextmanager
 def _unregistering_in_bounded_time() -> Iterator[None]:
-    """If the master does not answer, rospy does not unregister during the block, and so does not hang."""
+    """If the master does not answer, rospy skips the unregistration during the block, and cannot hang."""
     manager = registration_manager()
     known = getattr(manager, "master_uri", None)
     try:
@@ -143,7 +143,7 @@ def _registering(cells: Cells) -> Callable[[Method], Method]:
 
 
 def _make_room(run: CellRun, before: ServiceImpl) -> bool:
-    """Return whether a new service may replace the service `before`; if necessary, shut `before` down.
+    """Return whether a new service may replace the older service `before`; if necessary, shut `before` down.
 
     A check must not shut down the service of a cell. A check may create a second object of a student's class,
     and the `__init__` of this class may create a service. The service of the second object must not replace

@@ -22,8 +22,8 @@ SETTINGS = {
 def set_up_figures() -> None:
     """Make this kernel show figures as SVG; outside of IPython, do nothing.
 
-    matplotlib's inline backend reads the settings before it draws the first figure. If it has already drawn a
-    figure, the settings apply to the next figure.
+    matplotlib's inline backend reads the settings before it draws the first figure. If the backend has
+    already drawn a figure, the settings apply to the next figure.
     """
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None

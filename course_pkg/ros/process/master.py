@@ -147,7 +147,7 @@ def _pid(client: MasterClient) -> int:
 
 
 def _port(asked: int | None) -> int:
-    """Return the requested port, or any free port of 127.0.0.1 if `asked` is None.
+    """Return the requested port `asked`, or any free port of 127.0.0.1 if `asked` is None.
 
     Raises PortBusy if the requested port is in use.
     """

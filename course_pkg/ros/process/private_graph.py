@@ -79,7 +79,7 @@ class PrivateGraph:
         return f"<a private graph with {master} and {alive} programs>"
 
     def _knows(self, process: NodeProcess) -> bool:
-        """Return whether a registered node belongs to `process`: the process listens on the node's port."""
+        """Return whether a node of `process` is registered: `process` listens on the port of this node."""
         master = MasterClient(self.uri)
         try:
             nodes, _ = master.lookup_all(master.system_state().nodes, ())

@@ -61,7 +61,8 @@ class SupervisedProcess:
                 env=env,
                 cwd=cwd,
                 pass_fds=[writer, *inherit],
-                # Without a new session, an interrupt of the kernel would also interrupt the command.
+                # The command runs in a new session, so that an interrupt of the kernel does not interrupt the
+                # command.
                 start_new_session=not foreground,
             )
         finally:

@@ -93,7 +93,7 @@ class Supervisor:
             os.read(self._signalled, 512)
 
     def _reap(self) -> bool:
-        """Collect the children that have ended, and return whether any child is still running."""
+        """Collect the exit statuses of ended children, and return whether any child is still running."""
         while True:
             try:
                 pid, status = os.waitpid(-1, os.WNOHANG)
@@ -107,9 +107,9 @@ class Supervisor:
     def _end_descendants(self) -> frozenset[int]:
         """End all descendants with SIGTERM, or with SIGKILL after GRACE s.
 
-        Orphaned descendants become children of this process. If a descendant is a supervisor, it is killed
-        GRACE s later, because it has to clean up after its owner has been killed. The returned set contains
-        the listening ports of the killed processes.
+        Orphaned descendants become children of this process. A descendant that is a supervisor is killed
+        GRACE s later, so that this supervisor can first clean up. The returned set contains the listening
+        ports of the killed processes.
         """
         ports: frozenset[int] = frozenset()
         deadline = time.monotonic() + (0 if self.urgent else GRACE)

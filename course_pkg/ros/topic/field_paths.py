@@ -34,7 +34,7 @@ def measurement(message: MessageType) -> str:
 
     Fields in a std_msgs/Header and settings of the sensor, such as `range_min`, are not measurements. Among
     all other fields, the function selects the first float, or else the first integer, or else the first bool.
-    If no such field exists, the function returns the message's first number.
+    If the message has no other fields, the function returns the first number in the message.
     """
     measured = [found for found in _first_numbers(message, _HEADER) if not _SETTING.search(found[0])]
     by_kind = [path for wanted in _NUMBERS for path, kind in measured if kind is wanted]

@@ -66,7 +66,7 @@ class Exchange:
         span.exchange = self
 
     def started(self, kind: str) -> float | None:
-        """Return the time when the first span of this kind began, or None."""
+        """Return the time when the first span of the kind `kind` began, or None if there is none."""
         return next((each.start for each in self.spans if each.kind == kind), None)
 
     @property
