@@ -1,4 +1,4 @@
-"""The object that a check uses: the student's servers, topics, functions and values, and assertions."""
+"""The object through which a check uses the student's servers, topics, functions and values."""
 
 from __future__ import annotations
 
@@ -186,7 +186,7 @@ class CheckContext:
     # -- servers and topics for the student's client
 
     def serve(self, name: str, kind: str | ServiceClass, script: Script) -> ScriptedServer:
-        """Serve the service `name` with `script` (peers/scripted_server.py) until the check ends or leave().
+        """Serve `name` with the function `script` (see peers/scripted_server.py) until the check ends.
 
         `kind` is a type's name, or a class. After the check, the former server is registered again.
         """

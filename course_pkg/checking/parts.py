@@ -22,7 +22,7 @@ PRIVATE = "private_"  # The modules with an instructor's own parts have this pre
 PUBLIC = ("__init__.py", "programs")  # Student code may read these files of a chapter.
 FOLDER = re.compile(r"ch(\d\d)_\w+")
 IMPORTED = re.compile(r"^\s*(?:from|import)\s+course_pkg\.chapters(?:\.|\s+import\s+)ch(\d\d)_", re.MULTILINE)
-# The pattern matches a file of a package in a workspace.
+# The pattern matches the name of a needed file in a package of the workspace.
 PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")
 
 

@@ -86,13 +86,13 @@ class Finished:
 
     def __init__(self, reply: Mapping[str, Json]) -> None:
         status, took = reply.get("status"), reply.get("took")
-        # The value None means that the command was still running.
+        # `status` is None if the command was still running.
         self.status = status if isinstance(status, int) else None
         self.out = str(reply.get("out", ""))
         self.err = str(reply.get("err", ""))
         self.took = took if isinstance(took, float) else 0.0  # The command took this time in s.
         # `ran` is the CPU time in s of a command that was stopped at its time limit. `queued` is the time in
-        # s for which it waited for a CPU.
+        # s for which the command waited for a CPU.
         ran, queued = reply.get("ran"), reply.get("queued")
         self.ran = ran if isinstance(ran, float) else 0.0
         # The waiting time is infinity if the kernel did not send a waiting time.

@@ -1,6 +1,6 @@
 """A check's folders on the kernel's computer, and the commands that run in them.
 
-A check never changes the student's own files: the check uses copies of them, and files of the check. The
+A check never changes the student's own files: it uses copies of these files, and adds its own files. The
 commands get the course's environment, not the kernel's environment. A package that a student has sourced
 therefore cannot replace a package that the check builds.
 """
@@ -24,7 +24,7 @@ from course_pkg.ros.process.supervised import SupervisedProcess, temporary_folde
 from course_pkg.ros.protocol.json_channel import Json
 from course_pkg.setup import Places, environment
 
-PRINTED = 65536  # At most this number of characters of the output is stored.
+PRINTED = 65536  # At most this number of characters of a command's output is stored.
 GRACE = 2.0  # A node has to end within this time in s after SIGINT; a node with rospy takes 0.6 s.
 
 
@@ -32,7 +32,7 @@ class CommandFolders:
     """Folders and running commands with ID numbers; close() ends the commands and deletes the folders."""
 
     def __init__(self, find: Callable[[str], Path]) -> None:
-        self._find = find  # The function returns the path of a student's file.
+        self._find = find  # This function returns the path of a student's file.
         self._open = ExitStack()
         self._root: Path | None = None  # This folder contains all other folders.
         self._folders: list[Path] = []

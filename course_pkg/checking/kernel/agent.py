@@ -1,7 +1,7 @@
 """The kernel agent: it reads and runs the student's code when the check runner requests this.
 
 The agent does not decide whether the student's work is correct. Student code can forge a reply, so the check
-runner trusts a reply only if it can observe the effect itself, such as a message.
+runner trusts a reply only if the runner itself observes the effect, such as a message.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class KernelAgent:
         return {"answer": request.get("ask"), **reply}
 
     def close(self) -> None:
-        """End the commands of the check in this kernel, delete the check's folders, and close its proxies."""
+        """End the commands of the check in this kernel, delete the check's folders, and close the proxies."""
         self._handler_errors.close()
         if self._proxies is not None:
             self._proxies.close()
@@ -163,7 +163,7 @@ class KernelAgent:
 
 @contextmanager
 def _ros_console(stream: io.TextIOBase) -> Iterator[None]:
-    """Let rospy's log print to `stream`; otherwise, rospy prints to the stdout and stderr of its start."""
+    """Let rospy's log print to `stream`; by default, it prints to the streams from the start of rospy."""
     handlers = [
         handler
         for handler in logging.getLogger("rosout").handlers
@@ -197,7 +197,7 @@ def _result(function: Callable[[], Value], timeout: float) -> Reply:
 
 def _described(error: BaseException) -> Json:
     called = traceback.walk_tb(error.__traceback__)
-    # Only the cells of the notebook run in the module `__main__`.
+    # Use only lines in cells: the cells of the notebook run in the module `__main__`, and no other code does.
     lines = [line for frame, line in called if frame.f_globals.get("__name__") == "__main__"]
     return {
         "type": type(error).__name__,

@@ -47,6 +47,6 @@ class HandlerErrors(logging.Handler):
 
 
 def _place(filename: str) -> str:
-    """Return the name that a traceback shows for a file; for the code of a cell, it shows no file name."""
+    """Return the file name for a traceback, or "Your cell" for the code of a cell."""
     path = Path(filename)
     return path.name if path.is_file() else "Your cell"

@@ -34,7 +34,7 @@ class TimeLimit:
     def __init__(self, seconds: float) -> None:
         self._seconds = seconds
         self._error = _coming_again(TimesUp)
-        # _end() raised the error, and did not catch it, for the last time at this time in s.
+        # This is the last time (s) at which _end() raised the error without catching it.
         self._raised = 0.0
         self._stopped = False  # The value is true after the user has pressed the Stop button.
 

@@ -89,7 +89,7 @@ class FaultyServer(ScriptedServer):
         return cast(Act, fault.what)  # _act() also executes the faults that are not an Act.
 
     def _arrived(self, *, frozen: bool = False) -> Fault | None:
-        """Record the time of a call, and remove its fault from the plan.
+        """Record the time of a call, and remove the fault of this call from the plan.
 
         If `frozen` is true, do this only if the next fault is Frozen. A Frozen fault occurs in the handshake,
         and all other faults occur after the request.

@@ -88,7 +88,7 @@ def on_the_graph(check: str) -> Iterator[Node]:
     name = f"check_runner_{check.replace('.', '_')}_{secrets.token_hex(4)}"
     master = MasterClient(master_uri(), caller=f"/{name}")
     master.pid()  # Without a master, init_node would wait for ever.
-    # This line prevents that each check writes a log file into the student's log folder.
+    # Each check would otherwise write a log file into the student's log folder.
     rospy.core.configure_logging = lambda *_: None
     with held_back(signal.SIGTERM) as came:
         rospy.init_node(name, argv=[name], disable_rosout=True, disable_signals=True)
@@ -106,7 +106,7 @@ def on_the_graph(check: str) -> Iterator[Node]:
 
 @contextmanager
 def held_back(number: int) -> Iterator[list[int]]:
-    """Ignore a signal until the block has ended; yield a list with the signals that have arrived."""
+    """Ignore a signal during the `with` block; yield a list with the signals that have arrived."""
     came: list[int] = []
     before = signal.signal(number, lambda *_: came.append(number))
     try:
@@ -116,7 +116,7 @@ def held_back(number: int) -> Iterator[list[int]]:
 
 
 class FakeNode:
-    """A node that is registered as a publisher of `topic` during the block, but never publishes.
+    """A node that is registered as a publisher of `topic` during the `with` block, but never publishes.
 
     If `alive` is true, its address is the address of the check's own node, so a ping succeeds. If `alive` is
     false, the port of its address is closed, as after a kill. If `reused` is true, another program listens on

@@ -62,7 +62,7 @@ class Received:
 
 
 class ScriptedServer:
-    """Serves the service `name` during the block; afterwards, the previous server is registered again."""
+    """Serves `name` during the `with` block; after the block, the previous server is registered again."""
 
     def __init__(self, node: Node, name: str, kind: ServiceClass, script: Script) -> None:
         self.received = Received()
@@ -186,7 +186,7 @@ class ScriptedServer:
 
 
 class Absent:
-    """Unregisters the server of `name` during the block.
+    """Unregisters the server of the service `name` during the `with` block.
 
     If `stale` is true, an address with a closed port is registered instead.
     """

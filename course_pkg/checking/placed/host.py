@@ -47,8 +47,8 @@ LONGEST = 4000  # An error message has at most this number of characters.
 class PlacedObjects:
     """Objects with remote methods, and the kernel's connections to them; a context manager.
 
-    At the end of the block, all connections are closed. A call that is still waiting then raises an error in
-    the kernel. An object with waiting calls needs a method `close` that ends these calls.
+    At the end of the `with` block, all connections are closed. A call that is still waiting then raises an
+    error in the kernel. An object with waiting calls needs a method `close` that ends these calls.
     """
 
     def __init__(self) -> None:

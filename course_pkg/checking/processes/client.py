@@ -85,7 +85,7 @@ def _runner() -> Iterator[Channel]:
 
 @contextmanager
 def _started_runner() -> Iterator[Channel]:
-    """Start a check runner; it ends after the block, or when this process ends, even after SIGKILL."""
+    """Start a check runner; it ends after the `with` block, or when this process ends, even after SIGKILL."""
     if "ROS_MASTER_URI" not in os.environ:
         raise CheckError("The node does not exist yet. First run the set-up cell, which calls join().")
     ours, theirs = socket.socketpair()

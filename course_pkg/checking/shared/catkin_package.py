@@ -18,7 +18,8 @@ from course_pkg.workspace import Fault, explain
 from course_pkg.workspace.fault import locate
 
 BUILDS = "catkin_make builds the package"
-# The limits are the CPU time in s and the size of a file in KiB. A sandbox limits these values separately.
+# The limits are the CPU time in s and the size of a file in KiB. A sandbox has separate limits for these
+# values.
 LIMITS = "ulimit -t 20 -f 60000 2> /dev/null"
 # The time limit of the build in s. A build takes 3 s of CPU time, or 6 s on a machine with two cores and a
 # load average of 9.
@@ -26,7 +27,7 @@ BUILD = 50.0
 OWN = "own"  # This folder contains the check's own files; cp -n does not replace the student's files.
 FILL = f"mkdir -p src {OWN} && chmod -R +x {OWN} && cp -rn {OWN}/. src/ && rm -rf {OWN}"
 SETUP = "devel/setup.bash"
-# With this path, ROS finds packages in `src` that are not built because they contain only scripts.
+# With this path, ROS finds the packages in `src` without a build; these packages contain only scripts.
 IN_SRC = 'export ROS_PACKAGE_PATH="$PWD/src:$ROS_PACKAGE_PATH"\n'
 # Without -j2, catkin_make would set a load limit, and make would wait while the machine is busy.
 CATKIN_MAKE = "catkin_make -j2"

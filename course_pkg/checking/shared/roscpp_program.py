@@ -20,7 +20,7 @@ STARTS = re.compile(
     r"f?exec[lv]\w*|posix_spawnp?|v?fork|clone\d?|system|popen|dlm?open|syscall|mprotect|memfd_create"
 )
 NEEDED = re.compile(r"\(NEEDED\)[^\[]*\[(lib\w+)\.so")
-# These instructions on x86 and ARM make a system call without a library function.
+# These machine instructions of x86 and ARM processors make a system call without a library function.
 INSTRUCTION = r"[[:space:]](syscall|sysenter|svc)([[:space:]]|$)|int +[$]0x80"
 # At most this number of lines of readelf's output is read; a usual program has about 400 symbols.
 LINES = 2000

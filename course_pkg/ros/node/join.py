@@ -85,7 +85,8 @@ class _Kernel:
         self._packages: OwnPackages | None = None
         self._private: Roscore | None = None
         self._cleaner: SupervisedProcess | None = None
-        # The cleaner process unregisters this node: (the master's URI, the node's name, the node's URI).
+        # The cleaner process unregisters the node with these data: the master's URI, the node's name and its
+        # URI.
         self._registered: tuple[str, str, str] | None = None
 
     def join(self, name: str) -> Node:
@@ -195,8 +196,8 @@ class _Kernel:
         with suppress(GraphError, OSError):
             self.leave(self._node)
         if (manager := registration_manager()) is not None:
-            # All registrations have been removed. `master_uri` is set to None, because rospy would otherwise
-            # unregister again, without a time limit.
+            # The node is already unregistered. Without this line, rospy would unregister the node again,
+            # without a time limit.
             manager.master_uri = None
         if self._private is not None:
             self._private.stop()
@@ -234,7 +235,7 @@ def _require_same_name(full: str) -> None:
 
 
 def _apply_environment() -> None:
-    """Set the workspace's environment variables if its setup file was not sourced.
+    """Set the workspace's environment variables if the workspace's setup file was not sourced.
 
     In an editor or on Binder, for example, the setup file is not sourced.
     """
@@ -246,7 +247,7 @@ def _apply_environment() -> None:
                 "The course's workspace is not built on this machine. Run `./course doctor` in "
                 "a terminal, and install the missing programs. Then run this cell again."
             )
-        # The extended path contains the generated package course_pkg.srv.
+        # With the extended `__path__`, Python finds the generated package course_pkg.srv.
         course_pkg.__path__ = extend_path(course_pkg.__path__, course_pkg.__name__)
     if not any(os.environ.get(name) for name in ("ROS_HOSTNAME", "ROS_IP")):
         os.environ["ROS_HOSTNAME"] = "localhost"

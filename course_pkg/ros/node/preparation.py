@@ -1,4 +1,4 @@
-"""Add the features of a course node to a process, after init_node().
+"""After init_node(), make a node ignore idle connections, and record its calls and messages.
 
 In rospy, one thread accepts all connections and also reads their headers. A client that connects and sends
 nothing therefore blocks new connections to all services and topics of the node. In a prepared node, the
@@ -106,9 +106,9 @@ def hasten_shutdown() -> None:
 
 
 def extend_slave() -> None:
-    """Make this process's node return its records through the slave API."""
+    """Make the slave API of this process's node return the node's records."""
     setattr(ROSHandler, GET_RECORD, _record)
-    # rospy wraps this method in a function with the parameters args and kwds.
+    # In rospy, a decorator gives the method getBusStats the parameters `args` and `kwds`.
     hook = Hook(ROSHandler, STATISTICS, ("args", "kwds"), _add_services)
     if hook.fits():
         hook.install()

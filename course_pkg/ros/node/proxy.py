@@ -85,7 +85,7 @@ class BoundedProxy(rospy.ServiceProxy):
     def _call(self, args: Sequence[object], fields: Mapping[str, object], timeout: float) -> Message:
         request = args_kwds_to_message(self.request_class, args, fields)
         if request._type != self.request_class._type:
-            # This error message is the same as rospy's own message.
+            # The text is a copy of rospy's error message.
             text = "request object type [%s] does not match service type [%s]"
             raise TypeError(text % (request.__class__, self.request_class))
         call = _Call(self.resolved_name, timeout)
@@ -129,7 +129,8 @@ class BoundedProxy(rospy.ServiceProxy):
                 response = self._exchanged(transport, request)
             except rospy.ServiceException as error:
                 if error.__cause__ is None and call.error is None:
-                    # The server has answered, so this connection can be used again.
+                    # The error message is from the server, so the connection still works and can be used
+                    # again.
                     self._connection = transport
                 else:
                     transport.close()

@@ -77,7 +77,7 @@ class _AnyArguments:
 
 @contextmanager
 def logging_kept() -> Iterator[None]:
-    """After the block, restore the root logger's handlers; new handlers stay only on ROS's loggers."""
+    """After the `with` block, restore the root logger's handlers; new handlers stay only on ROS's loggers."""
     root = logging.getLogger()
     handlers, level = root.handlers[:], root.level
     try:

@@ -1,6 +1,6 @@
 """Record the runs of a notebook's cells and the objects that each run created.
 
-When a cell runs again, the objects that its last run created are shut down, for example services.
+When a cell runs again, the objects (such as services) that the last run created are shut down.
 
 A front end sends the cell's id with each execution. nbclient sends no id, so each execution without an id
 counts as a separate cell.
@@ -29,7 +29,8 @@ class CellRun:
     """
 
     source: str = ""
-    # The value is True for a check; when a check ends, the objects that it created are shut down.
+    # `temporary` is True if the run is a check; when a check ends, the objects that the check created are
+    # shut down.
     temporary: bool = False
     error: str = ""  # This is the class name of the exception that ended the run.
     # The dict maps each created object to the function that shuts it down; the oldest object comes first.
@@ -93,7 +94,7 @@ class Cells:
 
     @contextmanager
     def paused(self) -> Iterator[None]:
-        """Do not record the objects that are created in the block.
+        """Do not record the objects that are created in the `with` block.
 
         Objects that are created in the block are not shut down when the cell runs again.
         """
@@ -105,7 +106,7 @@ class Cells:
 
     @contextmanager
     def check(self) -> Iterator[None]:
-        """After the block, shut down all objects that the block created.
+        """After the `with` block, shut down all objects that the block created.
 
         A service that is created in the block does not replace a service that was created by a cell.
         """
@@ -118,9 +119,9 @@ class Cells:
             self._close_all(list(run.created.values()))
 
     def later_run(self, source: str) -> CellRun | None:
-        """Return the last run of the cell that has run with the file name `source`.
+        """Return the last run of a cell; `source` is IPython's file name of any run of this cell.
 
-        If `source` is the file name of the last run, return None.
+        If `source` belongs to the last run, return None.
         """
         run = self._runs.get(self._cells.get(source, ""))
         return run if run is not None and run.source != source else None

@@ -32,7 +32,7 @@ from course_pkg.ros.trace.hooks import Hook, Method
 GOAL_TIMEOUT = 2.0  # A goal has to end within this time in s after its cancellation.
 # One of these errors is raised if a topic is closed, the node is shut down, or the master does not answer.
 EXPECTED = (rospy.ROSException, rospy.ServiceException, AssertionError, KeyError, GraphError)
-# The address of an ended service is replaced with this value. If the ended service kept its address, another
+# This value replaces the address of a service that has ended. If the ended service kept its address, another
 # shutdown() of this service would unregister a newer service of this process with the same name.
 UNREGISTERED = "rosrpc://unregistered:0"
 LOOK = 0.5  # This is the time in s between two polls in _end_with_process().

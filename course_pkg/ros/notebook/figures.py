@@ -8,9 +8,9 @@ from __future__ import annotations
 import logging
 import sys
 
-# Without a salt, the ids in an SVG are random. The date is None, so that an SVG does not contain the time of
-# the run. With the font type "none", an SVG contains its letters as text. Such an SVG is smaller, and a
-# screen reader can read it.
+# With this salt, the ids in an SVG are the same in every run. With the date None, an SVG does not contain the
+# time of the run. With the font type "none", an SVG contains its letters as text. Such an SVG is smaller, and
+# a screen reader can read it.
 RC = {"svg.hashsalt": "course_pkg", "svg.fonttype": "none"}
 SETTINGS = {
     "figure_formats": {"svg"},
@@ -30,7 +30,7 @@ def set_up_figures() -> None:
     if shell is None:
         return
     shell.config.InlineBackend.update(SETTINGS)
-    # On a new machine, a cell would show matplotlib's log message about its font cache.
+    # On a new machine, matplotlib logs a message about its font cache; a cell must not show this message.
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     config = sys.modules.get("matplotlib_inline.config")
     if config and config.InlineBackend.initialized():

@@ -26,7 +26,7 @@ Keep = Callable[[NodeProcess], None]
 
 
 class Program:
-    """A program that runs in the background until its cell runs again, or until the kernel ends."""
+    """A program that runs in the background until the cell that started it runs again, or the kernel ends."""
 
     def __init__(self, words: str, process: NodeProcess) -> None:
         self._words = words

@@ -14,7 +14,7 @@ from course_pkg.ros.protocol.xmlrpc import port_of
 from course_pkg.waiting import wait_until
 
 READY = 15.0  # Wait up to this time in s until a node is on the graph.
-INTERVAL = 0.02  # This is the time in s between two polls.
+INTERVAL = 0.02  # This is the time in s between two polls of the master.
 
 
 class PrivateGraph:

@@ -113,7 +113,7 @@ class SupervisedProcess:
 
 @contextmanager
 def temporary_folder(prefix: str) -> Iterator[Path]:
-    """Yield a new folder. It is deleted after the block, or when this process ends, even after SIGKILL."""
+    """Yield a new folder; delete it after the `with` block, or when this process ends, even after SIGKILL."""
     folder = Path(tempfile.mkdtemp(prefix=prefix))
     guard = SupervisedProcess([], remove=folder)
     try:

@@ -18,10 +18,10 @@ import time
 from contextlib import suppress
 
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36  # These values are from linux/prctl.h.
-# A terminal sends these signals to a process group.
+# A terminal sends these signals to all processes of a process group.
 FROM_TERMINAL = (signal.SIGINT, signal.SIGHUP, signal.SIGQUIT)
 FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-# Python or this program changes the handlers of these signals; a command expects the default handlers.
+# A command expects the default handlers of these signals, but Python or this program changes the handlers.
 CHANGED = (*FORWARDED, *FROM_TERMINAL, signal.SIGCHLD, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ)
 GRACE = 2.0  # The supervisor waits this time in s between SIGTERM and SIGKILL.
 COURSE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))

@@ -90,7 +90,7 @@ class MessageReport(TypedDict):
 
 
 class Curve(TypedDict):
-    """The recent points [time in s since the start, value] of a number, and the count of all values."""
+    """Recent points [time in s since the process started, value] of a number, and the count of all values."""
 
     points: list[list[float]]
     count: int

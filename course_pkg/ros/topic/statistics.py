@@ -1,4 +1,4 @@
-"""Statistics of a topic with bounded memory: the rate of its messages, and the recent values of a field."""
+"""Statistics of a topic: the rate of its messages, and recent values of a field. The memory is limited."""
 
 from __future__ import annotations
 

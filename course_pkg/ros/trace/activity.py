@@ -19,7 +19,7 @@ from course_pkg.ros.protocol.snapshot import Snapshot
 from course_pkg.ros.protocol.xmlrpc import RpcValue, items, number
 
 TIMEOUT = 0.5  # This is the time limit of a poll in s.
-# The third item of the response contains the statistics of services; in rospy, this item is empty.
+# The third item of the response to getBusStats contains the statistics of services; in rospy, it is empty.
 STATISTICS = "getBusStats"
 
 Callers = dict[str, tuple["ServiceCaller", ...]]

@@ -37,7 +37,7 @@ class NodeRecord:
 
 
 class Span:
-    """An action that a process has recorded; match_events() turns it into an event."""
+    """An action, such as a call, that a process has recorded; match_events() converts it to an Event."""
 
     def __init__(self, record: NodeRecord, data: SpanData) -> None:
         self.node = record.node

@@ -1,4 +1,4 @@
-"""A recording of the actions of nodes, as plain data that a program can read without ROS."""
+"""A recording of calls, messages and callbacks, as plain data that a program can read without ROS."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class ProcessRecord(TypedDict):
 
 @dataclass(frozen=True)
 class Event:
-    """One action of a node.
+    """One action of a node, such as the lookup of a service.
 
     `name` is the service or topic, and `peer` is the other node. `start` and `end` are in s since the start
     of the recording; `start` is negative for an earlier event. `end` is None if the event was running at the

@@ -48,7 +48,7 @@ class RelayedConnection:
         return b"".join(chunk.data for chunk in self.chunks if chunk.from_client is from_client)
 
     def since(self, offset: int, *, from_client: bool) -> float:
-        """Return the arrival time of a byte in s since `opened`.
+        """Return the time in s from `opened` to the arrival of a byte.
 
         `offset` counts the bytes of this direction, from 0.
         """
