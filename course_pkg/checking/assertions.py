@@ -58,7 +58,7 @@ def same(expected: Json, actual: Json, near: float = 0.0) -> bool:
 def first_unlike(expected: Iterable[Json], actual: Iterable[Json], near: float) -> tuple[Json, Json]:
     """Compare two lists item by item; return the first pair of unequal items, or ({}, {}) if there is none.
 
-    A report shows only this pair, not all items.
+    A report shows only the returned pair, not all items.
     """
     pairs = zip(expected, actual, strict=False)
     return next((pair for pair in pairs if not same(*pair, near)), ({}, {}))

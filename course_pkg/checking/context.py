@@ -202,7 +202,7 @@ class CheckContext:
     def absent(self, name: str, *, stale: bool = False) -> Absent:
         """Unregister the server of `name` until the check ends.
 
-        If `stale` is true, register an address with a closed port instead.
+        If `stale` is true, register an address with a closed port for the service.
         """
         return self._open.enter_context(Absent(self._node, name, stale=stale))
 

@@ -30,8 +30,9 @@ PACKAGED = re.compile(r"file:src/(?P<package>[^/]+)/(?P<path>.+)")
 class Part:
     """One graded part of a chapter; calling it examines the student's work.
 
-    `needs` are the names that the student defines. If a name is missing or its value is still `...`, the part
-    counts as not attempted. Names that are joined with `|` are alternatives: one of them is enough.
+    `needs` contains the names that the student has to define. If a name is missing or its value is still
+    `...`, the part counts as not attempted. Names that are joined with `|` are alternatives: one of them is
+    enough.
 
     `deadline` is the time limit of the whole check in s. If the student has to repair a file, `start` is the
     `%%writefile` cell with the wrong file. Otherwise, `start` is empty. The points are divided among `goals`.
@@ -112,7 +113,7 @@ def folder_of(chapter: str) -> Path:
 def folders_for(chapter: str) -> list[Path]:
     """Return, sorted, the folder of a chapter, such as "14", and the folders of the chapters that it imports.
 
-    Indirect imports are included. For an unknown chapter, the list is empty.
+    Chapters that are imported indirectly are included. For an unknown chapter, the list is empty.
     """
     modules, found, new = _modules(), set[str](), {chapter}
     while new := (new & modules.keys()) - found:
@@ -191,7 +192,7 @@ def start_of(check: str) -> str:
 def find(check: str) -> Part:
     """Return the part with the id `check`; import only the chapter of this part.
 
-    Raises UnknownCheck if there is no such part; the message contains similar ids.
+    Raises UnknownCheck if no part has this id; the message contains similar ids.
     """
     chapter = str(check).partition(".")[0]
     if chapter in chapters():

@@ -46,7 +46,7 @@ class Result:
     def returned(self, kind: type[Item] | None = None) -> Json | Item:
         """Assert that the function returned without an error, and return its value as plain data.
 
-        If `run` called a function of the check, not of the student, pass the expected class as `kind`. In
+        If the called function belongs to the check, not to the student, pass the expected class as `kind`. In
         this case, CheckError is raised for a value of another class.
         """
         assertion = f"{self._label} returns"
@@ -59,7 +59,7 @@ class Result:
     def raised(self, assertion: str, kind: str, *, saying: str = "", hints: Hints = ()) -> str:
         """Assert that the call raised an error of the class `kind` or a subclass; return the error's message.
 
-        `saying` is a pattern that the message has to match.
+        `saying` is a pattern that the error's message has to match.
         """
         actual = self.error or f"the value {shown(self._value)}"
         if not self._is(kind) or not matches(saying).search(self.error):

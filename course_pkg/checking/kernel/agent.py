@@ -252,7 +252,7 @@ def _is_placeholder(line: ast.stmt) -> bool:
 def _does_nothing(code: CodeType) -> bool:
     """Return whether the compiled code of a function does nothing.
 
-    is_blank() uses this test for a function whose source cannot be read.
+    is_blank() calls this function if it cannot read the source of a student's function.
     """
     blank = _nothing.__code__
     return code.co_code == blank.co_code and not code.co_names

@@ -96,8 +96,8 @@ def _is_called(frame: FrameType | None) -> bool:
 def _coming_again(error: type[BaseException]) -> type[BaseException]:
     """Return a subclass of `error`; each new instance of this subclass sends SIGALRM to this process again.
 
-    Raise this class, not an instance. The `raise` statement then creates the instance. Python handles the new
-    signal only after the exception has left the function. If the instance existed before the `raise`
+    Raise the returned class, not an instance. The `raise` statement then creates the instance. Python handles
+    the new signal only after the exception has left the function. If the instance existed before the `raise`
     statement, Python could handle the signal too early.
     """
     again: Any = staticmethod(partial(_thread.interrupt_main, signal.SIGALRM))

@@ -41,8 +41,8 @@ class Frozen:
 class Crash:
     """End without a response; after `back` s, serve again at another address.
 
-    The registration remains at the master, as after a SIGKILL. If `unregisters` is true, the server first
-    unregisters, like a process that ends normally.
+    The server's registration remains at the master, as after a SIGKILL. If `unregisters` is true, the server
+    first unregisters, like a process that ends normally.
     """
 
     back: float
@@ -91,8 +91,8 @@ class FaultyServer(ScriptedServer):
     def _arrived(self, *, frozen: bool = False) -> Fault | None:
         """Record the time of a call, and remove the fault of this call from the plan.
 
-        If `frozen` is true, do this only if the next fault is Frozen. A Frozen fault occurs in the handshake,
-        and all other faults occur after the request.
+        If `frozen` is true, record the call and remove the fault only if the next fault is Frozen. A Frozen
+        fault occurs in the handshake, and all other faults occur after the request.
         """
         with self._plan_lock:
             due = bool(self.plan) and (not frozen or isinstance(self.plan[0].what, Frozen))

@@ -65,7 +65,7 @@ class Node:
     def forget_topics(self, made: Callable[[str], bool]) -> None:
         """Unregister all publishers and subscribers of the topics for whose names `made` returns true.
 
-        A student's function may have left these topics registered.
+        A student's function may have left publishers and subscribers registered.
         """
         entries = registrations(self.master)
         withdraw(self.master, [each for each in entries if each.kind != "service" and made(each.name)])
@@ -118,9 +118,9 @@ def held_back(number: int) -> Iterator[list[int]]:
 class FakeNode:
     """A node that is registered as a publisher of `topic` during the `with` block, but never publishes.
 
-    If `alive` is true, its address is the address of the check's own node, so a ping succeeds. If `alive` is
-    false, the port of its address is closed, as after a kill. If `reused` is true, another program listens on
-    the port and closes each connection.
+    If `alive` is true, the FakeNode has the address of the check's own node, so a ping succeeds. If `alive`
+    is false, the port of the address is closed, as after a kill. If `reused` is true, the port is open, but
+    each connection is closed, as if another program used the port.
     """
 
     def __init__(

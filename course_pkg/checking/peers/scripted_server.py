@@ -55,7 +55,7 @@ class Received:
     """The requests to a scripted server as plain data, in the order of their arrival."""
 
     requests: list[Fields] = field(default_factory=list)
-    # The connection header of each call, without probes.
+    # The connection headers of all calls; the headers of probes are not stored.
     headers: list[dict[str, str]] = field(default_factory=list)
     # This is the number of connections without a request, such as the connections of wait_for_service.
     probes: int = 0
@@ -188,7 +188,7 @@ class ScriptedServer:
 class Absent:
     """Unregisters the server of the service `name` during the `with` block.
 
-    If `stale` is true, an address with a closed port is registered instead.
+    If `stale` is true, an address with a closed port is registered for the service.
     """
 
     def __init__(self, node: Node, name: str, *, stale: bool = False) -> None:

@@ -90,9 +90,9 @@ def _reported(part: Part, context: CheckContext) -> Report:
 
 
 def _require_marks(part: Part, marked: set[str]) -> None:
-    """Raise CheckError if the check did not mark exactly the goals of the part.
+    """Raise CheckError if the marked goals are not exactly the goals of the part.
 
-    The last goal may be unmarked.
+    The last goal of the part need not be marked.
     """
     texts = {goal.text for goal in part.goals}
     if wrong := (marked - texts) | (texts - marked - {goal.text for goal in part.goals[-1:]}):
@@ -104,7 +104,7 @@ def _not_attempted(part: Part, channel: Channel) -> str:
 
     A name is blank if its exercise is unchanged.
 
-    If a need consists of alternative names, the student has to define only one of these names.
+    For alternative names, such as `left|right`, the student has to define only one name.
     """
     for need in part.needs:
         replies = {name: channel.ask("look", timeout=LOOK, name=name) for name in need.split("|")}

@@ -19,7 +19,7 @@ def expect_geometry(
 ) -> None:
     """Assert that a response contains the area `base` and the volume `base` times `height`.
 
-    `area` and `volume` are the hints for the two fields.
+    `area` and `volume` are the hints for the two fields of the response.
     """
     context.expect(assertion, expected=base, actual=response.area, near=1e-3, hints=area)
     context.expect(

@@ -31,8 +31,8 @@ def compile_roscpp(
 ) -> None:
     """Compile `file` to `program` in `folder`, and assert that the result is a roscpp program.
 
-    `limits` is a command of bash that limits the compiler. Raises CheckError if the compiler has not finished
-    after `within` s.
+    `limits` is a bash command that limits the resources of the compiler, such as `ulimit`. Raises CheckError
+    if the compiler has not finished after `within` s.
     """
     line = f"{limits}; exec {shlex.join(compile_command(file, program))}"
     done = folder.command("bash", "-c", line, within=within, worded=f"the compiler, at {file}")

@@ -176,7 +176,7 @@ class _Kernel:
     def _start_cleaner(self, master: MasterClient) -> None:
         """Start a process that unregisters the node if this kernel is killed.
 
-        If the master is private, no such process is necessary, because the master ends with the kernel.
+        If the master is private, no cleaner process is necessary, because the master ends with the kernel.
         """
         ours = self._private is not None and self._private.uri == master.uri
         registered = None if ours else (master.uri, rospy.get_name(), rospy.get_node_uri())
@@ -237,7 +237,7 @@ def _require_same_name(full: str) -> None:
 def _apply_environment() -> None:
     """Set the workspace's environment variables if the workspace's setup file was not sourced.
 
-    In an editor or on Binder, for example, the setup file is not sourced.
+    In an editor or on Binder, for example, the workspace's setup file is not sourced.
     """
     if "ROS_PACKAGE_PATH" not in os.environ:
         from course_pkg.setup import environment
@@ -256,8 +256,8 @@ def _apply_environment() -> None:
 def _free_name(full: str, master: MasterClient) -> None:
     """Wait until no running node uses this name.
 
-    If a node with this name has ended, its registrations are removed. Raises NodeNameTaken after NAME_TIMEOUT
-    seconds.
+    If a node with the requested name has ended, its registrations are removed. Raises NodeNameTaken after
+    NAME_TIMEOUT seconds.
     """
     deadline = time.monotonic() + NAME_TIMEOUT
     while (uri := master.lookup_node(full)) is not None:

@@ -91,7 +91,7 @@ def guard_against_idle_connections() -> bool:
 def hasten_shutdown() -> None:
     """Wake up rospy's registration thread as soon as a shutdown begins.
 
-    A shutdown then takes up to 0.5 s less.
+    This function makes a shutdown up to 0.5 s shorter.
     """
     manager = registration_manager()
     if manager is None or getattr(manager, HASTENED, False):

@@ -94,7 +94,8 @@ class BoundedProxy(rospy.ServiceProxy):
         try:
             return self._persistently(call, request) if self.persistent else self._once(call, request)
         except (rospy.ServiceException, TransportException, OSError, AttributeError):
-            # If the socket is shut down while rospy uses it, rospy raises one of these errors.
+            # rospy raises one of these errors if another thread shuts the socket down while rospy uses the
+            # socket.
             if call.error is None:
                 raise
             # rospy's error only says that the socket is closed; `call.error` contains the reason.

@@ -96,7 +96,7 @@ class Cells:
     def paused(self) -> Iterator[None]:
         """Do not record the objects that are created in the `with` block.
 
-        Objects that are created in the block are not shut down when the cell runs again.
+        Objects that are created in the `with` block are not shut down when the cell runs again.
         """
         self._paused += 1
         try:
@@ -108,7 +108,7 @@ class Cells:
     def check(self) -> Iterator[None]:
         """After the `with` block, shut down all objects that the block created.
 
-        A service that is created in the block does not replace a service that was created by a cell.
+        A service that is created in the `with` block does not replace a service that a cell has created.
         """
         before, self._current = self._current, CellRun(temporary=True, threads=_thread_ids())
         run = self._current

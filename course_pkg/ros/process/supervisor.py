@@ -174,7 +174,7 @@ def _is_supervisor(pid: int) -> bool:
 def descendants(root: int) -> list[int]:
     """Return the descendants of the process `root`, parents before children.
 
-    Without /proc, the list is empty.
+    On a system without /proc, the list is empty.
     """
     children: dict[int, list[int]] = {}
     for entry in os.listdir("/proc") if os.path.isdir("/proc") else []:

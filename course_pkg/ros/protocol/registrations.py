@@ -53,7 +53,8 @@ def registrations(master: MasterClient, nodes: Collection[str] | None = None) ->
 def withdraw(master: MasterClient, entries: Iterable[Registration]) -> list[Registration]:
     """Remove the registrations `entries` with one request, and return the entries that were still registered.
 
-    The master removes an entry only if its address matches, so entries of other processes are not removed.
+    The master removes an entry only if the entry's address is still registered, so registrations of other
+    processes are not removed.
     """
     listed = list(entries)
     answers = master.multicall([(METHODS[each.kind], each.node, each.name, each.uri) for each in listed])

@@ -44,8 +44,8 @@ def measurement(message: MessageType) -> str:
 def extractor(message: MessageType, path: str) -> Callable[[bytes], float]:
     """Return a function that reads the number at `path` from a message's bytes.
 
-    If the message does not contain the number, the function returns NaN. Raises ValueError if the type does
-    not have this path.
+    If the message does not contain the number, the returned function returns NaN. Raises ValueError if the
+    type does not have this path.
     """
     if path not in numbers(message):
         raise ValueError(f"{message.name} has no number at the path {path!r}")

@@ -100,8 +100,8 @@ class Curve(TypedDict):
 class Report(TypedDict, total=False):
     """A report; a key is missing if its value has not changed.
 
-    `trouble` is the error message if the process cannot reach the master, else "". `node` is the name of the
-    process's node. `count` is the number of received messages, `statistics` contains their rate, and
+    `trouble` is an error message if the process cannot reach the master, and "" otherwise. `node` is the name
+    of the process's node. `count` is the number of received messages, `statistics` contains their rate, and
     `messages` contains the new messages.
     """
 

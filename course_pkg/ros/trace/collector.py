@@ -40,7 +40,7 @@ class _Collected:
 def recorded(node: str, uri: str, master: MasterClient) -> Iterator[Recording]:
     """Record all nodes during the `with` block; `node` and `uri` identify the kernel's node.
 
-    The recording is empty until the block ends.
+    The recording is empty until the `with` block ends.
     """
     recording = Recording(node=node)
     with handovers(node, uri, master):

@@ -1,8 +1,8 @@
 """Send the record of a node to other nodes before the node ends.
 
-Without this record, a recording would not include nodes that run only briefly. A node that makes a recording
-stores its address in a parameter of the master. A node that ends sends its record to this address by XML-RPC.
-A killed node cannot send its record.
+Without the records that ending nodes send, a recording would not include nodes that run only briefly. A node
+that makes a recording stores its address in a parameter of the master. A node that ends sends its record to
+this address by XML-RPC. A killed node cannot send its record.
 """
 
 from __future__ import annotations

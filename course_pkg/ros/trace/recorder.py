@@ -96,8 +96,8 @@ class CallPart:
 class CallSpan:
     """A call with all its phases.
 
-    All phases of a call are stored in one object, because recording must not make calls slower. `result` is
-    RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number of the
+    All phases of a call are stored in one object, because the recorder must not make calls slower. `result`
+    is RESPONSE or ERROR, and empty until the call has ended. `transfer` is the connection and number of the
     request.
     """
 

@@ -50,7 +50,7 @@ class RelayedConnection:
     def since(self, offset: int, *, from_client: bool) -> float:
         """Return the time in s from `opened` to the arrival of a byte.
 
-        `offset` counts the bytes of this direction, from 0.
+        `offset` is the index of the byte in the data of one direction, from 0.
         """
         count = 0
         for chunk in self.chunks:
