@@ -66,6 +66,7 @@ def speed_parameter(context: CheckContext) -> None:
             "The function did not return the int 2, which is a valid speed. Accept an int, too.",
         ),
         ("fast", no_number, default, TEXT),
+        (str(second), no_number, default, TEXT),
         ([first, second], no_number, default, LIST),
         (True, no_number, default, TRUTH),
         (-first, not_positive, default, NEGATIVE),
