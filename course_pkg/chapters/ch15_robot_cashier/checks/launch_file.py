@@ -25,6 +25,7 @@ from roslaunch.config import load_config_default
 config = load_config_default([(sys.argv[1], sys.argv[2:])], None)
 for node in config.nodes:
     print("node", node.namespace + node.name, node.package, node.type, node.launch_prefix or "")
+    print("respawn_delay", node.namespace + node.name, node.respawn_delay)
     for key, value in re.findall(r"(?<!\\S)_(\\w+):=(\\S+)", node.args or ""):
         print(f"{node.namespace}{node.name}/{key}: {value}")
 for parameter in config.params.values():
@@ -194,6 +195,11 @@ def _number(text: str) -> float | None:
         return float(text)
     except ValueError:
         return None
+
+
+def longest_delay(printed: str) -> float:
+    """Return the longest `respawn_delay` (s) in READER's output."""
+    return max(map(float, re.findall(r"^respawn_delay \S+ (\S+)", printed, re.MULTILINE)), default=0.0)
 
 
 def starts_programs(
