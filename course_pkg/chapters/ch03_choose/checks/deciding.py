@@ -10,7 +10,7 @@ from course_pkg.checking.plain_values import of_kind
 DESIGNS = ("topic", "service", "action")
 REASONS = ("answer", "many", "newest", "seldom", "latched", "long")
 
-# For each task, the dict contains the right designs and, for each of these designs, the right reasons.
+# For each task, this dict maps each right design to the right reasons for this design.
 JOBS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
     "wheel speed": {"topic": ("newest", "many")},
     "open the gripper": {"service": ("answer",), "action": ("answer", "long")},

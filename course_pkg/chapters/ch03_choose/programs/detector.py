@@ -43,7 +43,7 @@ class Detector:
             self._publisher.publish(customer.number)
 
     def handle_detect(self, request: DetectCustomerRequest) -> DetectCustomerResponse:
-        """Return the first customer whose number is above `after`.
+        """Return the first customer whose number is higher than the request's field `after`.
 
         If no such customer comes within `patience` s, the field `detected` of the response is False.
 
@@ -93,7 +93,7 @@ def main() -> None:
         return
     with undisturbed():
         detector = Detector()
-    # Without this wait, the first call would fail, because there is no message yet.
+    # Wait for the camera's first message; without this message, the first call would fail.
     wait_until(detector.has_data, SILENCE)
     with undisturbed():
         rospy.Service("detect_customer", DetectCustomer, detector.handle_detect)

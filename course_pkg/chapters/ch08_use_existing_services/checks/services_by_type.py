@@ -1,4 +1,4 @@
-"""08.1: all services on the graph that have one type."""
+"""08.1: find all services on the graph that have a given type."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ FOUND = "Return the names of all services of the given type. Do not call the ser
     goals=[FOUND, "Leave out services whose server has ended, and include services that started later."],
 )
 def find_by_type(context: CheckContext) -> None:
-    """Serve services of two types, and services of types whose names are similar.
+    """Serve services of the searched type, of another type, and of types with similar names.
 
     Later, serve another service, and register a service whose server is dead.
     """
@@ -99,9 +99,10 @@ def find_by_type(context: CheckContext) -> None:
 
 
 def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], ended: str = "") -> None:
-    """Assert that the function returns all services of type `kind`; `mine` contains the check's services.
+    """Assert that the student's function returns all services of the type `kind`.
 
-    `incomplete` is the hint for a missing service. The service `ended` no longer exists.
+    `mine` contains the names of the check's services. `incomplete` is the hint for a missing service. The
+    service `ended` no longer exists.
     """
     names = context.run("services_of", kind, hints=ERRORS).returned()
     _is_a_list_of_names(context, names)
@@ -155,8 +156,8 @@ def _is_a_list_of_names(context: CheckContext, names: Json) -> None:
 def _why_wrong(types: set[str | None], kind: str) -> str:
     """Return the hint for a list with wrong names.
 
-    `types` contains the type of the service for each of these names: None if there is no such service, and ""
-    if its server is dead.
+    For each wrong name, `types` contains the type of the service; the value is None if there is no such
+    service, and "" if the server is dead.
     """
     if None in types:
         return "Your list contains strings that are not names of services. Return only the names of services."

@@ -188,7 +188,7 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
-    """Assert that the handler refuses a request; an unexpected exception does not count.
+    """Assert that the handler refuses a request; an unexpected exception is not a refusal.
 
     With rospy, the handler refuses a request with a ServiceException.
     """

@@ -57,7 +57,7 @@ checked_shop = CheckedShop()
 
 
 class CheckedShelf:
-    """A shelf with `count` things. The kernel has a proxy for the shelf.
+    """A shelf with `count` things. The student's code in the kernel uses the shelf through a proxy object.
 
     Each read and each write waits for a short time, and ends early if another thread reads. Therefore, two
     threads without a lock read the same number. With a lock, no other thread can read during this time.

@@ -95,7 +95,7 @@ class ResettingPort:
         self._listener.close()
 
     def _reset(self) -> None:
-        with suppress(OSError):  # The end of the block closes the listening socket.
+        with suppress(OSError):  # When the listening socket is closed, accept() raises OSError.
             while True:
                 connection, _ = self._listener.accept()
                 self.connections += 1

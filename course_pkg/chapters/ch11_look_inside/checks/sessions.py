@@ -54,8 +54,8 @@ def totals_of_sessions(context: CheckContext) -> None:
     first, second = context.random.word(), context.random.word()
     others = [first.upper(), *(context.random.word() for _ in range(context.random.integer(4, 9)))]
     turns = [first, second, first, first, second, second, *others, first]
-    # The amounts are larger than the number of calls; a program that returns the number of calls as the total
-    # therefore fails.
+    # Each amount is larger than the number of calls, so a program that returns the number of calls as the
+    # total fails.
     amounts = context.random.integers(len(turns), 20, 900)
     amounts[3] = -amounts[3]
     totals = dict.fromkeys(turns, 0)
@@ -97,7 +97,7 @@ def totals_of_sessions(context: CheckContext) -> None:
 
 
 def _shares_no_total(context: CheckContext, kind: ServiceClass, session: str) -> None:
-    """Create a second object of the class, and call it in a session that the first object has used."""
+    """Call a second object of the student's class in a session that the first object has used."""
     name, amount = f"/{context.random.word()}", context.random.integer(20, 900)
     context.prepare(ANOTHER)
     opened = context.run("another_sessions.open", Its("Sessions"), name, worded="Sessions()")

@@ -145,7 +145,7 @@ def _names(source: str) -> set[str]:
     """
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))
-    # If the function is a lambda, for example, the source may be a part of a line and not valid Python.
+    # If the function is a lambda, its source can be a part of a line, which is not valid Python.
     except SyntaxError:
         return set()
     attributes = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
@@ -307,7 +307,7 @@ def _sends_the_header(context: CheckContext, conversation: Conversation, name: s
 
 
 def _refuses(context: CheckContext, message: str, reason: str, *, in_handshake: bool) -> None:
-    """Let the server refuse with an error message that contains `reason`."""
+    """Let the server refuse the call; assert that the student's function raises an error with `reason`."""
     name, kind = f"/{context.random.word()}", context.service_class(GEOMETRY)
     with TcprosServer(kind, (0.0, 0.0), refusal=message, in_handshake=in_handshake) as server:
         result = context.run("ask", server.uri, name, *context.random.numbers(3, 0.5, 9.0), within=3.0)
