@@ -39,7 +39,7 @@ class Cashier:
         self._informed: deque[rospy.Time] = deque(maxlen=KEPT)
         self._publisher = rospy.Publisher("greetings", UInt32, queue_size=100)
         self._detect = BoundedProxy("detect_customer", DetectCustomer)
-        # The shutdown cancels the current call; otherwise, it would wait for the end of the call.
+        # A shutdown cancels the current call; otherwise, the shutdown would wait for the end of the call.
         rospy.on_shutdown(self._detect.cancel)
 
     def handle_report(self, _: object) -> CashierReportResponse:

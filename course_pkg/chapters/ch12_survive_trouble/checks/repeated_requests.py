@@ -117,10 +117,10 @@ def charge_once(context: CheckContext) -> None:
 
 
 class CheckedPurse:
-    """A purse for the student's till. The kernel has a proxy for the purse.
+    """A purse for the student's till. The student's code in the kernel uses the purse through a proxy object.
 
     Each call of take() waits for a short time, and ends early if another call has the same amount. Therefore,
-    two repeated requests without a lock always run at the same time in this check.
+    if the student's code uses no lock, a request and its repetition always run at the same time.
     """
 
     def __init__(self) -> None:
@@ -225,7 +225,7 @@ def _charges_new_requests(context: CheckContext, purse: CheckedPurse, charge: Se
 
 
 def _only_one(words: str) -> Hints:
-    """Return a list with the hint `words`; it is shown if the purse was used at most once."""
+    """Return a list with the hint `words`; this hint is shown if the purse was used at most once."""
     return [((lambda actual: len(actual) < 2), words)]
 
 
@@ -326,7 +326,7 @@ def _at_once(context: CheckContext, purse: CheckedPurse, charge: Service) -> Non
 
 
 def _gives_different_receipts(context: CheckContext, purse: CheckedPurse, charge: Service) -> None:
-    """Send many requests, so that two random receipt numbers would probably be equal."""
+    """Send many requests; if the receipt numbers are random, two of them are then probably equal."""
     purse.meeting = 0.0
     requests = [
         {"request_id": context.random.word(12), "cents": context.random.integer(100, 900)}

@@ -183,7 +183,7 @@ def _handles_calls_in_parallel(context: CheckContext, number: Service, code: str
 
 
 def _number(message: str) -> int:
-    """Return the number in a response, or -1 if the message contains other characters, such as "01"."""
+    """Return the number in a response, or -1 if the message is not a plain number; "01" is also wrong."""
     return int(message) if re.fullmatch(r"0|[1-9]\d*", message) else -1
 
 

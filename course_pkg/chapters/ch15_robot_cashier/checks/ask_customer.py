@@ -104,7 +104,7 @@ ASKED = 'Wait for detect_customer, call it once, and print "customer" or "nobody
     },
 )
 def the_client(context: CheckContext) -> None:
-    """Start the program before its service. The service responds, refuses, or does not exist."""
+    """Run the program in four cases: the service starts late, responds, refuses, or does not exist."""
     package = examined(context, NAME)
     with ExitStack() as ending:
         detector = _Detector(context.random.number(3.0, 30.0, digits=1))

@@ -1,4 +1,4 @@
-"""Replaces the node receipt_printer; a check can let the printer jam, refuse lines, or wait."""
+"""Replaces the node receipt_printer; a check can let the printer refuse lines or wait."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ JAM = "paper jam: two lines at once"
 
 
 class Printer:
-    """Serves print_line; while the error message `fault` is not empty, it refuses each line.
+    """Serves print_line; while the error message `fault` is not empty, the printer refuses each line.
 
     `lines` contains the printed lines. The printing of a line waits until the event `held` is set; the
     maximum waiting time is 10 s.

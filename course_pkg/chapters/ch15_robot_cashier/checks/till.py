@@ -64,7 +64,7 @@ class Till:
     set: Service
 
     def service(self, context: CheckContext, name: str, kind: str, hints: Hints = ()) -> Service:
-        """Return a proxy for another service of the till."""
+        """Return a proxy for the service `name` of the till."""
         return context.service(f"{self.space}/{name}", kind, timeout=ANSWER, hints=hints)
 
 
@@ -227,9 +227,9 @@ ORDER = (
     goals={PRINTED: 2, "Print one line at a time. Refuse an item if there is no printer.": 1},
 )
 def the_printed_till(context: CheckContext) -> None:
-    """Set items with a printer that works or refuses; then set many items at the same time.
+    """Call till/set while the printer works, and while it refuses; then make many calls at the same time.
 
-    Later, set an item while no printer is running, and again with a new printer.
+    Later, call till/set without a printer, and again with a new printer.
     """
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
@@ -313,7 +313,7 @@ def _prints_no_illegal_item(context: CheckContext, till: Till) -> None:
 
 
 def _adds_up_in_order(context: CheckContext, till: Till, prices: dict[str, int]) -> None:
-    """Set many items at the same time.
+    """Make many calls of till/set at the same time.
 
     After each printed line, the total must have increased by the item's price.
     """
@@ -410,7 +410,7 @@ def the_reset(context: CheckContext) -> None:
         _resets(context, reset, "already empty", EMPTY)
         items = _items(context, 2)
         paid = sum(cents for _, cents in items)
-        old = items[1][1]  # The first item gets this price, and later its own price.
+        old = items[1][1]  # The first item has this price at first, and later its price in `items`.
         for item, cents in ((items[0][0], old), *items):
             till.set(item=item, cents=cents)
         _resets(context, reset, f"paid {paid} cents", [(f"paid {paid + old} cents", TWICE), (ANYTHING, PAID)])

@@ -28,13 +28,13 @@ from course_pkg.waiting import wait_until
 
 # On a busy machine, the system may take this many s to start; it takes 3 s on an idle machine.
 STARTING = 40.0
-# All other nodes must exist this many s after the first node. If the first node started late, they get more
-# time.
+# All other nodes must exist this many s after the first node. If the first node started late, the other nodes
+# get more time.
 COMPLETE = 6.0
 POLL = 0.1  # POLL is the time in s between two snapshots of the graph.
 REACTION = 5.0  # A greeting, a reset, or the detector's reaction to a change may take this many s.
-# Killed nodes must run again within this many s. If the system needed more than half of this time to start,
-# they get twice the start time.
+# Killed nodes must run again within this many s. If the start of the system took more than half of this time,
+# the killed nodes get twice the start time.
 BACK = 8.0
 EVERY = 0.1  # EVERY is the time in s between two frames.
 WAIT = 1.5  # The argument `wait` has this value in s.
@@ -130,9 +130,10 @@ def the_whole_system(context: CheckContext) -> None:
 
 
 class Counter:
-    """The camera of the counter.
+    """Replaces the camera above the counter.
 
-    The camera publishes a frame every 0.1 s, with or without a customer. A check can also stop the frames.
+    It publishes a frame every 0.1 s, which shows one customer or no customer. A check can also stop the
+    frames.
     """
 
     def __init__(self, context: CheckContext, topic: str) -> None:
@@ -153,7 +154,7 @@ class Counter:
 
 
 def _comes_up(context: CheckContext, running: Running, space: str) -> float:
-    """Wait until all services and topics exist; otherwise, report one missing name.
+    """Wait until all services and topics exist; if a name does not appear in time, report this name.
 
     Return the time in s that the system needed to start.
     """
@@ -209,7 +210,7 @@ class Shop:
         return self.context.service(f"{self.space}/{name}", kind, timeout=timeout, hints=[(ANYTHING, hint)])
 
     def looks_at_frames(self) -> None:
-        """Assert that vision publishes a message for the next frames."""
+        """Assert that the node vision publishes a message for the next frame."""
         before = self.seen.count
         self.context.require(
             "the frames lead to messages on customer_seen",
@@ -220,7 +221,7 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer soon returns `customer`.
+        """Return whether detect_customer returns `customer` within REACTION s.
 
         The report shows `hint` if a call fails.
         """
@@ -304,7 +305,7 @@ class Shop:
         )
 
     def notices_a_silent_camera(self) -> None:
-        """Stop the frames, and continue them later."""
+        """Stop the frames, and assert that detect_customer refuses a call; later, publish frames again."""
         self.counter.show(None)
         time.sleep(1.4)
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", NOT_RECOVERED)

@@ -39,7 +39,7 @@ class RobotCashier:
         self._reset = BoundedProxy("till/reset", Trigger)
         self._over = threading.Event()
         for proxy in (self._detect, self._reset):
-            # Without the cancellation, the shutdown would wait for the end of the current call.
+            # A shutdown cancels the current call; otherwise, the shutdown would wait for the end of the call.
             rospy.on_shutdown(proxy.cancel)
         rospy.on_shutdown(self._over.set)
         rospy.Subscriber("joint_states", JointState, self.mirror, tcp_nodelay=True)
