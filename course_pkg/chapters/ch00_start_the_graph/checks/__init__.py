@@ -36,7 +36,7 @@ MISSED = "Return how many numbers were published between the two received number
     goals=[NODE, SERVICE, TYPE],
 )
 def read_the_graph(context: CheckContext) -> None:
-    """Compare the names that the student returns with the names on the graph."""
+    """Compare the student's names of the node, the service and the type with the right names."""
     with context.goal(NODE):
         context.expect(
             "the name of the node",

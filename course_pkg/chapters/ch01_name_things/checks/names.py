@@ -186,7 +186,7 @@ def _astray(room: str, found: str) -> str:
 def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
     """Assert that the started node and its topics have the right names for the arm `arm`.
 
-    `before` contains the names of the nodes that existed before the start.
+    `before` contains the names of the nodes that existed before the viewer was started.
     """
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):

@@ -290,7 +290,7 @@ def _set(context: CheckContext, topic: str, value: float) -> float:
 
 
 def _subscribed(context: CheckContext, topic: str) -> Subscription:
-    """Subscribe to `topic`; a latched publisher then sends its last message at once."""
+    """Subscribe to `topic`; a latched publisher then sends its last message immediately."""
     subscription = context.subscribe(topic, "std_msgs/Float64")
     hint = "Create a rospy.Publisher for the given topic, and do not unregister this publisher."
     subscription.published(hints=[(matches("no publisher"), hint)])
@@ -298,7 +298,7 @@ def _subscribed(context: CheckContext, topic: str) -> Subscription:
 
 
 def _receives(context: CheckContext, subscription: Subscription, values: list[float], assertion: str) -> None:
-    """Assert that these values arrive, and that no further message arrives in the next 0.3 s."""
+    """Assert that the values `values` arrive, and that no further message arrives in the next 0.3 s."""
     subscription.wait(len(values), within=SOON)
     subscription.during(0.3)
     received = [arrival.fields["data"] for arrival in subscription.arrivals]

@@ -1,4 +1,4 @@
-"""Checks of subscribers: one node mirrors joint states, and another node needs two different queue sizes."""
+"""Checks of subscribers: a node that mirrors joint states, and a node with two different queue sizes."""
 
 import statistics
 import threading
@@ -124,7 +124,7 @@ NEWEST, ALL_ORDERS = (
     goals={MIRRORED: 3, "Publish the new message immediately, and do not change the received message.": 1},
 )
 def a_mirror(context: CheckContext) -> None:
-    """Publish random joint states, and compare each of them with the mirrored message."""
+    """Publish random joint states, and compare each joint state with its mirrored message."""
     source, target = (f"/{context.random.word()}" for _ in range(2))
     subscription = context.subscribe(target, JOINTS)
     with _begun(
@@ -432,7 +432,7 @@ def two_queues(context: CheckContext) -> None:
 def _drawn(
     context: CheckContext, at_once: int, drawn: list[tuple[float, Value]], sent: Mapping[float, float]
 ) -> None:
-    """Assert that each drawn angle was the newest published angle at the time of its drawing.
+    """Assert that each drawn angle was the newest published angle when the drawing began.
 
     `drawn` contains the time and the angle of each drawing. `sent` maps each published angle to its
     publishing time.

@@ -77,7 +77,7 @@ def watch_a_stream(context: CheckContext) -> None:
 
 
 def _speaks(context: CheckContext, topic: str, number: int = 7) -> Publisher:
-    """Publish ten messages per second on the topic that the student's watch observes."""
+    """Publish ten messages per second on the topic that the student's Watch object observes."""
     publisher = context.publish(topic, "std_msgs/UInt32", [{"data": number}], every=0.1)
     publisher.listened(hints="In `__init__`, create a rospy.Subscriber of type UInt32 for the topic.")
     return publisher
@@ -104,8 +104,8 @@ def _runs(context: CheckContext, topic: str) -> None:
         before=end,
     )
     time.sleep(max(end + 0.1 - time.monotonic(), 0.0))
-    # On a busy machine, the last message may reach the watch late, so the check waits until the state
-    # changes.
+    # On a busy machine, the student's Watch object may receive the last message late, so the check waits
+    # until the state changes.
     wait_until(lambda: _asked(context, topic).returned() != "running", at_this_load(0.1))
     ended = 'more than 1 s after the last message, the state is "ended"'
     _says(context, topic, ended, "ended", _END, times=context.random.integer(3, 6))

@@ -50,7 +50,7 @@ class Detector:
         Raises ServiceException if `patience` is out of range, if too many callers are waiting, or if the
         camera sends no messages.
         """
-        # NaN is refused, too, because a comparison with NaN is False.
+        # This test refuses NaN, because each comparison with NaN is False.
         if not 0.0 <= request.patience <= LONGEST:
             message = f"a wait of {request.patience:g} s is not possible"
             wrong = FieldError("patience", request.patience, f"seconds, from 0 to {LONGEST:g}", message)
@@ -75,7 +75,7 @@ class Detector:
 
     @contextmanager
     def _place(self) -> Iterator[None]:
-        """Increase the number of waiting callers during the block.
+        """During the `with` block, count one more waiting caller.
 
         Raises ServiceException if too many callers are waiting.
         """

@@ -48,7 +48,7 @@ class ShopCamera:
         return LetInResponse(first=visits[0].number if visits else 0, comes=comes)
 
     def watch(self) -> None:
-        """Publish the customers at the counter until the node is shut down."""
+        """Publish the numbers of the customers at the counter until the node is shut down."""
         while not rospy.is_shutdown():
             with self._changed:
                 now = time.time()

@@ -39,7 +39,7 @@ class Pair:
     deadline=40.0,
 )
 def who_talks_to_whom(context: CheckContext) -> None:
-    """Call the function with pairs of definitions; some pairs have equal MD5 sums, and others do not."""
+    """Call the student's function with pairs of definitions; only some pairs have equal MD5 sums."""
     again = context.random.shuffled(_pairs(context))[: context.random.integer(6, 9)]
     # The order of the pairs is random, so that a function with a fixed list of results fails.
     for pair in (*_pairs(context), *again):

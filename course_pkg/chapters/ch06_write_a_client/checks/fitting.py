@@ -71,7 +71,7 @@ USED = "If the arguments are wrong, print a usage line, and end with exit status
     },
 )
 def does_it_fit(context: CheckContext) -> None:
-    """Run the program for all cases at the same time, each in its own namespace."""
+    """Run the program for all cases at the same time; each run has its own namespace."""
     require_shebang(
         context,
         FILE,

@@ -31,7 +31,7 @@ NEXT = (
     goals=[FIRST, NEXT, "Wait one second for a response. Return None if no service responds."],
 )
 def ask_the_next_one(context: CheckContext) -> None:
-    """In the list of services, put a working service first, and then after different failing services.
+    """Put a working service at the beginning of the list; later, put a failing service before it.
 
     At the end, the list contains only failing services.
     """

@@ -66,7 +66,7 @@ def is_anybody_there(context: CheckContext) -> None:
         expected=True,
         actual=context.run(
             "is_there", here, 0.5
-        ).returned(),  # Calls for a missing service have the same limit.
+        ).returned(),  # Calls for a missing service have the same time limit.
         hints=[
             (
                 False,

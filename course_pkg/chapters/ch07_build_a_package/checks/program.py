@@ -1,6 +1,6 @@
 """Assertions about the programs of chapter 07.
 
-Linux must be able to execute a program, rosrun must find it, and it must serve its service.
+Linux must be able to execute a program, rosrun must find the program, and the program must offer its service.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from course_pkg.checking.shared.served_by import require_served_by_program
 from course_pkg.errors import CheckError
 from course_pkg.workspace import explain
 
-# A program may take this many s until it serves; it takes 1 s on an idle machine, and 3 s on a busy machine.
+# A program must offer its service within this many s; it takes 1 s on an idle machine, and 3 s on a busy
+# machine.
 STARTING = 15.0
 IMPORTING = 15.0  # An import may take this many s; it needs 0.4 s of CPU time.
 MUCH = 6.0  # If an import needs more CPU time than this (in s), the script is in an endless loop.

@@ -108,7 +108,7 @@ def _finds(context: CheckContext, kind: str, incomplete: str, mine: set[str], en
     _is_a_list_of_names(context, names)
     found: list[str] = of_kind(list, names, "the result")
     types = {service.name: service.type for service in context.look().services}
-    # Services of other nodes also belong to the right result.
+    # The right result also contains services of nodes that the check did not start.
     right = mine | {name for name, actual in types.items() if actual == kind}
     missing, extra = sorted(right.difference(found)), sorted(set(found) - right)
     context.require(

@@ -1,4 +1,4 @@
-"""09.5: a client that calls three services, and then repeats turtle1's velocities for a second turtle."""
+"""09.5: a client that calls three services, and then publishes turtle1's velocities for a second turtle."""
 
 from __future__ import annotations
 

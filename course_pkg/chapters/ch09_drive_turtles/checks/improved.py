@@ -1,6 +1,6 @@
 """09.4: a driver with services for the direction, the rate and the speed.
 
-Another service stops the turtle.
+A fourth service stops and starts the turtle.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ IMPROVED_GOALS = {SETS_ITS_RATE: 2, SETS_ITS_SPEED: 3, "Stop and start the turtl
 def change_speed_and_stop(context: CheckContext) -> None:
     """Set speeds, stop and start the turtle, and compare the published velocities.
 
-    The check does this while the turtle moves straight ahead, and while it turns.
+    Stop the turtle while it moves straight ahead, and while it turns.
     """
     is_improved(context, PROGRAM)
 

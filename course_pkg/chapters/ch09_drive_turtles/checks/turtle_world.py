@@ -50,7 +50,7 @@ class World:
         self._arguments = f"__ns:={self._space} {remapped}"
 
     def name(self, relative: str) -> str:
-        """Return the full name of the topic or service `relative`, such as "turtle1/pose"."""
+        """Return the full name for the relative name `relative`, such as "turtle1/pose"."""
         return f"{self._space}/{relative}"
 
     def run(self, arguments: str = "") -> Running:
@@ -93,7 +93,7 @@ class World:
     def serves(self, running: Running, *names: str) -> None:
         """Wait until the student's program serves all services in `names`.
 
-        If a service is missing, report what happened.
+        If a service does not appear in time, report the reason.
         """
         assertion = f"{self._program.line} starts a node that offers {_listed(names)}"
         began, seen = time.monotonic(), 0.0

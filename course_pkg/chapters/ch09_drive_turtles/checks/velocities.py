@@ -87,7 +87,7 @@ class Stream:
         )
 
     def only(self, *wanted: tuple[float, float]) -> None:
-        """Assert that each message so far contains one of these velocities (m/s, rad/s)."""
+        """Assert that each message so far contains one of the velocities `wanted` (m/s, rad/s)."""
         others = [each for each in map(velocity, self._subscription.arrivals) if each not in wanted]
         self._context.require(
             KEEP_COMING,

@@ -63,7 +63,7 @@ SHARED = (
 
 
 class Proxies:
-    """Records the threads that use each persistent proxy."""
+    """For each persistent proxy, records the threads that use this proxy."""
 
     def __init__(self) -> None:
         self.calls = 0

@@ -55,8 +55,8 @@ class Deadlock(Exception):
 class CheckedLock:
     """A lock; after acquire(), the thread waits briefly, so that another thread can acquire the second lock.
 
-    Two threads that acquire the two locks in opposite order therefore always block each other. A thread that
-    waits too long gets an error, so that all threads end.
+    Two threads that acquire the two locks in opposite order always block each other. A thread that waits too
+    long gets an error, so that all threads end.
     """
 
     def __init__(self, pair: CheckedPair, limit: float) -> None:
@@ -193,7 +193,7 @@ class CheckedPair:
         return sum(shelf.lock.owner == threading.get_ident() for shelf in self._shelves)
 
     def meet(self) -> None:
-        """Wait for a short time until another thread has also acquired a lock."""
+        """Wait until another thread has also acquired a lock, but only for a short time."""
         with self._turn:
             limit, self._meeting = self._meeting, MEETING
             self._turn.notify_all()

@@ -314,7 +314,7 @@ def _finds_it_after_a_reset(
 ) -> None:
     """Start another program at the server's port, and start the server at another address.
 
-    At the end, stop the server; a program that resets each connection then listens at its registered address.
+    At the end, stop the server; at the server's registered address, a program then resets each connection.
     """
     former.leave()
     assertion = "a server that moved is found again"
@@ -337,9 +337,9 @@ def _finds_it_after_a_reset(
 
 
 def _keeps_the_address(context: CheckContext, name: str, client: Client, numbers: list[float]) -> None:
-    """Register another server for the same service.
+    """Register a second server for the same service.
 
-    Only a client that looks up the address again calls the other server.
+    Only a client that looks up the address again calls the second server.
     """
     wrong = context.random.numbers(2, 100.0, 900.0)
     other = context.serve(name, GEOMETRY, lambda _: dict(zip(("area", "volume"), wrong, strict=True)))

@@ -246,7 +246,7 @@ NOT_RAISED: Hints = [
     goals={RECEIVED: 3, "Raise ConnectionError if the connection ends before `count` bytes have arrived.": 1},
 )
 def exact_read(context: CheckContext) -> None:
-    """Send the bytes in one piece, in several pieces, and with additional bytes.
+    """Send bytes to the student's function: in one piece, in several pieces, and with additional bytes.
 
     At the end, close the connection before all bytes are sent.
     """

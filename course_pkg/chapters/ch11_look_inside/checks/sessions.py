@@ -48,7 +48,7 @@ TOTALS = "Store a separate total for each session."
     goals={TOTALS: 2, "Refuse a call without a session.": 1},
 )
 def totals_of_sessions(context: CheckContext) -> None:
-    """Call in two sessions, call from another node in one of these sessions, and call without a session."""
+    """Call the service in two sessions, from another node in one of these sessions, and without a session."""
     kind = context.service(NAME, KIND).kind
     require_kernel(context, [service.node for service in context.look().services if service.name == NAME])
     first, second = context.random.word(), context.random.word()

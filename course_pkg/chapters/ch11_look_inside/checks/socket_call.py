@@ -117,7 +117,7 @@ ANSWERED = "Return the response, even if its bytes arrive one after the other."
     goals={ANSWERED: 3, "Raise ServiceException if the server refuses the call.": 1},
 )
 def call_over_a_socket(context: CheckContext) -> None:
-    """Call a server that responds at once, responds byte by byte, or refuses the connection or a call."""
+    """Call a server that responds immediately or byte by byte, or that refuses the connection or a call."""
     context.require(
         "the function uses only a socket",
         holds=not ROS_CLIENTS & _names(context.source("ask")),
@@ -141,7 +141,7 @@ def call_over_a_socket(context: CheckContext) -> None:
 def _names(source: str) -> set[str]:
     """Return the names that the code of a function uses; comments and docstrings do not count.
 
-    The name of an attribute is also returned with a dot before it.
+    For an attribute, the result also contains the name with a dot before it, such as ".call".
     """
     try:
         nodes = list(ast.walk(ast.parse(textwrap.dedent(source))))

@@ -23,7 +23,7 @@ TIMEOUT = 8.0  # TIMEOUT is the time limit in s for the next bytes of a client o
 EARLY = 0.1  # The server waits this many s to see whether the client sends its request too early.
 # After the response, the client must close the connection within this many s, even on a busy machine.
 LINGER = 3.0
-# During a slow response, the server waits at most this many s in total until the client has read.
+# During a slow response, the server waits at most this many s in total until the client has read the bytes.
 UNREAD = 1.0
 REQUEST = 12  # Three float32 values have this many bytes.
 

@@ -1,4 +1,4 @@
-"""The node `tcp_echo`: listens on a TCP port, stores its number in `~port`, and sends back all bytes.
+"""The node `tcp_echo`: listens on a TCP port, stores the port in `~port`, and sends back all bytes.
 
 The program uses no protocol of ROS. Therefore, a round trip to this program shows the shortest time that a
 service call can take.

@@ -20,7 +20,7 @@ ONE = 6.0  # ONE is the time limit in s for a single call.
 MANY = 20.0  # MANY is the time limit in s for 50 simultaneous calls on a busy machine.
 MEETING = 0.05  # A call of take() waits at most this many s for another call with the same amount.
 FIRST_MEETING = 0.5  # The first of many calls waits at most this many s, so that all other calls can start.
-BUYERS = 10  # This many clients each send their request five times.
+BUYERS = 10  # This many clients send their request five times each.
 KERNEL_CODE = (
     SMALL_STACKS
     + """
@@ -86,7 +86,7 @@ FAILED = "If the purse fails, charge the request when it is sent again. Refuse a
     },
 )
 def charge_once(context: CheckContext) -> None:
-    """Send new requests, repeated requests, requests for which the purse fails, and one without an id.
+    """Send new and repeated requests, requests for which the purse fails, and a request without an id.
 
     Later, send 50 requests at the same time.
     """

@@ -12,7 +12,7 @@ from course_pkg.checking.result import Result
 
 ADD = "course_pkg/AddTwoInts"
 LIMIT = 0.8  # LIMIT is the time in s for which the student's function may wait.
-LONG = 4.0  # This time limit in s is longer than every call.
+LONG = 4.0  # This time limit in s is longer than the duration of every call.
 VERY_LONG = 25.0  # A function that polls only ten times within this many s returns the response too late.
 HELD = 10.0  # The server delays a response by at most this many s.
 WORK = 0.3  # WORK is the duration of a slow handler in s.

@@ -137,7 +137,7 @@ def _fault_in(printed: str) -> Fault:
 
 
 def _lacks_roscpp(text: str) -> bool:
-    """Return whether the program is linked with catkin's libraries, although `roscpp` is missing.
+    """Return whether CMakeLists.txt links the program with catkin's libraries, but does not name `roscpp`.
 
     Without `roscpp` in find_package, the variable catkin_LIBRARIES does not contain the library roscpp.
     """

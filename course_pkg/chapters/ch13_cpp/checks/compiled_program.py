@@ -20,7 +20,7 @@ LIMITS = "ulimit -t 30 -f 100000"
 COMPILING = 60.0  # The compilation may take this many s; it takes 2 s on an idle machine.
 # The program's node must be on the graph within this many s; it takes 0.1 s on an idle machine.
 STARTING = 6.0
-REGISTERING = 1.5  # After its node is on the graph, the program must serve within this many s.
+REGISTERING = 1.5  # After its node is on the graph, the program must offer its service within this many s.
 STAYING = 0.4  # The program must still run after this many s; without ros::spin(), it ends within 0.1 s.
 POLL = 0.05  # POLL is the time in s between two snapshots of the graph.
 SERVED = "the program offers /{0} and continues to run"

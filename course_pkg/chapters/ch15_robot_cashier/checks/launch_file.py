@@ -123,7 +123,7 @@ def _printed(command: Running) -> tuple[int | None, str]:
 
 
 def _read(context: CheckContext, command: Running) -> str:
-    """Assert that roslaunch can read the file; return its output."""
+    """Assert that roslaunch can read the launch file; return roslaunch's output."""
     status, printed = _printed(command)
     text = context.source(f"file:{FILE}")
     asked = re.search(r"requires the '(\w+)' arg", printed)
@@ -199,7 +199,7 @@ def _number(text: str) -> float | None:
 def starts_programs(
     context: CheckContext, printed: str, assertion: str = "each node has its own program"
 ) -> None:
-    """Assert that each node in `printed` runs the program with the same name; READER prints `printed`."""
+    """Assert that each node runs the program with the same name; `printed` is the output of READER."""
     for node, started in re.findall(r"^node /(\S+) (.*\S)", printed, re.MULTILINE):
         wanted = f"my_cashier {node}.py" if node in NODES else f"course_pkg {node}"
         context.require(

@@ -30,7 +30,7 @@ class Printer:
         self._busy = threading.Lock()
 
     def answer(self, request: PrintLineRequest) -> Act:
-        """Print a line, or refuse it."""
+        """Print the line in the request, or refuse the request."""
         if not self._busy.acquire(blocking=False):
             self.jams += 1
             return Refuse(JAM)

@@ -79,7 +79,7 @@ def running_till(context: CheckContext, *names: str) -> Iterator[Till]:
 
 
 def _items(context: CheckContext, count: int) -> list[tuple[str, int]]:
-    """Return items with different names; amounts are in cents."""
+    """Return items with different names; their prices are in cents."""
     cents = context.random.integers(count, 50, 900)
     return [(context.random.word(), amount) for amount in cents]
 

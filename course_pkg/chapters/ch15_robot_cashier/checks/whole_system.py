@@ -48,7 +48,7 @@ TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greeti
 REASON = "out of paper"
 SYSTEM = "roslaunch starts the whole system"  # The text is the title of an assertion.
 VISITS = 2  # After the restart, the check lets up to this many customers come, until one is greeted.
-MANY = 6  # The number of simultaneous calls in the test with two customers.
+MANY = 6  # MANY is the number of simultaneous calls of till/set.
 
 NOT_LAUNCHED = (
     "The command roslaunch ended. Type `roslaunch my_cashier cashier.launch hardware:=false` in the "
@@ -101,7 +101,7 @@ AFTERWARDS = (
     start=f"%%writefile {FILE}\n<!-- Your file of exercise 15.10, extended. -->\n...",
 )
 def the_whole_system(context: CheckContext) -> None:
-    """Let two customers use the system, let the printer and the camera fail, and kill all nodes."""
+    """Let customers come and leave, let the printer and the camera fail, and kill all nodes."""
     package = copied(context, MY_CASHIER, examined=LAUNCH)
     command = f"python3 -c '{READER}' {FILE} hardware:=false"
     programs = package.start(command, worded="roslaunch")
@@ -132,8 +132,8 @@ def the_whole_system(context: CheckContext) -> None:
 class Counter:
     """Replaces the camera above the counter.
 
-    It publishes a frame every 0.1 s, which shows one customer or no customer. A check can also stop the
-    frames.
+    The object publishes a frame every 0.1 s; a frame shows one customer or no customer. A check can also stop
+    the frames.
     """
 
     def __init__(self, context: CheckContext, topic: str) -> None:
@@ -196,7 +196,7 @@ def _missing(seen: Snapshot, space: str) -> list[tuple[str, str]]:
 
 @dataclass
 class Shop:
-    """The whole system, from the point of view of a customer."""
+    """Uses the whole system as a customer does, and examines the reactions of the system."""
 
     context: CheckContext
     space: str
@@ -235,7 +235,7 @@ class Shop:
     def serves_two_customers(self, mirrored: Subscription, arm: Publisher) -> None:
         """Let a customer come and leave.
 
-        Between these two events, two clients buy at the same time, and the printer fails.
+        Between these two events, make MANY calls of till/set at the same time, and let the printer fail.
         """
         context = self.context
         total = self.service("till/total", "course_pkg/TillTotal", COUNTED)

@@ -58,7 +58,7 @@ class CounterCamera:
                 return
 
     def _there(self) -> int:
-        """Return the number of customers at the counter; if no customer is planned, plan one."""
+        """Return the number of customers at the counter; plan a customer if no customer is planned."""
         with self._lock:
             now = time.time()
             if self._every and self._counter.next_change(now) == math.inf:

@@ -319,7 +319,7 @@ def _refuses_too_many(context: CheckContext, client: actionlib.SimpleActionClien
 def _aborts_at_once(
     context: CheckContext, client: actionlib.SimpleActionClient, capacity: int, each: float
 ) -> None:
-    """Send a goal with one parcel too many and `each` s per parcel; assert that it is aborted immediately."""
+    """Send a goal with one parcel too many and `each` s per parcel; the goal must be aborted immediately."""
     began = time.monotonic()
     client.send_goal(FetchGoal(things=capacity + 1, seconds=each))
     _ends_as(

@@ -71,7 +71,7 @@ def started(context: CheckContext, folder: Folder, *arguments: str) -> Robot:
 
 
 def offers_what_fits(context: CheckContext, robot: Robot) -> None:
-    """Wait until the robot has registered its three names, and assert that each has the right kind.
+    """Wait until the robot has registered its three names; assert that each name has the right kind.
 
     The kind of a name is topic, service or action.
     """
