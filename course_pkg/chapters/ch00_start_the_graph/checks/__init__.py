@@ -233,10 +233,7 @@ def _other_sides(sides: dict[str, float]) -> Hints:
 
 
 def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
-    """Return hints for a returned value that is not `volume`, the volume in the response.
-
-    `area` is the area in the response.
-    """
+    """Return hints for a returned value that is not `volume`, the volume in the response."""
     multiplied = (
         "Your function multiplied the sides, but this server returns different numbers. Return "
         "the volume from the response of the server."

@@ -116,7 +116,7 @@ def _start(context: CheckContext, running: ExitStack, function: str, name: str, 
 def _serves(context: CheckContext, server: Running, room: str, before: set[str]) -> None:
     """Assert that the service and the node of the room `room` have the right names.
 
-    `before` contains the addresses of the services that existed before the start of the server.
+    `before` contains the addresses of the earlier services.
     """
     wanted, node = f"/{room}/measure", f"/{room}/measurer"
     deadline, service = time.monotonic() + START, None
@@ -125,8 +125,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         seen = context.look()
         service = seen.service(wanted)
         others = [other for other in seen.services if other.uri not in before and other.type == GEOMETRY]
-        # Keep the services that were found first, because a busy server does not always respond a second
-        # time.
+        # Keep the services that were found first, because a busy server does not always respond again.
         new = new or others
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
@@ -186,7 +185,7 @@ def _astray(room: str, found: str) -> str:
 def _views(context: CheckContext, viewer: Running, arm: str, before: set[str]) -> None:
     """Assert that the started node and its topics have the right names for the arm `arm`.
 
-    `before` contains the names of the nodes that existed before the viewer was started.
+    `before` contains the names of the earlier nodes.
     """
     name, seen = _viewer(context, viewer, before)
     with context.goal(VIEWER):

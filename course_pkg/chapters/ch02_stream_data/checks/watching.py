@@ -64,7 +64,7 @@ def watch_a_stream(context: CheckContext) -> None:
         time.sleep(1.3)
         _says(context, topic, 'before the first message, the state is "waiting"', "waiting", _BEFORE)
         publisher = _speaks(context, unasked)
-        # When the check has published six messages, the student's Watch has received some of them.
+        # After six published messages, the student's Watch object has received some messages.
         wait_until(lambda: len(publisher.sent) > 5, 5.0)
         _says(context, unasked, "it receives messages before the first call of state()", "running", _UNASKED)
         _says(context, topic, "two watches are independent", "waiting", _APART)

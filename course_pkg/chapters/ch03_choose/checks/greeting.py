@@ -217,7 +217,7 @@ def _greeted(
 ) -> None:
     """Assert that each customer in `numbers` was greeted once, in the right order."""
     subscription.until(lambda arrivals: set(numbers) <= {each.fields["data"] for each in arrivals}, 8.0)
-    # A second greeting of the same customer, which is a mistake, would arrive within this time.
+    # A wrong second greeting of a customer would arrive within this time.
     subscription.during(2 * GREETING + 0.2)
     seen = [each.fields["data"] for each in subscription.arrivals]
     said = [*greetings.said]

@@ -75,7 +75,7 @@ SOUND = {
     f"{PACKAGE}/srv/Lamp.srv": DEFINITION,
     f"{PACKAGE}/package.xml": MANIFEST,
     f"{PACKAGE}/CMakeLists.txt": LISTS,
-    # A student's CMakeLists.txt can contain a rule that installs this file, so the file must exist.
+    # A student's CMakeLists.txt can install this file, so the file must exist.
     f"{PACKAGE}/scripts/lamp_server.py": "#!/usr/bin/env python3\n",
 }
 
@@ -112,7 +112,7 @@ def md5_in(folder: Folder) -> tuple[str, str]:
 
 
 def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) -> Fault:
-    """Return a copy of the fault `fault` that names the student's file as the wrong file.
+    """Return a copy of the fault `fault` with the student's file as the wrong file.
 
     The check's own files are correct, so the mistake is in the student's file.
     """

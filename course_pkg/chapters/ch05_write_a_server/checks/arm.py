@@ -59,7 +59,6 @@ def close_for_maintenance(context: CheckContext) -> None:
 
 
 def _serves(context: CheckContext, program: Running) -> None:
-    """Assert that the program starts and serves both services."""
 
     def ready() -> bool:
         seen = context.look()

@@ -33,14 +33,14 @@ START = f"""%%writefile {FILE}
 
 @dataclass(frozen=True)
 class Case:
-    """The arguments, the server and the expected result of one run of the student's program."""
+    """The inputs and the expected result of one run of the student's program."""
 
-    title: str  # `title` is the name of the case in the titles of assertions.
+    title: str
     arguments: list[str]
     # `script` returns the service's response to a request; None means that there is no service.
     script: Script | None
     status: int
-    prints: str  # The program's output must contain this text.
+    prints: str
     calls: int = 1
     hint: str = ""  # The report shows `hint` if the exit status is wrong.
     # If `remapped` is True, getGeometry is remapped to a name in another namespace. Otherwise, the program
@@ -190,11 +190,7 @@ def _cases(context: CheckContext) -> list[Case]:
 
 
 class Started:
-    """One run of the student's program, which must call the service getGeometry in `namespace`.
-
-    In some cases, the program itself runs in this namespace. In the other cases, getGeometry is remapped to
-    this namespace.
-    """
+    """One run of the student's program, which must call the service getGeometry in `namespace`."""
 
     def __init__(self, context: CheckContext, folder: Folder, case: Case, namespace: str) -> None:
         self.case = case

@@ -80,7 +80,7 @@ def _is_in_its_place(context: CheckContext, package: BuiltPackage, script: str) 
         actual=", ".join(places) + (", a file that can only be read" if there else "") or "no such file",
         hints=_why_not_there(context.source(f"file:{FILE}"), script, places, there=there),
     )
-    # catkin_install_python can change the first line of a script, so compare only the other lines.
+    # catkin_install_python can change the first line, so compare only the other lines.
     both = f"<(tail -n +2 {MY_GEOMETRY.path(f'scripts/{script}')}) <(tail -n +2 install/{PLACE}/{script})"
     if package.folder.command("bash", "-c", f"cmp {both}", worded=f"cmp {script}").status != 0:
         context.fail(

@@ -16,9 +16,9 @@ class Case:
 
     name: str  # `name` is the name of the case in the titles of assertions.
     there: bool  # True if the switch is already in the requested position.
-    obeys: bool  # `obeys` is True if the switch moves.
-    success: bool  # `success` is the value of the response's field `success`.
-    expected: str  # `expected` is the value that `move` must return.
+    obeys: bool
+    success: bool
+    expected: str
     wrong_results: list[tuple[str, str]]  # Each tuple contains a wrong result and a hint.
 
 
@@ -136,7 +136,7 @@ def move_and_verify(context: CheckContext) -> None:
     for case in CASES:
         for to_open in context.random.shuffled([True, False]):
             _move(context, case, to_open)
-    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:  # The order is random.
+    for case in context.random.shuffled(CASES)[: context.random.integer(3, 5)]:
         _move(context, case, context.random.choice([True, False]))
 
 

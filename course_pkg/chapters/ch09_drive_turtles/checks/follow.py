@@ -99,7 +99,7 @@ class Driver:
 def follows(context: CheckContext, program: TurtleProgram) -> None:
     """Assert that a program meets the requirements of the exercise about spawn_turtle_plus.
 
-    Three runs of the program overlap, because one run takes 5 s. A fourth run takes place within these 5 s.
+    The runs of the program overlap, because one run takes 5 s.
     """
     copy = program.prepare(context, program)
     name = context.random.word()

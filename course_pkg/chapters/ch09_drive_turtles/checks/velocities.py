@@ -155,7 +155,6 @@ def velocity(arrival: Arrival) -> tuple[float, float]:
 
 
 def _other_fields(arrival: Arrival) -> list[float]:
-    """Return linear.y, linear.z, angular.x and angular.y of a message."""
     linear, angular = _vectors(arrival)
     return [float(number) for number in (linear["y"], linear["z"], angular["x"], angular["y"])]
 

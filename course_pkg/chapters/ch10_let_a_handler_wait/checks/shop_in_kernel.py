@@ -60,7 +60,7 @@ class CheckedShelf:
     """A shelf with `count` things. The student's code in the kernel uses the shelf through a proxy object.
 
     Each read and each write waits for a short time, and ends early if another thread reads. Therefore, two
-    threads without a lock read the same number. With a lock, no other thread can read during this time.
+    threads without a lock read the same number.
     """
 
     def __init__(self, count: int) -> None:

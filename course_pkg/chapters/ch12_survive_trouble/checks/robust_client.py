@@ -322,8 +322,7 @@ def _gives_up(context: CheckContext, name: str, till: FaultyServer) -> None:
 def _keeps_the_deadline(context: CheckContext, name: str, till: FaultyServer) -> None:
     """Let the till respond after the deadline, but within the time limit of an attempt (0.5 s).
 
-    On a busy machine, even a right client may sometimes end after its deadline. Therefore, the check repeats
-    the payment until a payment ends in time.
+    The check repeats the payment until one payment ends in time, because the machine may be busy.
     """
     returned: list[Json] = []
 

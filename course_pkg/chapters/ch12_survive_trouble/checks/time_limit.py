@@ -138,8 +138,7 @@ def _returns_no_late_response(context: CheckContext, name: str, adder: Adder) ->
 def _in_a_random_order(context: CheckContext, name: str, adder: Adder) -> None:
     """Call a server that responds, refuses or does not respond, in a random order.
 
-    The time limit is always the same. Therefore, a function with a fixed list of results fails, and a
-    function that chooses the result by the time limit also fails.
+    The time limit is always the same, so a function that chooses its result by the time limit fails.
     """
     responses, failures = context.random.integer(1, 3), context.random.integer(1, 2)
     acts: list[Act | None] = [None] * responses

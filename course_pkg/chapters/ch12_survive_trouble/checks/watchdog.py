@@ -316,8 +316,7 @@ def _stops(context: CheckContext, watched: CheckedMaster) -> None:
 def _stopped_amid_a_look(context: CheckContext, watched: CheckedMaster) -> str:
     """Call stop() during a poll; return "quiet" if the watchdog then stops correctly.
 
-    After stop(), a right watchdog does not register the service again, and makes at most LAST polls. If the
-    watchdog makes a mistake, the result describes this mistake.
+    After stop(), a right watchdog does not register the service again, and makes at most LAST polls.
     """
     watched.hold()
     if not watched.inside.wait(SOON):

@@ -272,8 +272,6 @@ def _volumes(out: str, shapes: set[str]) -> list[str]:
 
     A line contains a volume if it is only a number, if it is "volume" and a number, or if it matches a text
     in `shapes`.
-
-    A number in any other line, such as a number of attempts or of seconds, is not a volume.
     """
     volume = rf"(?i)(.*\bvolume\W*(is|was)?\W*)?{NUMBER.pattern}"
     return [line for line in _lines(out) if re.fullmatch(volume, line) or NUMBER.sub("#", line) in shapes]

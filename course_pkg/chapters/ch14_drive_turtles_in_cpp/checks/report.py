@@ -138,7 +138,6 @@ def own_queue(context: CheckContext) -> None:
 
 
 def _code(context: CheckContext, program: TurtleProgram) -> str:
-    """Return the student's program without comments."""
     return COMMENT.sub("", context.source(f"file:{program.path}"))
 
 

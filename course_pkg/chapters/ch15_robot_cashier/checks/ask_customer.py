@@ -192,7 +192,7 @@ class _Detector:
     def __init__(self, wait: float) -> None:
         self.wait = wait
         self.patiences: list[float] = []
-        self.refused = 0  # This is the number of refused calls.
+        self.refused = 0
 
     def answer(self, request: AwaitCustomerRequest) -> Act:
         patience = round(request.patience, 3)

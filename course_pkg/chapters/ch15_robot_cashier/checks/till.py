@@ -27,7 +27,7 @@ TILL_SET, TILL_TOTAL, TRIGGER, PRINT_LINE = (
     "std_srvs/Trigger",
     "course_pkg/PrintLine",
 )
-MANY = 8  # MANY is the number of simultaneous calls.
+MANY = 8
 ANSWER = 5.0  # A call may take this many s.
 HOLDING = 0.4  # While a reset waits, the printing of a line takes this many s.
 
@@ -130,10 +130,7 @@ PRINTED = "Print one line for each item, and store the price only after the line
     goals={SUMMED: 3, "Refuse negative cents. Write the item and the cents into the error message.": 1},
 )
 def the_sum(context: CheckContext) -> None:
-    """Send items to the till, send some of them again, and send items that the till must refuse.
-
-    Compare the total.
-    """
+    """Send items to the till, send some of them again, and send items that the till must refuse."""
     with running_till(context, TOTAL) as till:
         total = till.service(context, TOTAL, TILL_TOTAL)
         _totals(context, total, {}, COUNT, SUM)

@@ -46,7 +46,7 @@ SERVICES = {
 }
 TOPICS = {"customer_seen": "vision", "mirrored_joints": "robot_cashier", "greetings": "robot_cashier"}
 REASON = "out of paper"
-SYSTEM = "roslaunch starts the whole system"  # The text is the title of an assertion.
+SYSTEM = "roslaunch starts the whole system"
 VISITS = 2  # After the restart, the check lets up to this many customers come, until one is greeted.
 MANY = 6  # MANY is the number of simultaneous calls of till/set.
 
@@ -132,8 +132,7 @@ def the_whole_system(context: CheckContext) -> None:
 class Counter:
     """Replaces the camera above the counter.
 
-    The object publishes a frame every 0.1 s; a frame shows one customer or no customer. A check can also stop
-    the frames.
+    The object publishes a frame every 0.1 s; a frame shows one customer or no customer.
     """
 
     def __init__(self, context: CheckContext, topic: str) -> None:
@@ -221,10 +220,7 @@ class Shop:
         )
 
     def knows(self, customer: bool, hint: str) -> bool:
-        """Return whether detect_customer returns `customer` within REACTION s.
-
-        The report shows `hint` if a call fails.
-        """
+        """Return whether detect_customer returns `customer` within REACTION s."""
         detect = self.service("detect_customer", "course_pkg/AwaitCustomer", hint)
 
         def told() -> bool:

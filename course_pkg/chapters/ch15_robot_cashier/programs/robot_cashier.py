@@ -26,7 +26,7 @@ QUIET = 5.0  # The node writes at most one warning every QUIET s.
 GRACE = 2.0  # A call may take this many s longer than its `patience`.
 AGAIN = 0.5  # AGAIN is the time in s between a failed call and the next call.
 POLL = 0.2  # POLL is the time in s between two calls while a customer is there.
-FAILED = (rospy.ServiceException, CourseError)  # A call can raise these errors.
+FAILED = (rospy.ServiceException, CourseError)
 
 
 class RobotCashier:

@@ -108,11 +108,7 @@ CANCELLED = "Cancel the goal when the time limit is over, and return the number 
     goals=[FETCHED, CANCELLED, "Wait at most 2 s for the action server."],
 )
 def bounded_goal(context: CheckContext) -> None:
-    """Run the student's function without a robot, and with robots that behave differently.
-
-    The robots are a fast robot, a slow robot, a robot that starts late, and a robot that ignores
-    cancellations.
-    """
+    """Run the student's function without a robot, and with robots that behave differently."""
     _in_time(context)
     context.fulfilled(FETCHED)
     _too_late(context)
@@ -348,7 +344,6 @@ WAITED_FOR_EVER: Hints = [
 
 
 def _call_without_robot(context: CheckContext) -> Result:
-    """Run the student's function while no robot is running."""
     return context.run(
         "fetch_within", f"/{context.random.word()}", 3, 1.0, within=WAIT + 4.0, hints=WAITED_FOR_EVER
     )

@@ -307,9 +307,8 @@ def _fetches_nothing(context: CheckContext, client: actionlib.SimpleActionClient
 def _cancels_during_the_last_thing(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
     """Cancel a goal while the robot fetches its last thing; the goal must then end as SUCCEEDED.
 
-    On a busy machine, the cancellation can arrive too early or too late. If it arrives too early, the result
-    contains 0 things, and the check accepts each state. If it arrives too late, a wrong server also ends the
-    goal as SUCCEEDED.
+    On a busy machine, the cancellation can arrive too early or too late; the check then also accepts a wrong
+    server.
     """
     client.send_goal(FetchGoal(things=1, seconds=LAST))
     wait_until(lambda: client.get_state() == GoalStatus.ACTIVE, LAST)
@@ -373,8 +372,8 @@ def _ends_as(context: CheckContext, client: actionlib.SimpleActionClient, assert
 def _is_over(client: actionlib.SimpleActionClient, timeout: float) -> bool:
     """Return whether the goal ends within `timeout` s.
 
-    The client's method wait_for_result() cannot be used: if a goal ends before send_goal() returns, this
-    method does not notice the end of the goal.
+    The client's method wait_for_result() does not notice the end of a goal that ends before send_goal()
+    returns.
     """
     handle = client.gh
     assert handle is not None

@@ -81,7 +81,7 @@ def speed_parameter(context: CheckContext) -> None:
             actual="a parameter that the function has set",
             hints=SET,
         )
-        again = context.random.shuffled(cases)[: context.random.integer(3, 5)]  # The order is random.
+        again = context.random.shuffled(cases)[: context.random.integer(3, 5)]
         for value, assertion, expected, hint in (*cases, *again):
             rospy.set_param(f"/{robot}/speed", value)
             _returns(context, robot, default, assertion, expected, hint)

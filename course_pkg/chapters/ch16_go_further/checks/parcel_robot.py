@@ -64,10 +64,7 @@ LIMITED = "Refuse a delivery of more parcels than the parameter ~capacity allows
     goals=[DELIVERED, STOPPED, LIMITED, "Open and close the door."],
 )
 def parcel_robot(context: CheckContext) -> None:
-    """Start a robot with the argument capacity, and a robot without this argument; use both robots.
-
-    The check reads the battery, opens and closes the door, and sends and cancels goals.
-    """
+    """Start a robot with the argument capacity, and a robot without this argument; use both robots."""
     folder = context.folder(files=[FILE])
     with started(context, folder, f"_capacity:={FEW}") as first, started(context, folder) as second:
         battery = context.subscribe(first.name("battery"), "std_msgs/Float32")
@@ -266,10 +263,7 @@ def _cancels(
 
 
 def _delivers_nothing_impossible(context: CheckContext, battery: Subscription, charge: float) -> None:
-    """Assert that a goal with too many parcels did not change the charge.
-
-    `charge` is the right charge of the battery.
-    """
+    """Assert that a goal with too many parcels did not change the charge."""
     battery.until(lambda arrivals: arrivals[-1].fields["data"] == charge, SETTLING)
     battery.during(3 * PERIOD)  # Wait for further messages, because a wrong charge may follow.
     context.expect(
