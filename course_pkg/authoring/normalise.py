@@ -1,6 +1,6 @@
-"""Removes data from a notebook that differ between runs or between front ends.
+"""Removes from a notebook the data that differ between two runs, or between JupyterLab and other front ends.
 
-Printed addresses, ports, times and process ids are not removed, because they belong to the chapter.
+Printed addresses, ports, times and process ids are not removed, because they are content of the chapter.
 """
 
 from __future__ import annotations

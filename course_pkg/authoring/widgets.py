@@ -12,7 +12,8 @@ from course_pkg.types.fields import Plain
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATES = "application/vnd.jupyter.widget-state+json"
 OF_THE_COURSE = re.compile(r"course_pkg\.panels\.(?P<panel>\w+)\.view\.\w+")
-PRIVATE = ("layout", "tabbable", "tooltip")  # These are traits of ipywidgets.
+# The pictures do not need these traits, which ipywidgets defines.
+PRIVATE = ("layout", "tabbable", "tooltip")
 
 
 class SavedPanel(NamedTuple):

@@ -22,9 +22,9 @@ PageMessage: TypeAlias = dict[str, Any]
 class Panel(anywidget.AnyWidget):
     """A widget that any thread may update.
 
-    A subclass names its ES module in `front_end` and its style sheet in `style_sheet`. A subclass overrides
-    `received` to handle the messages of the page. A subclass that works only while a page shows the panel
-    also overrides `shown` and `hidden`.
+    In a subclass, `front_end` is the path of the ES module, and `style_sheet` is the path of the style sheet.
+    A subclass overrides `received` to handle the messages of the page. A subclass that works only while a
+    page shows the panel also overrides `shown` and `hidden`.
     """
 
     front_end: ClassVar[Path]

@@ -1,4 +1,4 @@
-"""Stores the student's predictions, choices and answers on disk, in one JSON file for each kind."""
+"""Stores the student's predictions, choices and answers on disk, in three JSON files."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Store(Generic[Record]):
         self.path = path or state_folder() / self.file
 
     def read(self) -> dict[str, Record]:
-        """Return all records by key, or {} if there is no file yet.
+        """Return a dict of all records by key, or {} if the file does not exist yet.
 
         Raises InvalidPredictions if the file is not valid.
         """

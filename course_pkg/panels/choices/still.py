@@ -1,4 +1,4 @@
-"""The still picture of the choices panel: the cases, the options and, if they are shown, the reasons."""
+"""The still picture of the choices panel: the cases, the options, and the reasons if the panel shows them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from course_pkg.panels.paper import (
     prose,
 )
 
-INDENT = 24.0  # The text of a case begins this many px to the right of its number.
+# The text of a case begins this many px to the right of the left edge of the case's number.
+INDENT = 24.0
 
 
 def still(state: State) -> str:

@@ -52,7 +52,7 @@ def _flat(given: object) -> str:
 
 
 def draw_values(paper: Paper, rows: Sequence[State], empty: str) -> None:
-    """Draw a message as a table."""
+    """Draw the values of a message as a table."""
     columns = [Column(EDGES, 180, CODE), Column(210, 400, CODE), Column(620, 124, FAINT_CODE)]
     if not rows:
         paper.write(empty, FAINT)
@@ -64,7 +64,7 @@ def draw_values(paper: Paper, rows: Sequence[State], empty: str) -> None:
 
 
 def draw_commands(paper: Paper, title: str, commands: Sequence[tuple[str, str]]) -> None:
-    """Draw the equivalent commands; draw nothing if there are no commands."""
+    """Draw each text of `commands` with its label; draw nothing if all texts are empty."""
     shown = [(label, text) for label, text in commands if text]
     if shown:
         paper.write(title, HEADING)

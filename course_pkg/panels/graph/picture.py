@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from course_pkg.ros import Snapshot
 
-CROWD = 30  # If a picture has more shapes than this, its namespaces are folded at first.
+CROWD = 30  # If a picture has more shapes than this, namespaces are folded until the reader unfolds them.
 NOISE_NODES = frozenset({"/rosout"})
 NOISE_TOPICS = frozenset({"/rosout", "/rosout_agg"})
 NOISE_SERVICES = ("/get_loggers", "/set_logger_level")
@@ -39,7 +39,7 @@ class Shape:
 
     @property
     def key(self) -> str:
-        """The kind and the name; a topic and a service can have the same name."""
+        """The kind and the name of the shape, because a topic and a service can have the same name."""
         return f"{self.kind.value} {self.name}"
 
 
@@ -209,7 +209,7 @@ def namespaces(picture: Picture) -> dict[str, frozenset[str]]:
 
     Only namespaces with at least two shapes are returned.
 
-    If several namespaces have the same shapes, only the innermost one is returned.
+    If several namespaces have the same shapes, only the innermost of these namespaces is returned.
     """
     found: dict[str, set[str]] = {}
     for shape in picture.shapes:

@@ -1,4 +1,4 @@
-"""Computes the positions of the events in a still picture; scene.js does this for the page."""
+"""Computes the positions of the events in a still picture; scene.js does the same for the page."""
 
 from __future__ import annotations
 

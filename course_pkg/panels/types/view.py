@@ -27,7 +27,7 @@ class TypeBrowser(Panel):
     """All service and message types on this machine, with their fields, and their services or topics.
 
     `name` is the type that is open at the beginning, such as "std_srvs/SetBool". While a page shows the
-    browser, the browser reads changed files and the graph.
+    panel, the panel reads changed files and the graph repeatedly.
     """
 
     front_end: ClassVar[Path] = HERE / "types.js"
@@ -43,7 +43,8 @@ class TypeBrowser(Panel):
         super().__init__()
         self._name = name
         self._known: Catalogue = ((), ())
-        self._not_before = 0.0  # The unit is s, as in time.monotonic().
+        # The packages are not read again before this time (s, as in time.monotonic()).
+        self._not_before = 0.0
         self._model = TypeModel(self.publish, turn=self.turn)
         self._graph: Poller[Snapshot] = Poller(look, self._seen, self._failed)
         self._files: Poller[Files] = Poller(self._list, self._listed, self.complain, every=PAUSE)
