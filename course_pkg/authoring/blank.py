@@ -1,13 +1,13 @@
 """Removes the answer from an exercise cell.
 
-There are three rules for the removal of an answer. All other bytes of the cell stay unchanged.
+Three rules remove the answer. The rest of the cell does not change.
 
 1. `...` replaces the body of a function or method; a docstring is kept.
 2. `name = value` at the top level becomes `name = ...`. A line such as `counter = Counter()` does not change
    if the same cell defines `Counter`, because the line contains no part of the answer.
-3. The line `%%writefile` at the top of a cell does not change. If the written file is a Python file, rules 1
-   and 2 apply. In any other file, only the comment lines at the top remain, and `...` replaces the other
-   lines.
+3. The line `%%writefile` at the top of a cell does not change. If the cell writes a Python file, rules 1 and
+   2 apply to the file. In any other file, only the comment lines at the top remain, and `...` replaces the
+   other lines.
 
 In some exercises, students repair a text. The student's cell then contains the wrong text, which is the
 attribute `start` of the part (see checking/parts.py). The check fails if the text is unchanged.
@@ -40,7 +40,7 @@ class Edit(NamedTuple):
 
 
 def handed_out(exercise: str, source: str) -> str:
-    """Return the source of a student's exercise cell.
+    """Return the source of the exercise cell in the student's notebook.
 
     `exercise` is the id of the part, such as "05.1", and `source` is the source of the solution. Raises
     AuthoringError if no rule applies to the solution.
@@ -174,9 +174,9 @@ class _Cell:
         return self._starts[node.end_lineno - 1] + node.end_col_offset  # type: ignore[attr-defined,no-any-return]
 
     def _column(self, node: ast.expr) -> int:
-        """Return the column after `node`.
+        """Return the column after `node`, counted in characters.
 
-        The column is counted in characters, as in `tokenize`, because `ast` counts bytes.
+        `tokenize` counts characters, but `ast` counts bytes.
         """
         line = self._lines[(node.end_lineno or 1) - 1]
         return len(line[: node.end_col_offset].decode())
@@ -203,8 +203,8 @@ def _dots(target: ast.expr) -> str:
 def _parsed(source: str) -> tuple[str, ast.Module]:
     """Parse `source`; return the text that was parsed, and its syntax tree.
 
-    If `source` is not valid Python, a name of the same length first replaces each part that only IPython
-    understands. Raises AuthoringError if this text is not valid Python either.
+    If `source` is not valid Python, each part that only IPython understands is first replaced by a name of
+    the same length. Raises AuthoringError if this text is not valid Python either.
     """
     try:
         return source, ast.parse(source)

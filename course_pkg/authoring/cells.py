@@ -25,7 +25,7 @@ class CellMetadata(TypedDict, total=False):
 
     course: CourseMetadata
     tags: list[str]
-    # True for a cell that the build of the site adds to a notebook in order to record panels.
+    # `recording` is True for a cell that the build of the site adds to a notebook in order to record panels.
     recording: bool
 
 
@@ -107,7 +107,7 @@ def may_raise(cell: Cell) -> bool:
 
 
 def code_cells(notebook: Notebook) -> list[Cell]:
-    """Return the code cells, in order."""
+    """Return the code cells of `notebook`, in their order."""
     return [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
 
 

@@ -25,8 +25,7 @@ from course_pkg.ros.process.supervised import temporary_folder
 from course_pkg.setup.progress import Progress
 
 CELL_TIMEOUT = 120  # A cell is stopped after this many s, because a reader should not wait longer.
-# Each core runs this many notebooks at the same time, because a notebook mostly waits for nodes and
-# responses.
+# Each core runs PER_CORE notebooks at the same time, because a notebook mostly waits for nodes and responses.
 PER_CORE = 3
 A_CELL = 2.0  # The estimate of a notebook's running time adds this many s for each cell.
 

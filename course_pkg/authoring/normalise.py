@@ -49,7 +49,7 @@ def strip(notebook: Notebook) -> None:
 
 
 def _name(cells: list[Cell]) -> None:
-    """Give each cell a valid and unique id; a second run does not change the ids."""
+    """Give each cell a valid and unique id; a second call does not change the ids."""
     taken: set[str] = set()
     for cell in cells:
         wanted = _wanted_id(cell)

@@ -12,8 +12,8 @@ from course_pkg.panels.stills import STILLS
 from course_pkg.types.fields import Plain
 
 SVG = "image/svg+xml"
-# This key is in the metadata of each picture with measured times; its value is a digest of the code that made
-# the picture.
+# The key MADE_BY is in the metadata of each picture with measured times; its value is a digest of the code
+# that made the picture.
 MADE_BY = "code"
 
 

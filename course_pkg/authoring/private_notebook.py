@@ -1,6 +1,6 @@
 """A pytest plug-in that gives each notebook of nbval a separate master, folder, workspace and results.
 
-Therefore, several workers of pytest-xdist can run notebooks at the same time, with `--dist loadfile`.
+With this plug-in, several workers of pytest-xdist can run notebooks at the same time (`--dist loadfile`).
 """
 
 from __future__ import annotations

@@ -60,7 +60,7 @@ def run_suite(arguments: Sequence[str]) -> int:
     `--changed` runs only the tests that a change since the last successful run can affect. `--slow` runs only
     the slow tests. All other `arguments` are passed to pytest; with such arguments, no tool runs.
 
-    Raises SetupError if the environment does not contain the tools, such as a conda environment.
+    Raises SetupError if the tools are not installed, for example in a conda environment.
     """
     places = Places.of()
     if not (places.venv / "bin" / "ruff").exists():

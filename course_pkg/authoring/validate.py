@@ -23,7 +23,7 @@ PLUGINS = (
 def validate(
     notebooks: Sequence[Path], *, workers: int | None = None, timeout: float = 900.0, compare: bool = True
 ) -> subprocess.CompletedProcess[str]:
-    """Run nbval with `notebooks` on `workers` workers, and return the exit status and the output.
+    """Run nbval for `notebooks` in `workers` processes, and return the exit status and the output.
 
     Each notebook has its own master. All cells of a notebook run on the same worker (`--dist loadfile`),
     because two workers cannot share a kernel of nbval. nbval starts the kernel in the folder of the notebook.

@@ -29,7 +29,7 @@ class Panel(anywidget.AnyWidget):
 
     front_end: ClassVar[Path]
     style_sheet: ClassVar[Path]
-    # Each of these traits can contain an error message.
+    # `errors` contains the names of the traits that can contain an error message.
     errors: ClassVar[tuple[str, ...]] = ("notice", "trouble")
     shared_sheets: ClassVar[tuple[Path, ...]] = ()  # Several panels use these style sheets.
 
@@ -39,8 +39,8 @@ class Panel(anywidget.AnyWidget):
     )
 
     def __init__(self) -> None:
-        # A thread holds this lock while it handles a message from the page, and while it changes a trait.
-        # Without this lock, a change by another thread could be lost.
+        # A thread holds the lock `turn` while it handles a message from the page, and while it changes a
+        # trait. Without this lock, a change by another thread could be lost.
         self.turn = threading.RLock()
         self._views: set[str] = set()
         super().__init__()

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 from xml.etree.ElementTree import Element, SubElement, tostring
 
-# The keys are the names of a panel's traits, and the values are JSON data.
+# In a State, the keys are the names of a panel's traits, and the values are JSON data.
 State: TypeAlias = Mapping[str, Any]
 
 GROUND, RAISED, WASH = "#ffffff", "#f4f6f8", "#e8f0fb"
@@ -119,7 +119,7 @@ class Paper:
         self.write(text, CODE if mono else PLAIN, left=EDGES + left)
 
     def row(self, columns: Sequence[Column], texts: Sequence[str], *, room: float = 4.0) -> None:
-        """Write one text into each column of a table, and move `y` below the text with the most lines."""
+        """Write one text into each column of a table, and move `y` below the tallest text."""
         top = low = self.y
         for column, text in zip(columns, texts, strict=True):
             self.y = top
@@ -165,7 +165,7 @@ class Paper:
     def box(
         self, x: float, y: float, width: float, height: float, *, fill: str, edge: str = "none", rx: float = 4
     ) -> Element:
-        """Draw a rectangle and return it."""
+        """Draw a rectangle, and return its SVG element."""
         return self.add("rect", x=x, y=y, width=width, height=height, rx=rx, fill=fill, stroke=edge)
 
     def band(self, text: str, *, bad: bool = False) -> None:
@@ -233,7 +233,7 @@ def cut(text: str, style: Style, width: float) -> str:
 def wrapped(text: str, style: Style, width: float) -> list[str]:
     """Split a text into lines of at most `width` px.
 
-    All lines of a paragraph have the indentation of the paragraph.
+    Each line has the same indentation as the paragraph in `text` to which the line belongs.
     """
     lines: list[str] = []
     for paragraph in clean(text).split("\n"):

@@ -57,7 +57,8 @@ def _without_docstrings(source: str) -> str:
     return ast.unparse(module)
 
 
-# Each key is the name of a panel's folder. The saved state of the panel's widget also contains this name.
+# The keys of STILLS are the names of the panels' folders. The saved state of a panel's widget contains the
+# name of its folder.
 STILLS = {
     "breakit": Still(breakit),
     "choices": Still(choices),

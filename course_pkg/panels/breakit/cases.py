@@ -41,7 +41,7 @@ class CaseRecord:
 
     @property
     def state(self) -> str:
-        """The state of the case: "new", "wrong", "shown" or "solved"."""
+        """The state of the case, which is "new", "wrong", "shown" or "solved"."""
         if self.solved:
             return "solved"
         return "shown" if self.shown else "wrong" if self.tries else "new"

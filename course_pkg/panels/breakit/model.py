@@ -44,7 +44,7 @@ class LabModel(Generic[SceneType]):
 
     One worker thread makes all changes to the graph, in the order of the method calls. After each change, the
     model calls the function `changed` with some of the keyword arguments `cases`, `score`, `case` and
-    `trouble`. Any thread can make this call.
+    `trouble`. Any thread can call `changed`.
 
     The function `stage` returns the Scene of a fault. The function `use` runs a tool on a Scene, and returns
     the output of the tool.
@@ -156,7 +156,7 @@ class LabModel(Generic[SceneType]):
         self.close()
 
     def undo(self) -> None:
-        """Tell the worker thread to undo the current fault after its running job.
+        """Tell the worker thread to undo the current fault when the running job has ended.
 
         This method returns at once.
         """
@@ -241,7 +241,7 @@ def _shown(number: int, tool: str, seen: Seen) -> ToolUse:
 def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -> Verdict:
     """Return the result for the student's answer.
 
-    If the diagnosis is wrong, the result describes the symptoms that the chosen fault would have.
+    If the diagnosis is wrong, the result describes the symptoms of the fault that the student chose.
     """
     if right and right_remedy:
         return _solution(fault, "right", "Right.")

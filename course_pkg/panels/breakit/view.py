@@ -53,7 +53,7 @@ class BreakIt(Panel):
             self._model.play(name, tools)
 
     def hidden(self) -> None:
-        """Undo the current fault."""
+        """Undo the current fault, because no page shows the panel any more."""
         self._model.undo()
 
     def received(self, kind: str, content: PageMessage) -> None:

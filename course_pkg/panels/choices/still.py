@@ -16,8 +16,7 @@ from course_pkg.panels.paper import (
     prose,
 )
 
-# The text of a case begins this many px to the right of the left edge of the case's number.
-INDENT = 24.0
+INDENT = 24.0  # distance in px between the left edges of a case's number and of the case's text
 
 
 def still(state: State) -> str:

@@ -9,7 +9,7 @@ from typing import TypeAlias, TypedDict
 from course_pkg.errors import FieldError
 from course_pkg.types import Field, Kind, MessageType, Plain, StringTree
 
-# An array with more elements than this is shown as one line of text, without separate input fields.
+# An array with more than CONTROLS elements is shown as one line of text, without separate input fields.
 CONTROLS = 16
 LIMIT = 200  # A table has at most this many rows.
 ELEMENTS = 32  # A table shows at most this many elements of an array.
@@ -69,7 +69,7 @@ class MessageForm:
         return wrong
 
     def checked(self, draft: Draft) -> Check:
-        """Return the errors of the form, or, without errors, the commands that send the same values."""
+        """Check the form; return its errors, or the commands that send the form's values."""
         try:
             values = self.values(draft)
         except FieldError:
@@ -92,7 +92,7 @@ class MessageForm:
         return {**draft, **{name: formatted[name] for name in values}}
 
     def formatted(self, values: Values) -> Draft:
-        """Return values as strings for the input fields of the form."""
+        """Return `values` as strings for the input fields of the form."""
         return compact(self.message.fields, self.message.format(values))
 
 
@@ -105,7 +105,7 @@ def correction(error: FieldError) -> str:
 def compact(fields: Sequence[Field], strings: Mapping[str, StringTree]) -> Draft:
     """Return a copy of `strings` in which a time is one number of seconds, and a long array is one line.
 
-    Only arrays of numbers or booleans become one line.
+    Only a long array of numbers or booleans is changed into one line of text.
     """
     return {field.name: _compact(field, strings[field.name]) for field in fields}
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 LONG, SHORT = 30.0, 3.9
 LEAST = 1.5  # A rate that was measured over a shorter time than this (s) is not reliable.
 LATE = 0.05  # A busy node may report its counts with a delay of up to this many s.
-SHOWN = 12  # The details list at most this many connections of a topic, or callers of a service.
+SHOWN = 12  # The page lists at most this many connections of a topic, or callers of a service.
 UNCONNECTED = "not connected: check that both have the same type"
 
 Key = tuple[str, str, str, int]
@@ -142,7 +142,7 @@ class Rates:
         self._meters = meters
 
     def of(self, carried: Traffic) -> float | None:
-        """Return the rate of a connection (Hz), or None if it is not known yet."""
+        """Return the rate of a connection (Hz), or None if the rate is not known yet."""
         meter = self._meters.get(_key(carried))
         return meter.rate if meter else None
 
@@ -152,7 +152,7 @@ def _key(carried: Traffic) -> Key:
 
 
 class _Ends:
-    """The names of the publishers and subscribers of each topic in a picture, by the key of the topic."""
+    """Two dicts with the publishers and subscribers of each topic; the keys are the keys of the topics."""
 
     def __init__(self, picture: Picture) -> None:
         self.publishers: dict[str, list[str]] = defaultdict(list)
@@ -163,7 +163,7 @@ class _Ends:
 
 
 class GraphActivity:
-    """Computes the activity for the page from repeated counts of messages and calls."""
+    """Turns repeated counts of messages and calls into an ActivityState for the page."""
 
     def __init__(self) -> None:
         self.seen: Activity | None = None
@@ -179,7 +179,7 @@ class GraphActivity:
             self._carried[each.topic].append(each)
 
     def state(self, picture: Picture, alive: Container[str], box: Callable[[str], str]) -> ActivityState:
-        """Return the activity for the page.
+        """Return the ActivityState for the page.
 
         `alive` contains the names of all nodes on the graph, including nodes that the panel does not show.
         The function `box` returns the key of the visible shape for the key of any shape. For a shape in a
@@ -215,8 +215,8 @@ class GraphActivity:
     def _note(self, publishers: list[str], carried: list[Traffic]) -> str:
         """Return the rate of a topic as text.
 
-        For each publisher, only the connection with the highest rate is used. The rate of the topic is the
-        sum of these highest rates.
+        The rate of a topic is the sum of the rates of its publishers. The rate of a publisher is the highest
+        rate of its connections.
         """
         assert self.seen is not None
         if self.seen.silent.intersection(publishers):

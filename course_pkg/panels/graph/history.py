@@ -65,7 +65,7 @@ class History:
         self.running = False
 
     def add(self, at: float, scene: Scene, activity: ActivityState) -> None:
-        """Record that the panel has shown this scene and activity since `at` (s since the epoch)."""
+        """Record that the panel has shown `scene` and `activity` since the time `at` (s since the epoch)."""
         if not self.running:
             return
         sized = self._sized(scene)

@@ -15,7 +15,7 @@ from course_pkg.panels.graph.picture import Frame, Kind, Line, Picture, Shape
 CHARACTER = 7.3  # A letter of the fixed-width font (12 px) is this many px wide.
 # The height (px) of each kind of shape; a topic and a namespace have two lines of text.
 HEIGHT = {Kind.NODE: 34.0, Kind.TOPIC: 42.0, Kind.SERVICE: 34.0, Kind.SPACE: 46.0}
-# A shape is wider than its name by this many px.
+# ELBOW is the number of px by which each kind of shape is wider than its name.
 ELBOW = {Kind.NODE: 32.0, Kind.TOPIC: 18.0, Kind.SERVICE: 34.0, Kind.SPACE: 34.0}
 NOTE = 11 / 12  # The font size of the second line, divided by the font size of the name.
 ROOM = 12  # A topic's shape has space for at least this many letters below the name.
@@ -87,9 +87,9 @@ def laid_out(picture: Picture, *, timeout: float = 5.0) -> Layout:
     """Return the layout that graphviz computes for a picture.
 
     The arrows point from left to right. If this layout is too wide for a page, the function also computes a
-    layout with arrows from top to bottom. This second layout is returned only if its letters are more than 10
-    % larger on the page. Raises DrawingFailed if graphviz is missing, fails, or takes longer than `timeout`
-    s.
+    layout with arrows from top to bottom. This second layout is returned only if its letters on the page are
+    more than 1.1 times as large. Raises DrawingFailed if graphviz is missing, fails, or takes longer than
+    `timeout` s.
     """
     if not picture.shapes:
         return Layout()

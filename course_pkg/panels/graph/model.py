@@ -72,7 +72,7 @@ def facts(picture: Picture, describe: Describe) -> list[Fact]:
 
 
 def fields_of(kind: Kind, name: str) -> list[Pair]:
-    """Return the fields of the type of a topic or service, as pairs of a label and a text."""
+    """Return the fields of the type `name`, as pairs of a label and a text."""
     try:
         if kind is Kind.TOPIC:
             return [("fields", _field_list(message_type(name).fields))]
@@ -117,10 +117,10 @@ def _entry(shape: Shape, fields: list[Pair]) -> Fact:
 class GraphModel:
     """Turns snapshots of the ROS graph into a drawing; a new drawing is made only after a change.
 
-    The model calls the function `changed` with keyword arguments: `drawing` (SVG, or "" if graphviz cannot
+    The model calls the function `changed` with the keyword arguments `drawing` (SVG, or "" if graphviz cannot
     draw), `facts` (the details of each shape and namespace), `spaces` (the shown namespaces), `activity` (see
-    ActivityState), and `trouble` (an error message, or ""). `own` is the name of the node in the kernel; the
-    reader can hide this node.
+    ActivityState), and `trouble` (an error message, or ""). `own` is the name of the node that runs in the
+    kernel; the reader can hide this node.
     """
 
     def __init__(

@@ -191,8 +191,8 @@ def folded(picture: Picture, choices: Mapping[str, bool]) -> Picture:
         for name, members in spaces.items()
         if choices.get(name, crowded and 2 * len(members) <= len(picture.shapes))
     }
-    # The names are sorted from long to short, so the entry of an outer namespace overwrites the entry of an
-    # inner namespace. Therefore, a shape in two folded namespaces belongs to the box of the outer namespace.
+    # A shape in two folded namespaces belongs to the box of the outer namespace. The names are sorted from
+    # long to short, so the outer namespace replaces the inner namespace in `box`.
     box = {key: name for name in sorted(closed, key=len, reverse=True) for key in spaces[name]}
 
     def shown(key: str) -> str:
@@ -228,7 +228,7 @@ def space(name: str, picture: Picture, members: frozenset[str]) -> Shape:
     inside = [each for each in picture.shapes if each.key in members]
     kinds = {kind: [each.name for each in inside if each.kind is kind] for kind in PLURALS}
     facts = [("holds", ", ".join(_count(kind, len(names)) for kind, names in kinds.items() if names))]
-    # Topics are left out here, because activity.py adds the topics with their rates.
+    # The details of a namespace do not list the topics, because activity.py adds the topics with their rates.
     facts += [(PLURALS[kind], ", ".join(kinds[kind])) for kind in (Kind.NODE, Kind.SERVICE) if kinds[kind]]
     if lost := [each.name for each in inside if not each.reachable]:
         facts.append(("does not answer", ", ".join(lost)))

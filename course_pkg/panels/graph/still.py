@@ -105,7 +105,7 @@ def _plain(element: Element, classes: frozenset[str] = frozenset()) -> Element:
     made.text = NUMBERED.sub("…", element.text or "") if tag == "text" else None
     made.extend(_plain(child, around) for child in element if not _only_live(child))
     if "ros-topic" in own:
-        # The copy has no rate below the name, so the name moves to the middle.
+        # In the still picture, a topic has no rate below its name, so the name moves to the middle.
         for name in made.findall("text"):
             name.set("y", number(float(name.get("y", "0")) - ABOVE))
     return made

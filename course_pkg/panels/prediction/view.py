@@ -139,7 +139,9 @@ class Predictions(_PredictionPanel):
 
 
 def predict(key: str, question: str, choices: Sequence[str] = ()) -> Question:
-    """Return a panel that asks `question` before a program runs. Without choices, the student types any text.
+    """Return a panel that asks `question` before a program runs.
+
+    If `choices` is empty, the student types any text.
 
     `key` consists of a chapter and a name, such as "05.reply_none".
     """

@@ -156,8 +156,8 @@ class ServiceModel:
     def call(self, deadline: str) -> Outcome:
         """Call the service with the request in the form, on the thread that calls this method.
 
-        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin; otherwise, the error of
-        the call.
+        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin. Raises the error of the
+        call if the call fails.
         """
         with self._turn:
             form = self._need_form()

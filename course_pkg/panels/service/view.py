@@ -74,8 +74,8 @@ class ServicePanel(Panel):
     def call(self, **values: Plain) -> genpy.Message | None:
         """Fill in the form, call the service, and return the response message.
 
-        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin; otherwise, the error of
-        the call.
+        Raises FieldError, NoServiceSelected or CallInProgress if no call can begin. Raises the error of the
+        call if the call fails.
         """
         self._model.fill(values)
         self._model.call(self.deadline)

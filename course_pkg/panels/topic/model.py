@@ -1,7 +1,7 @@
 """The state of a topic panel; this module needs neither a browser nor ROS.
 
 The publisher and the subscriber run in a separate process (the topic process), which receives commands from
-the panel and sends reports to it.
+the panel and sends reports to the panel.
 """
 
 from __future__ import annotations

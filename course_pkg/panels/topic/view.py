@@ -65,7 +65,7 @@ class TopicPanel(Panel):
                 self._model.process_began()
 
     def hidden(self) -> None:
-        """End the panel's node and its publisher."""
+        """End the process in which the panel's node runs."""
         with self.turn:
             process, self._process = self._process, None
         if process is not None:

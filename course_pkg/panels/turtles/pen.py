@@ -1,9 +1,9 @@
 """Derives the state of a turtle's pen from the turtle's poses, and from the colour under the turtle.
 
 turtlesim publishes neither the state of the pen nor calls of `clear` and `reset`. However, turtlesim
-publishes the colour of the background or line under the turtle. If the turtle is slow or at rest, this is the
-colour of the turtle's own line. If the turtle is fast, this is the colour at a position that the turtle's own
-line has not reached yet.
+publishes the colour of the background or line under the turtle. If the turtle is slow or at rest, the
+published colour is the colour of the turtle's own line. If the turtle is fast, the turtle's own line has not
+reached the turtle yet, so the published colour is the colour of the background or of an older line.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ Colour = tuple[int, int, int]  # The numbers are red, green and blue, from 0 to 
 
 USUAL: Colour = (179, 184, 255)  # Every pen has this colour at the start.
 HOME = 5.544444561  # The first turtle starts at this x and y (m).
-# Up to this speed (m/s), the turtle is always above the line that it draws. At this speed, the turtle moves
-# 0.8 px per tick, and the pen is 3 px wide.
+# Up to the speed SLOW (m/s), the turtle is always above the line that it draws. At this speed, the turtle
+# moves 0.8 px per tick, and the pen is 3 px wide.
 SLOW = 1.1
 BRISK = 3.0  # Up to this speed (m/s), the turtle is often above the line that it draws.
 STILL = 1e-4  # A turtle is at rest if it moves less than this (m) between two observations.
-# The colour is used only after this many successive observations at rest, or after the same number of
-# successive observations in motion.
+# The colour is used only after SETTLED successive observations at rest, or after SETTLED successive
+# observations in motion.
 SETTLED = 2
 
 

@@ -2,12 +2,12 @@
 
 A row begins with a time (ms since the recording began) and a turtle (its index in `names`):
 
-    (ms, turtle, x, y, theta, colour)  the pose of the turtle: `x` and `y` in mm, and `theta` in mrad;
-                                       `colour` is the colour of the line from the previous pose, as an index
-                                       in `palette`, or -1 if there is no line
-    (ms, turtle, "gone")               the turtle has left the simulator
-    (ms, turtle, "undrawn", since)     the turtle has drawn no line since this time, because the pen was up
-    (ms, -1, "cleared")                all lines were erased
+    (ms, turtle, x, y, theta, colour)  the turtle is at x and y (mm) with the angle theta (mrad); the colour
+                                       of the line from the previous position is an index in `palette`, or
+                                       -1 if there is no line.
+    (ms, turtle, "gone")               the turtle has left the simulator.
+    (ms, turtle, "undrawn", since)     the turtle has drawn no line since this time, because the pen was up.
+    (ms, -1, "cleared")                all lines were erased.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Change = tuple[int, int, str] | tuple[int, int, str, int]
 Row = Place | Change
 
 MOST = 6000  # A recording has at most this many rows, which take about 150 kB in a saved page.
-# A row is added only if x (mm), y (mm) or theta (mrad) has changed by at least this number.
+# A row is added only if x (mm), y (mm) or theta (mrad) has changed by at least the number in STEP.
 STEP = (5, 5, 10)
 BACKGROUND: Colour = (69, 86, 255)
 UP = -1
@@ -47,14 +47,14 @@ class _Track:
     pen: Pen
     last: Place
     skipped: Place | None = None
-    known: int = 0  # At this time (ms), the state of the pen was last certain.
+    known: int = 0  # the last time (ms) at which the state of the pen was certain
 
 
 @dataclass
 class TurtleRecording:
     """The rows of a recording, sorted by time; there are at most MOST rows.
 
-    If there are more rows, every second position of each turtle is removed.
+    If there are more than MOST rows, every second position of each turtle is removed.
 
     `edition` increases by 1 when rows are removed.
     """

@@ -69,10 +69,10 @@ class Part(TypedDict):
 class TypeState(TypedDict):
     """The data of one type for the page.
 
-    `problem` says why the type cannot be read, and `warning` is a note for the reader.
+    `problem` is the reason that the type cannot be read, and `warning` is a note for the reader.
 
-    The file path and the text of the file are set even if the type cannot be read. `lines` contains commands
-    that the reader can copy.
+    `file` and `text` (the path and the content of the file) are set even if the type cannot be read. `lines`
+    contains commands and Python code that the reader can copy.
     """
 
     name: str
@@ -176,7 +176,7 @@ def offers(snapshot: Snapshot) -> Offers:
 class TypeModel:
     """Lists all types, shows one type, and lists the services or topics with this type.
 
-    The model calls the function `changed` with keyword arguments: `packages` (the types of each package),
+    The model calls the function `changed` with the keyword arguments `packages` (the types of each package),
     `described` (the open type), and `offers` (the services and topics of each type on the graph).
     """
 

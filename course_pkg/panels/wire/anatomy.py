@@ -41,7 +41,7 @@ Pieces = list[PieceState]
 class Frame(NamedTuple):
     """One message of the stream; `at` is its offset in the stream.
 
-    An incomplete message ends at the end of the stream.
+    The frame of an incomplete message ends at the end of the stream.
     """
 
     at: int
@@ -60,12 +60,12 @@ def header_values(stream: bytes) -> dict[str, str]:
 
 
 def requests(stream: bytes) -> Iterator[Frame]:
-    """Yield the requests that a client sent after its header."""
+    """Yield the requests that a client sent after its connection header."""
     yield from _frames(stream, 0)
 
 
 def replies(stream: bytes) -> Iterator[Frame]:
-    """Yield the replies that a server sent after its header; each reply includes its ok byte."""
+    """Yield the replies that a server sent after its connection header; each reply includes its ok byte."""
     yield from _frames(stream, 1)
 
 
@@ -204,8 +204,8 @@ def _skip(reader: Reader, item: Field, count: int, name: str) -> None:
             before = reader.at
             _field(reader, item, name)
             if reader.at == before:
-                # An element without fields has no bytes. Without this `return`, a wrong number of elements in
-                # the data could cause a very long loop.
+                # An element without fields has no bytes. The loop ends here, because a wrong number of such
+                # elements in the data could make the loop very long.
                 return
     else:
         reader.take(count * _format(item)[1], RAW, name)

@@ -23,7 +23,7 @@ XML = 900  # At most this many characters of a request to the master, or of the 
 
 
 class WireState(TypedDict):
-    """A captured call for the page: `names` are the names of the client, the server and the master.
+    """A captured call for the page; `names` are the names of the client, the server and the master.
 
     `outcome` is the error message of the call, if it failed.
     """
@@ -38,7 +38,7 @@ class WireState(TypedDict):
 def state(wire: Wire, find: FindType = service_type) -> WireState:
     """Return the data of a recording for the page.
 
-    The function `find` returns the service type with a given name. It is called if the recording does not
+    The function `find` returns the service type with a given name. `find` is called if the recording does not
     contain the type that the server names in its connection header.
     """
     start = min((each.opened for each in _all(wire)), default=0.0)
