@@ -97,7 +97,6 @@ async def _run_all(
 
 
 def _about_check(name: str, check: str, report: str) -> str:
-    """Return a message about a check that did not pass; the message contains the report."""
     shown = indent(report, "  ") or "  The cell shows no report."
     return f"{name}: check {check} has not passed, so nothing was stored for this chapter:\n{shown}"
 
@@ -173,7 +172,6 @@ def _by_files(folder: Path) -> Config:
 
 
 def _what_went_wrong(notebook: Notebook, error: Exception) -> str:
-    """Return a message with the cell in which the run stopped, and the error."""
     failed = [
         cell["id"]
         for cell in code_cells(notebook)

@@ -1,7 +1,7 @@
 """Interactive panels for the notebooks, such as the graph panel and the service panel.
 
 Each panel consists of a widget, a model of its state, and one ES module that runs in the browser. The model
-also works without a browser.
+needs neither a browser nor a Jupyter kernel.
 
 This package imports a panel only when a program first uses the name of the panel, such as `GraphPanel`.
 Therefore, a program can import a model on a machine without ipywidgets or ROS.

@@ -251,7 +251,6 @@ def wrapped(text: str, style: Style, width: float) -> list[str]:
 
 
 def _pieces(word: str, style: Style, width: float) -> list[str]:
-    """Split a word into several pieces if the word is wider than `width` px."""
     most = max(1, int(width / style.width("n")))
     if style.width(word) <= width:
         return [word]

@@ -64,9 +64,8 @@ class Store(Generic[Record]):
     def write(self, record: Record) -> Record:
         """Store a record, and return it; an earlier record with the same key is replaced.
 
-        The method holds a lock on the file while it reads and replaces the file. Therefore, records that two
-        kernels store at the same time are both saved. Raises the same errors as `read`, and OSError if the
-        file cannot be written.
+        A lock on the file ensures that records from two kernels are both saved. Raises the same errors as
+        `read`, and OSError if the file cannot be written.
         """
         with locked(self.path.parent):
             records = {**self.read(), record.key: record}

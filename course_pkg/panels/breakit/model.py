@@ -1,7 +1,6 @@
 """The state of the panel "Break it".
 
-This module needs neither a browser nor a Jupyter kernel, because the caller passes the functions `stage` and
-`use`.
+The caller passes the functions `stage` and `use`, so this module needs no ROS graph.
 """
 
 from __future__ import annotations
@@ -156,10 +155,7 @@ class LabModel(Generic[SceneType]):
         self.close()
 
     def undo(self) -> None:
-        """Tell the worker thread to undo the current fault when the running job has ended.
-
-        This method returns at once.
-        """
+        """Tell the worker thread to undo the current fault when the running job has ended."""
         with self._turn:
             if self._state.get("phase") in ("over", None):
                 return
@@ -239,10 +235,6 @@ def _shown(number: int, tool: str, seen: Seen) -> ToolUse:
 
 
 def _verdict(fault: Fault, diagnosis: str, *, right: bool, right_remedy: bool) -> Verdict:
-    """Return the result for the student's answer.
-
-    If the diagnosis is wrong, the result describes the symptoms of the fault that the student chose.
-    """
     if right and right_remedy:
         return _solution(fault, "right", "Right.")
     if right:

@@ -1,7 +1,4 @@
-"""The model of the choices panel: the student chooses an option for each case, and then reads the reasons.
-
-This module does not need a Jupyter kernel.
-"""
+"""The model of the choices panel: the student chooses an option for each case, and then reads the reasons."""
 
 from __future__ import annotations
 
@@ -67,7 +64,7 @@ class ChoiceRecord:
 class ChoiceStore(Store[ChoiceRecord]):
     """A file with the student's choices: one ChoiceRecord for each table of cases.
 
-    The first edition of the course stored choices in `choices.json`. This class does not use that file.
+    The file `choices.json` belongs to the first edition of the course.
     """
 
     record = ChoiceRecord

@@ -45,7 +45,6 @@ def _controls(
 
 
 def _flat(given: object) -> str:
-    """Return an element of an array as one line of text."""
     if isinstance(given, Mapping):
         return f"{{{', '.join(f'{name}: {_flat(each)}' for name, each in given.items())}}}"
     return given if isinstance(given, str) else f"[{', '.join(map(_flat, given))}]"  # type: ignore[call-overload]

@@ -1,6 +1,6 @@
 """The state of a graph panel: a drawing and details, which are made from snapshots of the ROS graph.
 
-This module needs neither a browser nor ROS.
+This module does not need ROS.
 """
 
 from __future__ import annotations
@@ -229,7 +229,6 @@ class GraphModel:
 
 
 def _spaces(shown: Picture) -> list[Space]:
-    """Return all visible namespaces, as frames or as boxes."""
     frames = {each.name for each in shown.frames}
     boxes = {each.name for each in shown.shapes if each.kind is Kind.SPACE}
     return [{"name": name, "folded": name in boxes} for name in sorted(frames | boxes)]

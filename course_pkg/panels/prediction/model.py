@@ -1,7 +1,4 @@
-"""The model of a prediction: the student's answer before a program runs, and the real result.
-
-This module needs neither a browser nor a Jupyter kernel.
-"""
+"""The model of a prediction: the student's answer before a program runs, and the real result."""
 
 from __future__ import annotations
 
@@ -61,8 +58,7 @@ class Prediction:
 class PredictionStore(Store[Prediction]):
     """A file with the student's predictions: one Prediction for each key.
 
-    The first edition of the course stored predictions in `predictions.json`, with other chapter numbers.
-    Therefore, this class does not use that file.
+    The file `predictions.json` belongs to the first edition of the course, which had other chapter numbers.
     """
 
     record = Prediction

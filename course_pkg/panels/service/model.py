@@ -1,4 +1,4 @@
-"""The state of a service panel; this module needs no browser, no Jupyter kernel and no ROS.
+"""The state of a service panel; this module does not need ROS.
 
 The argument `connect` of ServiceModel is a function that returns a Caller for one service.
 """
@@ -198,7 +198,6 @@ class ServiceModel:
         return next((each for each in self.offers if each.name == self.service), None)
 
     def _type_changed(self) -> bool:
-        """Return whether the service's type on the graph differs from the type of the form."""
         found = self._found()
         return bool(found and found.type and (self.form is None or self.form.type.name != found.type))
 

@@ -184,7 +184,6 @@ def _words(event: Event) -> Iterator[str]:
 
 
 def _colours(kind: str) -> tuple[str, str]:
-    """Return the fill colour and the edge colour of an event."""
     if kind in BLOCKED:
         return WAIT, WAIT_EDGE
     return (CALLBACK, CALLBACK_EDGE) if kind in ("callback", "publish") else (HANDLER, HANDLER_EDGE)

@@ -1,4 +1,4 @@
-"""The state of a topic panel; this module needs neither a browser nor ROS.
+"""The state of a topic panel; this module does not need ROS.
 
 The publisher and the subscriber run in a separate process (the topic process), which receives commands from
 the panel and sends reports to the panel.

@@ -43,7 +43,7 @@ class TurtlePanel(Panel):
 
     The panel subscribes only to the topics of the poses and of the colour sensors. The panel derives the
     states of the pens, and calls of `clear` and `reset`, from these messages. The recording begins when the
-    panel is created, even if no page shows the panel. A page can play the recording.
+    panel is created, even if no page shows the panel.
     """
 
     front_end: ClassVar[Path] = HERE / "turtles.js"

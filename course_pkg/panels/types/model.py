@@ -1,6 +1,6 @@
 """The state of a type browser: all types on this machine, and the open type.
 
-This module needs neither a browser nor a ROS graph.
+This module does not need a ROS graph.
 """
 
 from __future__ import annotations

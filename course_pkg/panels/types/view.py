@@ -74,7 +74,6 @@ class TypeBrowser(Panel):
         return f"TypeBrowser({self._name!r})" if self._name else "TypeBrowser()"
 
     def _list(self) -> Files:
-        """Return all types, and the time (ns) when the file of the open type was written."""
         began = time.monotonic()
         if began >= self._not_before:
             self._known = catalogue()

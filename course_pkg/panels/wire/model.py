@@ -1,6 +1,6 @@
 """The data of the wire view: the steps of a call, each with the pieces of its bytes.
 
-This module needs neither a master nor a browser; its input is a recording from ros/wire/capture.py.
+The input is a recording from ros/wire/capture.py, so this module does not need a master.
 """
 
 from __future__ import annotations
