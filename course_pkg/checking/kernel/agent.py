@@ -102,9 +102,12 @@ class KernelAgent:
         return there if there.exists() and not here.exists() else here
 
     def _find(self, name: str) -> Value:
-        """Return the value of `name`; `name` may be a dotted name, such as "robot.speed"."""
+        """Return the value of `name`; `name` may be a dotted name, such as "robot.speed".
+
+        A student's name cannot replace a name that the check has prepared.
+        """
         first, *rest = name.split(".")
-        value = self._namespace[first] if first in self._namespace else self._prepared[first]
+        value = self._prepared[first] if first in self._prepared else self._namespace[first]
         for attribute in rest:
             value = getattr(value, attribute)
         return value
