@@ -127,7 +127,6 @@ def _place(name: str) -> str:
 
 
 def _copy(source: Path, target: Path) -> None:
-    """Copy a file or a folder with its permissions and links."""
     target.parent.mkdir(parents=True, exist_ok=True)
     if source.is_dir():
         shutil.copytree(source, target, symlinks=True, dirs_exist_ok=True)

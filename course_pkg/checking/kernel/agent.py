@@ -1,7 +1,7 @@
 """The kernel agent: it reads and runs the student's code when the check runner requests this.
 
-The agent does not decide whether the student's work is correct. Student code can forge a reply, so the check
-runner trusts a reply only if the runner itself observes the effect, such as a message.
+Student code can forge a reply, so the check runner trusts a reply only if the runner itself observes the
+effect, such as a message.
 """
 
 from __future__ import annotations

@@ -107,8 +107,6 @@ class ObjectProxies:
 
 
 class _Connection(JsonChannel):
-    """A connection to the check runner."""
-
     def __init__(self, port: int, key: str) -> None:
         try:
             sock = socket.create_connection(("127.0.0.1", port), timeout=CONNECT_TIMEOUT)

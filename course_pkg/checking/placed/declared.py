@@ -38,7 +38,6 @@ class Interface:
     writable: frozenset[str]
 
     def __bool__(self) -> bool:
-        """Return whether the class has declared any name."""
         return bool(self.methods or self.readable or self.writable)
 
 

@@ -1,7 +1,4 @@
-"""Read a student's definition of a service type with ROS's own rules.
-
-If the definition is invalid, the report contains a hint.
-"""
+"""Read a student's definition of a service type with ROS's own rules."""
 
 from __future__ import annotations
 

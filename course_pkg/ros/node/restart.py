@@ -31,7 +31,7 @@ BEGINNING: tuple[tuple[ModuleType, str, object], ...] = (
     (tcpros_base, "_tcpros_server", None),
     (rosout, "_rosout_pub", None),
 )
-LOGGERS = ("rospy", "rosout", "rosgraph", "xmlrpc", "roslib")  # These loggers belong to ROS.
+LOGGERS = ("rospy", "rosout", "rosgraph", "xmlrpc", "roslib")
 
 
 def can_begin_again() -> bool:

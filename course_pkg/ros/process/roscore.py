@@ -100,7 +100,6 @@ def _prefix() -> Path:
 
 
 def _parameters(prefix: Path) -> dict[str, str]:
-    """Return the parameters that roscore sets."""
     package = prefix / "share" / "roslaunch" / "package.xml"
     version = VERSION.search(package.read_text("utf-8")) if package.is_file() else None
     return {

@@ -8,15 +8,15 @@ from typing import TypedDict
 
 LOOKUP = "lookup"  # The caller requests the address of a service from the master.
 CONNECT = "connect"  # The caller connects to the server, and they exchange headers.
-REQUEST = "request"  # The caller sends the request.
+REQUEST = "request"
 WAIT = "wait"  # The caller waits until the response arrives.
 RESPONSE = "response"  # The caller has received the response.
 # The call fails. `note` is the error message. `peer` is the server if the server sent this message, or else
 # "".
 ERROR = "error"
-HANDLER = "handler"  # The server handles a request.
-PUBLISH = "publish"  # A node publishes a message.
-CALLBACK = "callback"  # A subscriber's callback runs.
+HANDLER = "handler"
+PUBLISH = "publish"
+CALLBACK = "callback"
 MASTER = "master"  # The peer of a lookup is the master.
 GET_RECORD = "getCourseRecord"  # This method of a node's slave API returns a ProcessRecord.
 NOBODY = "no subscriber was connected"  # The note of a message that had no subscriber.
