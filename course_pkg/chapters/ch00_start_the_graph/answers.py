@@ -73,7 +73,7 @@ replace("measure(length, width, height)", "measure(height, width, length)")
 replace("measure(length, width, height).volume", "round(measure(length, width, height).volume)")
 # %% 00.2 wrong: returns text | hint: the volume as a string
 replace("measure(length, width, height).volume", "str(measure(length, width, height).volume)")
-# %% 00.2 wrong: area times height | hint: Your function multiplied the sides
+# %% 00.2 wrong: area times height | hint: Your function multiplied the area
 replace(".volume", ".area * height")
 # %% 00.2 wrong: leaves the height out | hint: The request contains 0 for
 replace("measure(length, width, height)", "measure(length=length, width=width)")

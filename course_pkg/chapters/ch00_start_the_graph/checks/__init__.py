@@ -234,15 +234,23 @@ def _other_sides(sides: dict[str, float]) -> Hints:
 
 def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) -> Hints:
     """Return hints for a returned value that is not `volume`, the volume in the response."""
-    multiplied = (
-        "Your function multiplied the sides, but this server returns different numbers. Return "
-        "the volume from the response of the server."
-    )
     return [
         (None, NO_RETURN),
         (area, "Your function returned the area. Return the volume."),
-        (area * sides[2], multiplied),
-        (prod(sides), multiplied),
+        (
+            area * sides[2],
+            (
+                "Your function multiplied the area in the response by the height. Return the field `volume` "
+                "of the response."
+            ),
+        ),
+        (
+            prod(sides),
+            (
+                "Your function multiplied the sides, but this server returns different numbers. Return "
+                "the volume from the response of the server."
+            ),
+        ),
         (
             int(volume),
             (
@@ -302,11 +310,12 @@ def count_what_was_missed(context: CheckContext) -> None:
                 "topic. Receive messages from the topic whose name is in the argument `topic`."
             ),
         )
+        between = sent[after - first] - sent[before - first]
         context.require(
             "the second number is received after the pause",
-            holds=before < after and sent[after - first] - sent[before - first] > pause - 0.1,
+            holds=before < after and between > pause - 0.1,
             expected=f"{pause} s between the two numbers",
-            actual=f"{before} and {after}",
+            actual=f"{before}, and then {after}" if before > after else f"{between:.2f} s",
             hints=(
                 "The order of the two numbers is wrong. First return the number before the "
                 "pause, and then the number after the pause."
