@@ -11,7 +11,7 @@ def measurer_command(room):
 
 # %% 01.1 right: quoted, and with a namespace without a slash
 replace('f"rosrun course_pkg server __ns:=/{room} __name:=measurer getGeometry:=measure"', "\"rosrun course_pkg server 'getGeometry:=measure' __ns:=\" + room + \" '__name:=measurer'\"")
-# %% 01.1 wrong: a global name | hint: The name of the service is /measure for
+# %% 01.1 wrong: a global name | hint: but the service is /measure for
 replace("getGeometry:=measure", "getGeometry:=/measure")
 # %% 01.1 wrong: no namespace | hint: The name of the service is /measure for
 replace("__ns:=/{room} ", "")
@@ -132,9 +132,11 @@ replace("return rospy.ServiceProxy(service, geometry)(length, width, height).vol
 replace(".volume\n    return None", "")
 # %% 01.3 wrong: multiplies instead of calling | hint: Your function multiplied the sides
 replace("for service … return None", "return length * width * height")
-# %% 01.3 wrong: only one namespace deep | hint: The service exists, but your
+# %% 01.3 wrong: only one namespace deep | hint: exists, but your function returned None
 replace('if service.split("/")[-1]', 'parts = service.split("/")\n        if len(parts) == 3 and parts[2]')
 replace("\n    return None", "")
+# %% 01.3 wrong: forgets to return | hint: without a return line
+replace("return rospy.ServiceProxy", "rospy.ServiceProxy")
 # %% 01.3 wrong: 0 when there is none | hint: No service has the given
 replace("None", "0")
 # %% 01.3 wrong: None for a volume of 0 | hint: This service responds with the volume 0,

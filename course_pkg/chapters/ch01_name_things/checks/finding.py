@@ -55,8 +55,13 @@ def ask_it_wherever_it_lives(context: CheckContext) -> None:
             near=1e-6,
             hints=[
                 (
+                    lambda actual, server=servers[wanted]: actual is None and bool(server.requests),
+                    NO_RETURN,
+                ),
+                (
                     None,
-                    "The service exists, but your function returned None. Search the names of all services.",
+                    f"The service {wanted} exists, but your function returned None. Compare the text after "
+                    "the last slash of each name: a name can have any number of slashes.",
                 ),
                 *((other, LOOKS_LIKE_IT) for other in others),
                 (

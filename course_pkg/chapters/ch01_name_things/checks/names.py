@@ -130,7 +130,7 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
         deadline = min(deadline, time.monotonic() + 1.0) if new else deadline
     if service is None:
         found = new[0].name if new else ""
-        hint = _astray(room, found)
+        hint = _astray(room, found, new[0].node if new else "")
         context.fail(WHERE, expected=wanted, actual=found or "no new service", hint=hint)
     context.require(WHERE, holds=True)
     with context.goal(OWN_NODE):
@@ -154,8 +154,13 @@ def _serves(context: CheckContext, server: Running, room: str, before: set[str])
     require_served_by_program(context, server, wanted)
 
 
-def _astray(room: str, found: str) -> str:
-    """Return the hint for the wrong service name `found`; the right name is /ROOM/measure."""
+def _astray(room: str, found: str, node: str) -> str:
+    """Return the hint for the wrong name `found` of a service of `node`; the right name is /ROOM/measure."""
+    if found == "/measure" and node.startswith(f"/{room}/"):
+        return (
+            "The node is in the namespace of the room, but the service is /measure for every room. Put the "
+            "service into this namespace, too: `__ns` does not change a name that begins with a slash."
+        )
     if found == "/measure":
         return (
             "The name of the service is /measure for every room. Set the namespace of the "
