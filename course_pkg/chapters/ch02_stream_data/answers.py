@@ -144,7 +144,7 @@ replace("header=message.header, name", "name")
 # %% 02.2 wrong: the present time as the stamp | hint: The time stamp differs from
 replace("JointState(header=message.header, name=message.name)", """JointState(name=message.name)
         image.header.stamp = rospy.Time.now()""")
-# %% 02.2 wrong: the list of an earlier, longer message | hint: Change only the sign of each number
+# %% 02.2 wrong: the list of an earlier, longer message | hint: Your list has another length
 replace("    def show", "    image = JointState(position=[0.0] * 4)\n\n    def show")
 replace("image = JointState(header=message.header, name=message.name)\n        image.position = [-angle for angle in message.position]", "image.header, image.name = message.header, message.name\n        for number, angle in enumerate(message.position):\n            image.position[number] = -angle")
 # %% 02.2 wrong: no names | hint: The names of the joints

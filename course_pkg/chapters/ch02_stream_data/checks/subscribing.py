@@ -373,6 +373,13 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
                         "field. Compare the names of the fields."
                     ),
                 ),
+                (
+                    (lambda actual, values=values: len(actual) != len(values)),
+                    (
+                        "Your list has another length than the list in the received message. For each "
+                        "message, create a new list with a loop over all numbers."
+                    ),
+                ),
                 (ANYTHING, "Change only the sign of each number."),
             ],
         )
@@ -494,7 +501,7 @@ def _drawn(
         expected=list(sent)[-1],
         actual=angles[-1],
         hints=(
-            "The last angle was not drawn. Do not skip a fixed number of angles: always draw "
+            "The last angle was not drawn. Do not skip angles by number or by time: always draw "
             "the newest angle."
         ),
     )

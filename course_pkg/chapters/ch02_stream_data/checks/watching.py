@@ -209,8 +209,8 @@ _WHILE: Hints = [
     (
         "ended",
         (
-            "The last message arrived less than 1 s ago, so the stream has not ended. Store the "
-            "time of each message."
+            "The last message arrived less than 1 s ago, so the stream has not ended. In each call of "
+            "state(), use only the time of the newest message."
         ),
     ),
 ]
@@ -224,8 +224,8 @@ _PAUSE: Hints = [
 _END: Hints = [
     (
         "running",
-        "No message has arrived for more than 1 s. The publisher is still registered, so use "
-        "the time of the last message.",
+        "No message has arrived for more than 1 s. Compare the exact time since the last message (with "
+        "its digits after the point) with 1 s. Do not test whether a publisher is registered.",
     ),
     (
         "waiting",
