@@ -196,6 +196,12 @@ FROM_CMAKE: tuple[Row, ...] = (
         "Write project(NAME) near the top of the file, where NAME is the package's name in package.xml.",
     ),
     (
+        r"DEPENDS on the catkin package 'message_generation' which must therefore be listed as a run",
+        "",
+        "catkin_package lists message_generation, which only the build needs.",
+        "In catkin_package, write message_runtime instead of message_generation.",
+    ),
+    (
         r"DEPENDS on the catkin package '(?P<name>[^']+)' which must therefore be listed as a run dependency",
         "",
         "catkin_package lists {name}, but package.xml does not list {name} as a package that "

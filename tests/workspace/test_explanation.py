@@ -122,6 +122,11 @@ SLIPS = {
         f"{LIST_FILE}, line 9",
         "<exec_depend>message_runtime</exec_depend>",
     ),
+    "message_generation in catkin_package": (
+        spoilt(C, ("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")),
+        f"{LIST_FILE}, line 9",
+        "write message_runtime instead of message_generation",
+    ),
     "needed to build, but not listed": (
         {
             **spoilt(

@@ -199,7 +199,7 @@ replace("exec_depend", "run_depend", times=6)
 # %% 04.3 wrong: catkin is not named | hint: Add <buildtool_depend>catkin</buildtool_depend>
 replace("\n  <buildtool_depend>catkin</buildtool_depend>", "")
 replace("\n  <exec_depend>rospy</exec_depend>", "")
-# %% 04.3 wrong: std_msgs not needed to run | hint: <exec_depend>std_msgs</exec_depend>
+# %% 04.3 wrong: std_msgs not needed to run | hint: <exec_depend>std_msgs … </exec_depend> to package.xml.
 replace("\n  <exec_depend>std_msgs</exec_depend>", "")
 # %% 04.3 wrong: std_msgs not needed to build, which catkin notices | hint: Add <build_depend>std_msgs</build_depend>
 replace("\n  <build_depend>std_msgs</build_depend>", "")
@@ -297,7 +297,7 @@ replace("message_generation std_msgs", "message_generation rospy std_msgs")
 replace("message_runtime std_msgs)", """message_runtime rospy std_msgs)
 
 catkin_install_python(PROGRAMS scripts/lamp_server.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})""")
-# %% 04.4 wrong: message_generation in catkin_package | hint: The build needs message_generation, but
+# %% 04.4 wrong: message_generation in catkin_package | hint: write message_runtime instead of message_generation
 replace("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")
 
 # %% 04.5 right: in the style of the box server

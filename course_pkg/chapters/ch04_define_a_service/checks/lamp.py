@@ -23,11 +23,8 @@ LIMITS = "ulimit -t 6 -f 100000"
 # machine.
 BUILD = 40.0
 
-GENERATION = re.compile("catkin_package lists message_generation")
-RUNTIME = (
-    "The build needs message_generation, but programs need message_runtime. Write "
-    "message_runtime in catkin_package."
-)
+# catkin prints this problem if catkin_package names a package that package.xml does not name.
+LISTED = re.compile(r"catkin_package lists (\w+), but package\.xml")
 
 DEFINITION = """\
 uint8 OFF=0
@@ -117,8 +114,8 @@ def _in_their_file(context: CheckContext, fault: Fault, given: Sequence[str]) ->
     The check's own files are correct, so the mistake is in the student's file.
     """
     theirs = given[0].removeprefix("src/")
-    if GENERATION.search(fault.problem):
-        fault = replace(fault, remedy=RUNTIME)
+    if theirs.endswith("package.xml") and (listed := LISTED.search(fault.problem)):
+        fault = replace(fault, remedy=f"Add <exec_depend>{listed[1]}</exec_depend> to package.xml.")
     if fault.file != theirs:
         fault = replace(fault, file=theirs, line=0)
     return locate(fault, context.source(f"file:{given[0]}")) if theirs.endswith("package.xml") else fault
