@@ -81,8 +81,10 @@ replace("volume=area * request.height", "volume=area * request.height * 1e6")
 replace("""area = request.width * request.length
     return geometryResponse(area=area, volume=area * request.height)""", """l, w, h = request.length, request.width, request.height
     return geometryResponse(area=2 * (l * w + l * h + w * h), volume=l * w * h)""")
-# %% 05.1 wrong: the area for the volume | hint: Multiply all three sides
+# %% 05.1 wrong: the area for the volume | hint: The field `volume` contains the area
 replace("volume=area * request.height", "volume=area")
+# %% 05.1 wrong: one side twice in the volume | hint: Multiply all three sides
+replace("area * request.height", "area * request.width")
 # %% 05.1 wrong: forgets the area | hint: The area is 0
 replace("area=area, volume", "volume")
 
@@ -315,7 +317,7 @@ replace('moved = request … else "off")', """wanted = {True: "on", False: "off"
 # %% 05.4 right: creates its service itself
 replace("False", 'False\n        self.service = rospy.Service("/switch", SetBool, self.handle_switch)')
 replace('\nswitch_service = rospy.Service("/switch", SetBool, switch.handle_switch)', "")
-# %% 05.4 wrong: success is always True | hint: The switch did not move, but
+# %% 05.4 wrong: success is always True | hint: in the wanted position, but success is True
 replace("success=moved", "success=True")
 # %% 05.4 wrong: changes the position before it compares | hint: The switch moved, but success is
 replace("\n        moved = request.data != self.on", "")
@@ -329,7 +331,7 @@ replace('"on" if self.on else "off"', "str(self.on)")
 replace('"on" if self.on else "off"', '""')
 # %% 05.4 wrong: True switches off | hint: The field `data` is False, but
 replace("self.on = request.data", "self.on = not request.data")
-# %% 05.4 wrong: toggles in each call | hint: The switch was already in
+# %% 05.4 wrong: toggles in each call | hint: but the handler moved it … switched a new switch on
 replace("self.on = request.data", "self.on = not self.on")
 # %% 05.4 wrong: on at the start | hint: A new switch was not off.
 replace("False", "True")
@@ -344,7 +346,7 @@ replace("self.on", "Switch.on", times=3)
 replace("moved = request.data != self.on", 'if request.data == self.on:\n            raise rospy.ServiceException("already there")')
 replace("success=moved", "success=True")
 
-# %% 05.4 wrong: never stores the position | hint: The switch did not move, but
+# %% 05.4 wrong: never stores the position | hint: in the wanted position, but success is True
 replace("self.on = request.data\n", "pass\n")
 replace('"on" if self.on else', '"on" if request.data else')
 

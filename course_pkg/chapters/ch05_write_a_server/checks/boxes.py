@@ -60,6 +60,10 @@ def area_and_volume(context: CheckContext) -> None:
 def _about_volume(area: float, height: float) -> Hints:
     return [
         (0.0, "The volume is 0, because a field without a value is 0. Set the field `volume`."),
+        (
+            area,
+            "The field `volume` contains the area. Set this field to the product of all three sides.",
+        ),
         (area + height, "Your volume is area + height. Multiply by the height; do not add the height."),
         (area * height * 1e6, "Your volume is in cubic centimetres. Do not convert the metres."),
         (

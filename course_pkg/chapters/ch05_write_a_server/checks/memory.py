@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from course_pkg.checking import CheckContext, Its, matches, part
-from course_pkg.checking.assertions import Condition
+from course_pkg.checking import ANYTHING, CheckContext, Its, matches, part
+from course_pkg.checking.assertions import Condition, Hints
 from course_pkg.checking.shared.served_by import require_served_by_notebook
 
 A_NEW_SWITCH = """
@@ -47,7 +47,13 @@ NO_REFUSAL = (
     "It is not an error if the switch already has the wanted position. Return success=False and the "
     "position in the response."
 )
-STARTS_ON = "A new switch was not off. Set the position of the switch to False in `__init__`."
+NOT_OFF: Hints = [
+    (
+        lambda actual: actual["message"] == "on",
+        "A call with data=False switched a new switch on. The field `data` is the wanted position.",
+    ),
+    (ANYTHING, "A new switch was not off. Set the position of the switch to False in `__init__`."),
+]
 SHARES = (
     "A new Switch() was on, because it shares a variable with the switch at /switch. Store the "
     "position in `self`, not in the class or in a global variable."
@@ -256,8 +262,8 @@ def a_switch_that_tells(context: CheckContext) -> None:
                 hints=[
                     (
                         True,
-                        "The switch did not move, but success is True. Set success to True "
-                        "only if the old position differs from `data`.",
+                        "The switch was already in the wanted position, but success is True. Set "
+                        "success to True only if the old position differs from `data`.",
                     ),
                     (
                         False,
@@ -272,12 +278,12 @@ def a_switch_that_tells(context: CheckContext) -> None:
     context.prepare(A_NEW_SWITCH)
     if not context.has("Switch"):  # The student may use a function as the handler, without a class.
         return
-    for stands, hint in ((False, STARTS_ON), (True, SHARES)):
+    for stands, hints in ((False, NOT_OFF), (True, SHARES)):
         turn(data=stands)
         context.expect(
             "a new switch is off",
             expected={"success": False, "message": "off"},
             actual=context.run("a_new_switch", Its("Switch"), False, worded=NEW_AND_OFF).returned(),
-            hints=hint,
+            hints=hints,
         )
     turn(data=False)
