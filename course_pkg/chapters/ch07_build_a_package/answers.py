@@ -92,7 +92,7 @@ catkin_package(
 
 # %% 07.3 wrong: no add_service_files | hint: , so the build generates no
 replace("\nadd_service_files(FILES geometry.srv)", "")
-# %% 07.3 wrong: generate_messages is a comment | hint: The command generate_messages is missing, so the build passes
+# %% 07.3 wrong: generate_messages is a comment | hint: The command generate_messages is missing, so the build generates no
 replace("generate_messages(DEP", "# generate_messages(DEP")
 replace("\nadd_custom_target(${PROJECT_NAME}_programs ALL)", "")
 replace("\nadd_dep", "\n# add_dep")
@@ -116,6 +116,15 @@ replace("\nadd_dep", "\n# add_dep")
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS}", "${PROJECT_NAME_EXPORTED_TARGETS}")
 # %% 07.3 wrong: other packages only | hint: Your add_dependencies contains only targets of other
 replace("${${PROJECT_NAME}_EXPORTED_TARGETS} ", "")
+# %% 07.3 wrong: add_dependencies above generate_messages | hint: this package's targets is still empty
+replace("\nadd_custom_target(${PROJECT_NAME}_programs ALL)", "")
+replace("\nadd_dependencies(${PROJECT_NAME}_programs ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})", "")
+replace("\nadd_service_files", """
+add_custom_target(${PROJECT_NAME}_programs ALL)
+add_dependencies(${PROJECT_NAME}_programs ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+add_service_files""")
+# %% 07.3 wrong: message_generation for users of the package | hint: write message_runtime instead of message_generation
+replace("CATKIN_DEPENDS message_runtime", "CATKIN_DEPENDS message_generation")
 # %% 07.3 wrong: nothing for other packages | hint: In catkin_package, message_runtime is missing.
 replace("CATKIN_DEPENDS message_runtime rospy std_msgs", "")
 # %% 07.3 wrong: no catkin_package | hint: Without catkin_package

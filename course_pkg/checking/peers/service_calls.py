@@ -77,16 +77,20 @@ class Service:
         """Make the same calls as at_once(), but do not assert that the service responds."""
         return self._call([self._request(**fields) for fields in requests])
 
-    def refused(self, assertion: str, *, saying: str = "", hints: Hints = (), **fields: Value) -> str:
+    def refused(
+        self, assertion: str, *, saying: str = "", worded: str = "", hints: Hints = (), **fields: Value
+    ) -> str:
         """Assert that the service refuses a request with an error message that matches `saying`.
 
+        A report shows the pattern `saying`, or the text `worded` instead, such as "contains -1".
         Returns the error message.
         """
         reply = self._call([self._request(**fields)])[0]
         self._results.asked = lambda: command_line(self.name, self.kind, reply.request)
         actual = reply.error or plain(reply.response)
         if not reply.error or reply.unanswered or not matches(saying).search(reply.error):
-            expected = f"an error message that matches {saying!r}" if saying else "an error"
+            described = worded or f"matches {saying!r}"
+            expected = f"an error message that {described}" if saying else "an error"
             hint = hint_for(hints, actual) or self._explained(reply.error)
             seen = self._with_traceback(reply.error) if reply.error else shown(actual)
             self._results.fails(assertion, expected=expected, actual=seen, hint=hint)

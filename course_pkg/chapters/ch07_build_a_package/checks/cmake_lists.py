@@ -113,6 +113,11 @@ def _why_not_waiting(text: str, *, unknown: bool) -> str:
             "The target does not exist. Create the target with add_custom_target: write the "
             "name of the target first, and then ALL."
         )
+    if _comes_before(text, "add_dependencies", "generate_messages"):
+        return (
+            "When CMake reads add_dependencies, the list of this package's targets is still empty. Write "
+            "add_custom_target and add_dependencies below generate_messages."
+        )
     if _has(text, "add_dependencies"):
         return (
             "Your add_dependencies contains only targets of other packages. Add the targets of "
@@ -137,4 +142,14 @@ def _tells_other_packages(context: CheckContext, package: BuiltPackage, text: st
 
 
 def _has(text: str, name: str) -> bool:
-    return any(each.name == name and not each.is_comment for each in cmake_commands(text))
+    return name in _names(text)
+
+
+def _comes_before(text: str, first: str, second: str) -> bool:
+    names = _names(text)
+    return first in names and second in names[names.index(first) :]
+
+
+def _names(text: str) -> list[str]:
+    """Return the names of all commands, in the order of the file; commands in comments are left out."""
+    return [each.name for each in cmake_commands(text) if not each.is_comment]

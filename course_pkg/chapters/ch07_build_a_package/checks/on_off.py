@@ -94,6 +94,7 @@ def the_on_off_server(context: CheckContext) -> None:
             service.refused(
                 "any other number is refused, and the error message names the number",
                 saying=f"cannot process request: .*(?<!\\d){number}",
+                worded=f"contains {number}",
                 number=number,
                 hints=[
                     (
