@@ -49,7 +49,7 @@ replace("names.append(name)", "return name")
 replace("names.append(name)", "print(name)")
 replace("\n    return names", "")
 
-# %% 08.1 wrong: stores the list in the first call | hint: Get the list of services in each call
+# %% 08.1 wrong: stores the list in the first call | hint: Your function did not find a new service
 known = {}
 
 def services_of(kind):
@@ -148,6 +148,8 @@ lamp_service = rospy.Service("/lamp", SetBool, lambda request: handler(request))
 
 # %% 08.2 wrong: catches nothing | hint: The call of /lamp failed, because
 replace("on_off = rospy … str(error))", 'state = rospy.ServiceProxy("/on_off", ServiceExample)(int(request.data)).state')
+# %% 08.2 wrong: waits, but does not catch the timeout | hint: did not catch rospy.ROSException
+replace("        state =", '        rospy.wait_for_service("/on_off", timeout=1)\n        state =')
 # %% 08.2 wrong: passes the refusal on | hint: The call of /lamp failed, because
 replace("return SetBoolResponse(success=False, message=str(error))", "raise rospy.ServiceException(str(error))")
 # %% 08.2 wrong: the exception as the message | hint: The message has to be
@@ -420,6 +422,8 @@ based_on("calls by keywords")
 replace("get_service_class_by_name", "get_service_type")
 # %% 08.5 wrong: a fixed type | hint: Your proxy has the wrong type for this service.
 replace("cls = rosservice … )(request)", "return rospy.ServiceProxy(service, SetBool)(**fields)")
+# %% 08.5 wrong: a table of types | hint: Your function has no type for
+replace("rosservice.get_service_class_by_name(service)", '{"/switch/set": SetBool}[service]')
 # %% 08.5 wrong: stores the type of each name | hint: This service had another type before
 kinds = {}
 
@@ -504,6 +508,10 @@ replace('"not registered"', '"server is gone"')
 replace('headers["type"] != kind._type', 'headers["type"] != kind')
 # %% 08.6 wrong: a header that does not exist | hint: The headers have no entry with
 replace('headers["md5sum"]', 'headers["md5"]')
+# %% 08.6 wrong: the class on this computer | hint: The type of the server is not on this computer
+replace("headers = rosservice.get_service_headers(service, uri)", "its = rosservice.get_service_class_by_name(service)")
+replace('headers["type"]', "its._type")
+replace('headers["md5sum"]', "its._md5sum")
 # %% 08.6 wrong: prints it | hint: without a return line
 replace('return "ok" if', 'print("ok" if')
 replace('else "another definition"', 'else "another definition")')

@@ -44,6 +44,10 @@ ERRORS = [
         "service's type with get_service_class_by_name.",
     ),
 ]
+UNKNOWN_TYPE = (
+    "Your function has no type for this service. Get the class from the server with "
+    "rosservice.get_service_class_by_name."
+)
 FLAT = (
     "The request does not contain the values of the dict. Fill the fields by name: "
     "genpy.message.fill_message_args(request, [fields])."
@@ -87,8 +91,8 @@ def call_of_any_type(context: CheckContext) -> None:
             ),
             (
                 ANYTHING,
-                "The function ignored a field name that the type does not have. Do not catch the "
-                "exception that genpy raises for an unknown name.",
+                "The function ignored a field name that the type does not have. Pass all fields to "
+                "genpy, and do not catch its exception.",
             ),
         ],
     )
@@ -131,7 +135,8 @@ def _calls(context: CheckContext, example: ExampleCall) -> None:
     name = f"/{context.random.word()}"
     server = context.serve(name, example.kind, lambda _: example.answer)
     unfilled = NESTED if "camera_info" in example.fields else FLAT
-    hints = [*ERRORS, (ANYTHING, unfilled)]
+    no_entry = matches(rf"^KeyError: '(/?{name[1:]}|{example.kind})'")
+    hints = [(no_entry, UNKNOWN_TYPE), *ERRORS, (ANYTHING, unfilled)]
     returned = context.run("call_any", name, example.fields, hints=hints).returned()
     context.expect(
         "the service is called once", expected=1, actual=len(server.requests), hints=CALLED_WRONGLY

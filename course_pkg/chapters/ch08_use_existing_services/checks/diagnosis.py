@@ -37,6 +37,10 @@ ERRORS: Hints = [
         "get_service_headers raised an exception, because the server has ended. Catch ROSServiceIOException.",
     ),
     (
+        matches("Unable to load type"),
+        "The type of the server is not on this computer. Use the entries of get_service_headers.",
+    ),
+    (
         matches("^KeyError"),
         "The headers have no entry with the name that you use. Use the entries `type` and `md5sum`.",
     ),

@@ -14,6 +14,10 @@ STATES = {True: "ON", False: "OFF"}
 NO_ERROR: Hints = [
     (matches("field message"), "The message has to be a string. Convert the error with str(error)."),
     (
+        matches("error processing request: timeout exceeded"),
+        "The handler did not catch rospy.ROSException. Catch it, too, and return success=False.",
+    ),
+    (
         matches("cannot process request: (?!service handler|handler)"),
         "The call of /lamp failed, because your handler raised an exception. Catch "
         "rospy.ServiceException, and return success=False.",

@@ -14,8 +14,8 @@ DEAD = (
     "rosservice.ROSServiceIOException inside the loop, and continue with the next service."
 )
 NONE = (
-    "Your function found no service. For each service, compare `kind` with the whole string "
-    "that get_service_type returns."
+    "Your function found no service. Get the list of services in each call of the function, and compare "
+    "`kind` with the whole string that get_service_type returns."
 )
 SOME = "Your function found only some of the services. Examine all names, and return after the loop."
 GONE = (
