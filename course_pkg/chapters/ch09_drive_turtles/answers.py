@@ -18,13 +18,13 @@ replace("rospy.wait_for_service … return 0", """spawn.wait_for_service(timeout
         raise SystemExit(1)
     rospy.loginfo("Spawned %s", name)""")
 replace('rospy.init_node("spawn_turtle")\n    sys.exit(main())', "run()")
-# %% 09.1 wrong: no wait | hint: The call fails if the service has not started yet
+# %% 09.1 wrong: no wait | hint: The program ended before the service started
 replace('    try:\n        rospy.wait_for_service("spawn", timeout=5)\n', '    try:\n')
 # %% 09.1 wrong: no limit | hint: The program waits too long, or without a limit
 replace(', timeout=5', '')
 # %% 09.1 wrong: a limit of one second | hint: The program stopped waiting too early
 replace('timeout=5', 'timeout=2')
-# %% 09.1 wrong: catches the wait only | hint: The server refused the call, and the program did not catch this error
+# %% 09.1 wrong: catches the wait only | hint: The server refused the call. In this case, print
 replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ROSException')
 # %% 09.1 wrong: catches the call only | hint: The service did not start in time
 replace('(rospy.ROSException, rospy.ServiceException)', 'rospy.ServiceException')
@@ -296,12 +296,12 @@ replace('ChangeSpeedResponse(before=before)', 'ChangeSpeedResponse()')
 replace('if not math.isfinite(request.speed)', 'if not 0 <= request.speed < 1000')
 # %% 09.4 wrong: refuses the speed 0 | hint: The node refused an allowed speed
 replace("if not math.isfinite(request.speed)", "if not request.speed or not math.isfinite(request.speed)")
-# %% 09.4 wrong: accepts inf | hint: The node accepted inf
+# %% 09.4 wrong: accepts inf | hint: accept only finite numbers
 replace('not math.isfinite(request.speed)', 'request.speed != request.speed or request.speed == -math.inf')
 # %% 09.4 wrong: never stops | hint: The turtle still moves after a call with data=False
 replace('self.moving = request.data\n', 'self.stopped = not request.data\n')
 replace('if request.data == self.moving:', 'if request.data != getattr(self, "stopped", False):')
-# %% 09.4 wrong: a new direction | hint: After data=True, the turtle has to move in the same direction and at the
+# %% 09.4 wrong: a new direction | hint: and at the speed that were set last
 replace('        self.moving = request.data\n', '        self.moving = request.data\n        self.forward = True\n')
 # %% 09.4 wrong: a speed that is set while it is stopped is lost | hint: The client called /change_speed while the turtle was stopped
 replace('before, self.speed = self.speed, request.speed', 'before, self.speed = self.speed, request.speed if self.moving else self.speed')
@@ -391,6 +391,9 @@ replace("    publisher = rospy", """    last = [None]
 replace("Twist, publisher.publish)", "Twist, follow)")
 # %% 09.5 wrong: a pause in the callback | hint: Some velocities are missing
 replace('Twist, publisher.publish)', 'Twist, lambda message: (publisher.publish(message), rospy.sleep(0.3)), queue_size=1)')
+# %% 09.5 wrong: publishes the velocity before | hint: The program did not publish each received velocity once
+replace('    publisher = rospy', '    newest = [Twist()]\n\n    def late(message):\n        publisher.publish(newest[0])\n        newest[0] = message\n\n    publisher = rospy')
+replace('Twist, publisher.publish)', 'Twist, late)')
 # %% 09.5 wrong: two fields only | hint: Some fields of the published message differ from the received message
 replace('    publisher = rospy', '    def copy(message):\n        new = Twist()\n        new.linear.x, new.angular.z = message.linear.x, message.angular.z\n        publisher.publish(new)\n\n    publisher = rospy')
 replace('Twist, publisher.publish)', 'Twist, copy)')
@@ -440,6 +443,10 @@ replace('default="false"', 'default="no"')
 replace('$(arg addturtle)', '$(arg add)')
 # %% 09.6 wrong: another name for the driver | hint: A node is missing or has a wrong name
 replace('name="improved_pubvel_toggle"', 'name="driver"')
+# %% 09.6 wrong: the driver only with the second turtle | hint: A node did not start.
+replace('type="improved_pubvel_toggle.py"', 'if="$(arg addturtle)" type="improved_pubvel_toggle.py"')
+# %% 09.6 wrong: a fixed value | hint: The <arg> tag gives the argument a fixed value
+replace('default="false"', 'value="false"')
 # %% 09.6 wrong: a condition that is never true | hint: With addturtle:=true, a node is missing
 replace('if="$(arg addturtle)"', 'if="false"')
 # %% 09.6 wrong: true by default | hint: spawn_turtle_plus must not start without an argument

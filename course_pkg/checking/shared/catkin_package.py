@@ -57,9 +57,12 @@ class BuiltPackage:
         self.folder = folder
         self.package = package
 
-    def run(self, line: str, *, within: float = 10.0, setup: str = SETUP) -> Finished:
-        """Run a line of bash after `source devel/setup.bash`, for at most `within` s; return its result."""
-        return self.folder.command("bash", "-c", f". {setup} && {line}", within=within, worded=line)
+    def run(self, line: str, *, within: float = 10.0, worded: str = "", setup: str = SETUP) -> Finished:
+        """Run a line of bash after `source devel/setup.bash`, for at most `within` s; return its result.
+
+        A report shows `worded` instead of the line, if `worded` is given.
+        """
+        return self.folder.command("bash", "-c", f". {setup} && {line}", within=within, worded=worded or line)
 
     def start(self, line: str, *, worded: str = "", setup: str = SETUP) -> Running:
         """Start a command that continues to run, such as `rosrun PACKAGE PROGRAM`; returns a context manager.

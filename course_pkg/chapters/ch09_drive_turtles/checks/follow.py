@@ -262,10 +262,22 @@ def _each_once(context: CheckContext, velocities: list[dict[str, Json]], subscri
         expected=sent,
         actual=other,
         near=1e-9,
-        hints=(
-            "Some fields of the published message differ from the received message. Publish the "
-            "whole received message, not only one or two of its fields."
-        ),
+        hints=[
+            (
+                (lambda actual: actual in velocities),
+                (
+                    "The program did not publish each received velocity once, in the order of arrival. In "
+                    "the callback, publish the received message once, and do not publish in a loop."
+                ),
+            ),
+            (
+                ANYTHING,
+                (
+                    "Some fields of the published message differ from the received message. Publish the "
+                    "whole received message, not only one or two of its fields."
+                ),
+            ),
+        ],
     )
 
 

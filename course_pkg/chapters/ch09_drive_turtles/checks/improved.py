@@ -227,8 +227,8 @@ def _starts_and_stops(
                 (
                     ANYTHING,
                     (
-                        "After data=True, the turtle has to move in the same direction and at the "
-                        "same speed as before. When you stop the turtle, do not change the "
+                        "After data=True, the turtle has to move in the direction and at the speed "
+                        "that were set last. When you stop or start the turtle, do not change the "
                         "variables for direction and speed."
                     ),
                 ),

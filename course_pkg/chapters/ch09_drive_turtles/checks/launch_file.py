@@ -112,6 +112,11 @@ _UNREADABLE: Hints = [
         'The argument addturtle has no default value. Add default="false" to its <arg> tag.',
     ),
     (
+        matches("cannot override arg"),
+        "The <arg> tag gives the argument a fixed value, so the command cannot change this value. Write "
+        "default=, not value=, in the <arg> tag.",
+    ),
+    (
         matches("not a 'bool' type"),
         'The value of the attribute "if" has to be true or false. Write if="$(arg addturtle)".',
     ),
@@ -131,7 +136,12 @@ def _lists(context: CheckContext, nodes: set[str], argument: str, wanted: bool) 
         holds=nodes >= ALWAYS,
         expected=", ".join(sorted(ALWAYS)),
         actual=", ".join(sorted(nodes)),
-        hints='A node is missing or has a wrong name. Check the attribute "name" of each <node> tag.',
+        hints='A node is missing or has a wrong name. Check the attribute "name" of each <node> tag.'
+        if nodes - ALWAYS - {f"/{SECOND}"}
+        else (
+            "A node did not start. Write its <node> tag outside of every <group>, and without the "
+            'attribute "if".'
+        ),
     )
     context.require(
         "spawn_turtle_plus is started only if addturtle is true",
@@ -169,8 +179,10 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
         f"for n in {' '.join(names)}; do roslaunch --args /$n {file.path} addturtle:=true 2>&1"
         ' | sed "s|^|$n: |" & done; wait'
     )
-    done = copy.run(each, within=20.0)
-    missing = [line for line in done.out.splitlines() if "annot l" in line or "not found" in line]
+    worded = f"roslaunch --args /NODE {file.path} addturtle:=true, for each node"
+    done = copy.run(each, within=20.0, worded=worded)
+    # roslaunch prints a traceback; its last line contains the name of the exception and the message.
+    missing = re.findall(r"^(\w+: )[\w.]+\.(\w+(?:Exception|NotFound): .*)", done.out, re.MULTILINE)
     own = [
         rf"^{name}: .*{file.package}/scripts/{program.command}\b"
         for name, program in ((DRIVER, file.driver), (SECOND, file.second))
@@ -179,7 +191,7 @@ def _finds_the_programs(context: CheckContext, copy: BuiltPackage, file: LaunchF
         "roslaunch finds the program of each node",
         holds=not missing and all(re.search(line, done.out, re.MULTILINE) for line in own),
         expected=f"three programs, two of them in {file.package}",
-        actual=telling_line(missing[0] if missing else done.out),
+        actual="".join(missing[0]) if missing else telling_line(done.out),
         hints=(
             'roslaunch does not find a program. In the <node> tag, set "pkg" to the package and '
             '"type" to the file name of the program.'

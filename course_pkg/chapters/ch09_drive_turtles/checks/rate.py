@@ -188,12 +188,13 @@ def _returns_the_old_rate(context: CheckContext, change: Service, wanted: float,
 
 def refuses(context: CheckContext, service: Service, assertion: str, **fields: float) -> None:
     """Assert that the handler refuses a request; an unexpected exception is not a refusal."""
-    (number,) = fields.values()
-    why = (
-        "every comparison with nan is False, so test for nan separately"
-        if number != number
-        else "compare the number with the limits in the exercise"
-    )
+    ((field, number),) = fields.items()
+    if number != number:
+        why = "every comparison with nan is False, so test for nan separately"
+    elif field == "speed":  # A speed has no limits.
+        why = "accept only finite numbers (math.isfinite, in C++ std::isfinite)"
+    else:
+        why = "compare the number with the limits in the exercise"
     hint = f"The node accepted {number:g}, but this value is not allowed: {why}."
     error = service.refused(assertion, saying="", hints=hint, **fields)
     context.require(

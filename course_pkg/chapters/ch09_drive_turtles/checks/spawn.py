@@ -23,7 +23,10 @@ PROGRAM = script("spawn_turtle")
 SPAWN = "turtlesim/Spawn"
 TURTLE: dict[str, Json] = {"x": 3.0, "y": 3.0, "theta": 0.0, "name": "MyTurtle"}
 LIMIT = 5.0  # LIMIT is the time in s for which the student's program waits for a service.
-NO_WAIT = "The call fails if the service has not started yet. First wait for the service, for at most 5 s."
+NO_WAIT = (
+    "The program ended before the service started. Wait for the service for at most 5 s (in C++: "
+    "ros::Duration(5), because a plain number is a time in ms)."
+)
 # If a program ends within this time in s, the hint says that the program does not wait for the service.
 NO_WAIT_ENDS = 1.0
 WITHOUT_A_WAIT = 0.5  # A program that does not wait ends within this time in s.
@@ -225,8 +228,8 @@ def _is_refused(context: CheckContext, world: World) -> None:
         done,
         REFUSED,
         (
-            "The server refused the call, and the program did not catch this error. Catch the error, "
-            "print a message, and end with exit status 1."
+            "The server refused the call. In this case, print a message without a traceback, and end with "
+            "exit status 1."
         ),
     )
 

@@ -149,8 +149,8 @@ def why_it_ended(done: Finished) -> str:
         return f"{fault.problem} {fault.remedy}"
     if "rror" in done.out + done.err:
         return (
-            "The program stopped with an error. The last line of the output above describes the error, "
-            "and the lines before it show where this error occurred in your code."
+            "The program stopped with an error. Run the program in a terminal, and read the lines above "
+            "this error message: in Python, they show where in your code the error occurred."
         )
     return (
         "The program reached its last line and ended. Publish in a loop that runs until the node is "
