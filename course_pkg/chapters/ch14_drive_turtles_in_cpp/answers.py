@@ -17,14 +17,17 @@ replace("ros::init( … return 0;", """ros::init(argc, argv, "spawner", ros::ini
     return EXIT_FAILURE;
   }
   std::cout << "spawned " << response.name << std::endl;""")
-# %% 14.1 wrong: no wait | hint: The call fails if the service has not started yet
+# %% 14.1 wrong: no wait | hint: The program ended before the service started
 replace('  if (!client.waitForExistence(ros::Duration(5))) {\n    ROS_ERROR("no simulator within 5 s");\n    return 1;\n  }\n', '')
 # %% 14.1 wrong: no limit | hint: The program waits too long, or without a limit
 replace('ros::Duration(5)', '')
 # %% 14.1 wrong: five milliseconds | hint: The program stopped waiting too early
 based_on("the functions of ros::service")
 replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForService("/spawn", 1500)')
-# %% 14.1 wrong: the result of the call is ignored | hint: The server refused the call, and the program did not catch this error
+# %% 14.1 wrong: a plain number is a time in ms | hint: The program ended before the service started
+based_on("the functions of ros::service")
+replace('ros::service::waitForService("/spawn", 5000)', 'ros::service::waitForService("/spawn", 5)')
+# %% 14.1 wrong: the result of the call is ignored | hint: The server refused the call. In this case, print
 replace('  if (!client.call(spawn)) {\n    ROS_ERROR("the simulator refused MyTurtle");\n    return 1;\n  }\n', '  client.call(spawn);\n')
 # %% 14.1 wrong: no name | hint: The name is empty, so the simulator chooses a name
 replace('  spawn.request.name = "MyTurtle";\n', '')
