@@ -402,11 +402,11 @@ replace("        return TriggerResponse(success=True, message=str(count - 1))", 
 replace("self.shelf = shelf", "self.shelf, self.count = shelf, shelf.read()")
 replace("            count = self.shelf.read()\n", "            count = self.count\n")
 replace("self.shelf.write(count - 1)", "self.count = count - 1\n            self.shelf.write(count - 1)")
-# %% 10.4 wrong: a lock for each call | hint: Two handlers read the same number, so one sale was lost
+# %% 10.4 wrong: a lock for each call | hint: Two handlers read the same number, so too many things were sold
 replace("\n        self.lock = threading.Lock()", "")
 replace("self.lock", "threading.Lock()")
 replace("(count - 1)\n        ", "(count - 1)\n            ")
-# %% 10.4 wrong: locks the writing only | hint: Two handlers read the same number, so one sale was lost
+# %% 10.4 wrong: locks the writing only | hint: Two handlers read the same number, so too many things were sold
 based_on("no lock")
 replace("\n\n", "\n\n        self.lock = threading.Lock()\n\n")
 replace("self.shelf.write(count - 1)", "with self.lock:\n            self.shelf.write(count - 1)")
@@ -441,7 +441,7 @@ replace("return TriggerResponse(success=True, message=str(count - 1))", "    ret
 replace('return TriggerResponse(success=False, message="', 'raise rospy.ServiceException("')
 # %% 10.4 wrong: a number for a message | hint: The field `message` has to be a string
 replace("str(count - 1)", "count - 1")
-# %% 10.4 wrong: reads under the lock, writes outside | hint: Two handlers read the same number, so one sale was lost
+# %% 10.4 wrong: reads under the lock, writes outside | hint: Two handlers read the same number, so too many things were sold
 replace("\n            if count = … count - 1)", """
         if count == 0:
             return TriggerResponse(success=False, message="sold out")
@@ -554,7 +554,7 @@ replace("self.shelf.write(self.shelf.read() - 1)", "self.shelf.write(self.shelf.
 replace("\n            with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "")
 # %% 10.5 wrong: catches nothing | hint: The call of the till failed, and the exception ended your handler
 replace('try: … : {error}")', "receipt = rospy.ServiceProxy(self.till, Charge)(str(uuid.uuid4()), self.cents).receipt")
-# %% 10.5 wrong: puts back what it counted before | hint: Two threads changed the shelf
+# %% 10.5 wrong: puts back what it counted before | hint: Between a read of the shelf and the write that followed
 replace("with self.lock:\n                self.shelf.write(self.shelf.read() + 1)", "time.sleep(0.2)\n            self.shelf.write(count)")
 # %% 10.5 wrong: waits for the till | hint: No server offers the till's service, but the handler waits
 replace("try:", "rospy.wait_for_service(self.till)\n        try:")

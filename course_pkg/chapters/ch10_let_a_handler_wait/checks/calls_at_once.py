@@ -123,8 +123,8 @@ NOT_TOGETHER: Hints = [
     (
         ANYTHING,
         (
-            "Some calls began only after other calls had returned. Start all threads before the first "
-            "call of join()."
+            "Some calls began only after other calls had returned. Use one thread for each call (a pool "
+            "needs `count` threads), and start all threads before you wait for the first thread."
         ),
     ),
 ]

@@ -40,8 +40,8 @@ STUCK = (
 )
 ERRORS = [*SHELF_ERRORS, (matches("TimesUp"), STUCK)]
 TORN = (
-    "Two threads changed the shelf at the same time, so one change was lost. Hold the same lock "
-    "while you sell a thing and while you put a thing back."
+    "Between a read of the shelf and the write that followed, another thread changed the shelf. Hold the "
+    "same lock while you read, decide and write. To put a thing back, read the shelf again, and add 1."
 )
 ANOTHER_NUMBER = (
     "The number on the shelf is different from the number that /left returns. Use the methods "

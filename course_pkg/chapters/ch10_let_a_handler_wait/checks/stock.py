@@ -38,7 +38,7 @@ ERRORS = [
     ),
 ]
 TWICE = (
-    "Two handlers read the same number, so one sale was lost. In all calls, hold the same lock "
+    "Two handlers read the same number, so too many things were sold. In all calls, hold the same lock "
     "while you read, decide and write."
 )
 REREAD = (
