@@ -324,11 +324,15 @@ class CheckContext:
         `texts` maps the path of each of the check's own files to its content. The check's own files replace
         copies with the same path.
         """
-        return Folder(self._channel, files, texts or {}, self._under_way)
+        return Folder(self._channel, files, texts or {}, self.under_way)
 
-    def _under_way(self, command: str) -> None:
-        self.doing = f"waiting for {command}"
-        self._results.asked = lambda: command
+    def under_way(self, call: str) -> None:
+        """Show `call` in a report as the last call of the check.
+
+        Use this method before a call that no other method of the context makes.
+        """
+        self.doing = f"waiting for {call}"
+        self._results.asked = lambda: call
 
     def has(self, name: str) -> bool:
         """Return whether the student has defined `name`."""

@@ -152,7 +152,13 @@ SEVERAL_CONNECTIONS: Hints = [
             "it in self."
         ),
     ),
-    (ANYTHING, "There was more than one connection. Create the proxy only once, and store it in self."),
+    (
+        ANYTHING,
+        (
+            "There was more than one connection. Create the proxy in `__init__`, and create a new proxy only "
+            "after the connection broke: a refusal does not break it."
+        ),
+    ),
 ]
 
 

@@ -213,7 +213,7 @@ def _refuses_without_a_session(context: CheckContext, kind: ServiceClass) -> Non
     assertion = "a call without a session is refused with a message that contains the name of the field"
     for headers in ({}, {"session": ""}):
         try:
-            answer = _call(kind, 1, headers)
+            answer = _call(context, kind, 1, headers)
         except rospy.ServiceException as error:
             message = str(error)
         else:
@@ -236,7 +236,7 @@ def _answer(
     name: str = NAME,
 ) -> Message:
     try:
-        return _call(kind, amount, headers, name)
+        return _call(context, kind, amount, headers, name)
     except rospy.ServiceException as error:
         context.fail(
             "a call with a session gets a response",
@@ -266,7 +266,10 @@ def _why_refused(message: str, refused: str) -> str:
     )
 
 
-def _call(kind: ServiceClass, amount: int, headers: dict[str, str], name: str = NAME) -> Message:
+def _call(
+    context: CheckContext, kind: ServiceClass, amount: int, headers: dict[str, str], name: str = NAME
+) -> Message:
+    context.under_way(f"a call of {name} with amount={amount} and the header fields {headers}")
     proxy = BoundedProxy(name, kind, headers=headers, timeout=TIMEOUT)
     try:
         return proxy.call(amount=amount)
