@@ -103,7 +103,7 @@ replace("true", "0")
 replace("ros::ServiceServer server = node", "node")
 # %% 13.2 wrong: no spin | hint: The program ends, so its service also ends
 replace(";\n  ros::spin();", ";")
-# %% 13.2 wrong: refuses nothing | hint: was below 0
+# %% 13.2 wrong: refuses nothing | hint: below 0. Refuse such a request
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 # %% 13.2 wrong: a semicolon lost | hint: for a missing ; or bracket
 replace("request.width;", "request.width")
@@ -111,10 +111,10 @@ replace("request.width;", "request.width")
 replace("request.height < 0", "request.high < 0")
 # %% 13.2 wrong: checks two sides only | hint: The server sent a response, but height was below 0
 replace("0 || request.height < 0", "0")
-# %% 13.2 wrong: checks the area and the volume | hint: was below 0
+# %% 13.2 wrong: checks the area and the volume | hint: below 0. Refuse such a request
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.area >= 0 && response.volume >= 0")
-# %% 13.2 wrong: checks the volume only | hint: was below 0
+# %% 13.2 wrong: checks the volume only | hint: below 0. Refuse such a request
 replace("\n  if (request.length < 0 || request.width < 0 || request.height < 0) return false;", "")
 replace("true", "response.volume >= 0")
 # %% 13.2 wrong: refuses 0 | hint: A side was 0, but the handler refused the call

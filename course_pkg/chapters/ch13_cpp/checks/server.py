@@ -128,7 +128,7 @@ def _measures_empty_boxes(context: CheckContext, box: Service) -> None:
 def _refuses(context: CheckContext, box: Service, wrong: Sequence[str]) -> None:
     sides = dict(zip(SIDES, context.random.numbers(3, 1.0, 9.0), strict=True))
     sides.update({side: -sides[side] for side in wrong})
-    below = " and ".join(wrong)
+    below = f"{' and '.join(wrong)} {'was' if len(wrong) == 1 else 'were'}"
     box.refused(
         "a side below 0 is refused",
         saying="responded with an error",
@@ -142,10 +142,7 @@ def _refuses(context: CheckContext, box: Service, wrong: Sequence[str]) -> None:
             ),
             (
                 re.compile(""),
-                (
-                    f"The server sent a response, but {below} was below 0. Refuse such a request: "
-                    "return false."
-                ),
+                (f"The server sent a response, but {below} below 0. Refuse such a request: return false."),
             ),
         ],
         **sides,
