@@ -631,7 +631,7 @@ replace('        print_line(f"{request.item} {request.cents}")\n', '''        tr
 # %% 15.8 wrong: the reason is lost | hint: The error message does not contain the printer's message
 based_on("acquire and release, and the error is caught")
 replace('"not printed: " + str(e)', '"not printed"')
-# %% 15.8 wrong: counts first | hint: The line was not printed, but the till stored the price of the item
+# %% 15.8 wrong: counts first | hint: The line was not printed, but the till changed its stored prices
 based_on("prints nothing")
 replace("= request.cents", '= request.cents\n        print_line(f"{request.item} {request.cents}")')
 # %% 15.8 wrong: waits for a printer | hint: Do not wait for this service without a time limit

@@ -35,7 +35,10 @@ REMEMBERED = (
     "The newest message reports no customer, but `found` is True in the response. Use only the "
     "newest message, and no older message."
 )
-NO_WAIT = "The response came too early. If no customer is there, wait for request.patience seconds."
+NO_WAIT = (
+    "The response came too early. If no customer is there, wait for request.patience seconds in total: use "
+    "`wait_for`, because each message ends a call of `wait()`."
+)
 TOO_LONG = "The response came too late. Wait for at most request.patience seconds."
 ONE_BY_ONE = (
     "One call had to wait for another call. Do not hold a lock while the handler waits "

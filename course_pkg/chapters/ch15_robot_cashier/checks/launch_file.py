@@ -108,7 +108,10 @@ def the_launch_file(context: CheckContext) -> None:
             _lists(context, _read(context, command), " ".join(words) or "no argument", wanted)
     context.fulfilled(LISTED)
     for words, value in (([], 2.0), (given, wait)):
-        printed = package.run(f"python3 -c '{READER}' {FILE} {' '.join(words)}", within=READING).out
+        given_words = " ".join(words)
+        line = f"python3 -c '{READER}' {FILE} {given_words}"
+        worded = f"the nodes and the parameters of {FILE} {given_words}"
+        printed = package.run(line, within=READING, worded=worded.strip()).out
         _passes_the_argument(context, printed, value, words)
         starts_programs(context, printed)
 

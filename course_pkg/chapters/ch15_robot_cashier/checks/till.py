@@ -91,7 +91,7 @@ TWICE = (
     "The total contains the old price and the new price of an item. If the same item is set again, "
     "replace its old price."
 )
-FREE = "An item that costs 0 cents is missing. Store this item like all other items."
+FREE = "An item that costs 0 cents is missing. Store and count this item like all other items."
 CASE = (
     "The items milk and MILK are two different items. Do not convert the names to small or capital letters."
 )
@@ -189,9 +189,8 @@ REASONLESS = (
     "The error message does not contain the printer's message. Use the text of the exception that you caught."
 )
 COUNTED = (
-    "The line was not printed, but the till stored the price of the item. Store the price only "
-    "after print_line has "
-    "returned."
+    "The line was not printed, but the till changed its stored prices. Change the stored prices only "
+    "after print_line has returned."
 )
 NO_PRINTER = (
     "The service print_line does not exist, and the till did not refuse the call within 5 s. Do "

@@ -263,10 +263,11 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
     for number, step in enumerate(STEPS):
         came = _called(detector, number + 1)
         before = STEPS[number - 1].name if number else "nothing"
+        after = f"after {_described(before)}" if number else "in the first call"
         context.require(
             "the node calls detect_customer in a loop",
             holds=bool(came),
-            expected="a call" if not number else f"a call after the response {before}",
+            expected=f"a call {after}" if number else "a call",
             actual="no call",
             hints=_why_no_call(number, before),
         )
@@ -282,7 +283,7 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
         context.require(
             "the patience is ~wait, and 0 during a visit",
             holds=abs(call.patience - wanted) < 1e-3,
-            expected=f"`patience` {wanted:g} after the response {before}",
+            expected=f"`patience` {wanted:g} {after}",
             actual=f"`patience` {call.patience:g}",
             hints=_wrong_patience(number, call.patience, wanted),
         )
@@ -290,6 +291,11 @@ def _makes_the_calls(context: CheckContext, detector: Detector, mirrored: Subscr
             _mirrors_meanwhile(context, mirrored, call)
     _mirrors_in_visit(context, mirrored, detector.calls)
     _pauses(context, detector.calls)
+
+
+def _described(name: str) -> str:
+    """Return a text for the result of a call; `name` is the name of a step."""
+    return f"a response with found={name}" if name in ("True", "False") else name
 
 
 def _why_no_call(number: int, before: str) -> str:

@@ -88,7 +88,10 @@ SILENT = "No frame came for more than 1 s, but detect_customer accepted a call. 
 NOT_RECOVERED = (
     "New frames came after a pause, but detect_customer still refuses each call. Check exercise 15.3 again."
 )
-RESPAWN = 'roslaunch did not start a node again. Add respawn="true" to the <node> tag of each of your nodes.'
+RESPAWN = (
+    'roslaunch did not start a node again. Add respawn="true" to the <node> tag of each of your nodes, and '
+    'remove required="true".'
+)
 DELAYED = (
     "The attribute respawn_delay lets roslaunch wait too long before it starts a node again. Remove this "
     "attribute."
