@@ -196,6 +196,8 @@ replace("(rospy.Duration(2)):", "(rospy.Duration(0.4)):")
 replace(".get_result().fetched", ".get_result()")
 # %% 16.2 wrong: things is left out | hint: The field `things` of the goal is 0
 replace("things=things, seconds", "seconds")
+# %% 16.2 wrong: reads the result directly after the cancellation | hint: The function read the result before the goal
+replace("        client.wait_for_result(rospy.Duration(2))\n    return client.get_result().fetched", "    result = client.get_result()\n    return result.fetched if result else 0")
 # %% 16.2 wrong: None after the cancellation | hint: The function returned None
 replace("        client.wait_for_result(rospy.Duration(2))\n", "        return None\n")
 # %% 16.2 wrong: None for an aborted goal | hint: The robot aborted the goal, but the function did not return

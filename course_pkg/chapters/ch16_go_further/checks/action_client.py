@@ -218,6 +218,13 @@ def _too_late(context: CheckContext) -> None:
             actual=result.returned(),
             hints=[
                 (
+                    0,
+                    (
+                        "The function read the result before the goal had ended. Wait for the result "
+                        "again after cancel_goal()."
+                    ),
+                ),
+                (
                     None,
                     (
                         "The function returned None. Wait for the result again after cancel_goal(), "

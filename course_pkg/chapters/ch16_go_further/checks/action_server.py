@@ -92,6 +92,14 @@ def _is_served(context: CheckContext, client: actionlib.SimpleActionClient) -> N
     )
 
 
+def _sends(
+    context: CheckContext, client: actionlib.SimpleActionClient, goal: FetchGoal, after: str = ""
+) -> None:
+    """Send a goal; a report shows the goal, and the text `after` about what the check does after it."""
+    context.under_way(f"a goal with things={goal.things} and seconds={goal.seconds}{after}")
+    client.send_goal(goal)
+
+
 def _wrong_number_fetched(things: int) -> Hints:
     return [
         (0, "The field `fetched` of the result is 0. Write set_succeeded(FetchResult(fetched=…))."),
@@ -148,7 +156,7 @@ def _carries_out(context: CheckContext, client: actionlib.SimpleActionClient, fe
     limit = Deadline(BUSY)
     while True:
         before, began = feedback.count, time.monotonic()
-        client.send_goal(FetchGoal(things=things, seconds=each))
+        _sends(context, client, FetchGoal(things=things, seconds=each))
         _ends_as(context, client, "a goal is executed to its end", GoalStatus.SUCCEEDED)
         took = time.monotonic() - began
         feedback.wait(before + things, within=1.0)
@@ -213,7 +221,7 @@ def _is_on_time(context: CheckContext, at: list[float], began: float, each: floa
 def _takes_long_for_a_long_thing(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
     each = context.random.number(*LONG, digits=3)
     began = time.monotonic()
-    client.send_goal(FetchGoal(things=2, seconds=each))
+    _sends(context, client, FetchGoal(things=2, seconds=each))
     _ends_as(context, client, "a goal is executed to its end", GoalStatus.SUCCEEDED)
     took = time.monotonic() - began
     context.require(
@@ -264,7 +272,7 @@ def _wrong_number_left(last: int) -> Hints:
 
 def _cancels(context: CheckContext, client: actionlib.SimpleActionClient, feedback: Subscription) -> None:
     before = feedback.count
-    client.send_goal(FetchGoal(things=80, seconds=0.1))
+    _sends(context, client, FetchGoal(things=80, seconds=0.1), ", and its cancellation")
     feedback.wait(before + 2, within=TIMEOUT)
     client.cancel_goal()
     context.require(
@@ -289,7 +297,7 @@ def _cancels(context: CheckContext, client: actionlib.SimpleActionClient, feedba
 
 
 def _fetches_nothing(context: CheckContext, client: actionlib.SimpleActionClient) -> None:
-    client.send_goal(FetchGoal(things=0, seconds=0.1))
+    _sends(context, client, FetchGoal(things=0, seconds=0.1))
     _ends_as(
         context,
         client,
@@ -310,7 +318,7 @@ def _cancels_during_the_last_thing(context: CheckContext, client: actionlib.Simp
     On a busy machine, the cancellation can arrive too early or too late; the check then also accepts a wrong
     server.
     """
-    client.send_goal(FetchGoal(things=1, seconds=LAST))
+    _sends(context, client, FetchGoal(things=1, seconds=LAST), ", and its cancellation")
     wait_until(lambda: client.get_state() == GoalStatus.ACTIVE, LAST)
     time.sleep(LAST / 4)  # The server tests for a cancellation only after the goal has become active.
     client.cancel_goal()
