@@ -78,19 +78,19 @@ class Service:
         return self._call([self._request(**fields) for fields in requests])
 
     def refused(
-        self, assertion: str, *, saying: str = "", worded: str = "", hints: Hints = (), **fields: Value
+        self, assertion: str, *, saying: str | tuple[str, str] = "", hints: Hints = (), **fields: Value
     ) -> str:
-        """Assert that the service refuses a request with an error message that matches `saying`.
+        """Assert that the service refuses a request with an error message that matches the pattern `saying`.
 
-        A report shows the pattern `saying`, or the text `worded` instead, such as "contains -1".
+        If `saying` is a pair, a report shows its second text instead of the pattern, such as "contains -1".
         Returns the error message.
         """
         reply = self._call([self._request(**fields)])[0]
         self._results.asked = lambda: command_line(self.name, self.kind, reply.request)
         actual = reply.error or plain(reply.response)
-        if not reply.error or reply.unanswered or not matches(saying).search(reply.error):
-            described = worded or f"matches {saying!r}"
-            expected = f"an error message that {described}" if saying else "an error"
+        pattern, described = saying if isinstance(saying, tuple) else (saying, f"matches {saying!r}")
+        if not reply.error or reply.unanswered or not matches(pattern).search(reply.error):
+            expected = f"an error message that {described}" if pattern else "an error"
             hint = hint_for(hints, actual) or self._explained(reply.error)
             seen = self._with_traceback(reply.error) if reply.error else shown(actual)
             self._results.fails(assertion, expected=expected, actual=seen, hint=hint)

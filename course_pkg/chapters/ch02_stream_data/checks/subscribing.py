@@ -3,7 +3,7 @@
 import statistics
 import threading
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import pairwise
 
@@ -374,7 +374,7 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
                     ),
                 ),
                 (
-                    (lambda actual, values=values: len(actual) != len(values)),
+                    _of_another_length(values),
                     (
                         "Your list has another length than the list in the received message. For each "
                         "message, create a new list with a loop over all numbers."
@@ -383,6 +383,10 @@ def _is_image(context: CheckContext, message: Fields, image: Fields) -> None:
                 (ANYTHING, "Change only the sign of each number."),
             ],
         )
+
+
+def _of_another_length(values: Sequence[float]) -> Callable[[Sequence[float]], bool]:
+    return lambda actual: len(actual) != len(values)
 
 
 def _promptly(context: CheckContext, sent: Sequence[float], arrivals: Sequence[Arrival]) -> None:

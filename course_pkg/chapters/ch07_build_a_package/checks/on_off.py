@@ -93,8 +93,7 @@ def the_on_off_server(context: CheckContext) -> None:
         for number in (2, -1, context.random.integer(3, 2_000_000_000)):
             service.refused(
                 "any other number is refused, and the error message names the number",
-                saying=f"cannot process request: .*(?<!\\d){number}",
-                worded=f"contains {number}",
+                saying=(f"cannot process request: .*(?<!\\d){number}", f"contains {number}"),
                 number=number,
                 hints=[
                     (
