@@ -136,7 +136,9 @@ def _examined(planned: PartPlan, answers: Answers, run: Run, seed: int) -> Repor
             return _not_attempted(planned, " ".join(["The cell was not changed.", *answers.lacking(part)]))
         answer = notebook.answers[exercise]
         cells = (*needed(answer, planned.before, _above(notebook.notebook, exercise)), answer)
-    job = PartJob(part.check, planned.before, cells, planned.after, seed, part.deadline, files=files)
+    job = PartJob(
+        part.check, planned.before, cells, planned.after, seed, part.deadline, files=files, hidden=part.hidden
+    )
     return _reported(planned, _run(job, run))
 
 
