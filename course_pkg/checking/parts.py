@@ -21,7 +21,7 @@ CHAPTERS = "course_pkg.chapters"
 PRIVATE = "private_"  # The modules with an instructor's own parts have this prefix.
 PUBLIC = ("__init__.py", "programs")  # Student code may read these files of a chapter.
 # The patterns match the course's programs that do the work of an exercise.
-PROGRAMS = ("nodes/*.py", "turtlesim/driv*.py", "chapters/ch*/programs/*.py")
+PROGRAMS = ("nodes/*.py", "shop/*.py", "turtlesim/driv*.py", "chapters/ch*/programs/*.py")
 FOLDER = re.compile(r"ch(\d\d)_\w+")
 IMPORTED = re.compile(r"^\s*(?:from|import)\s+course_pkg\.chapters(?:\.|\s+import\s+)ch(\d\d)_", re.MULTILINE)
 # The pattern matches a file of a package in a workspace.

@@ -34,6 +34,7 @@ MISSED = "Return how many numbers were published between the two received number
     ),
     needs=["name_of_node", "name_of_service", "name_of_type"],
     goals=[NODE, SERVICE, TYPE],
+    runs=["server"],
 )
 def read_the_graph(context: CheckContext) -> None:
     """Compare the student's names of the node, the service and the type with the right names."""
