@@ -154,6 +154,7 @@ def read_the_graph(context: CheckContext) -> None:
     points=2,
     goal="Return the volume from the response of a service.",
     needs=["ask_for_volume"],
+    runs=["server"],
 )
 def ask_a_question(context: CheckContext) -> None:
     """Respond with random volumes; the student's function can know a volume only from the response."""
@@ -277,6 +278,7 @@ def _no_volume(area: float, volume: float, sides: tuple[float, float, float]) ->
     needs=["count_missed"],
     deadline=25.0,
     goals=[RECEIVED, MISSED],
+    runs=["server"],
 )
 def count_what_was_missed(context: CheckContext) -> None:
     """Run the student's function twice, with different pauses.
