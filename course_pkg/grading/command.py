@@ -42,7 +42,7 @@ from course_pkg.sandbox.linux.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
-# Each core checks this many submissions at the same time, because a check mostly waits for responses.
+# For each processor core, this many submissions are checked at the same time, because a check mostly waits.
 A_CORE = 2
 
 
@@ -71,9 +71,9 @@ class Options:
     roster: Path | None = None
     moodle_worksheet: Path | None = None
     points: Path | None = None
-    # The value is "all", "none" or "missing", and selects the students whose notebooks nbval runs.
+    # nbval runs the notebooks of these students: "all", "none", or "missing" (students with missing points).
     validate: str = "missing"
-    flags: tuple[str, ...] = ()  # These kinds of flags are searched; an empty tuple means all kinds.
+    flags: tuple[str, ...] = ()  # Only these kinds of flags are reported; an empty tuple means all kinds.
 
 
 def grade(options: Options) -> int:
@@ -112,8 +112,8 @@ def grade(options: Options) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("\nStopped. Type the same command again to continue.\n")
         sys.stderr.flush()
-        # Without this call, the threads would wait until their notebooks have ended. The exit of this process
-        # also ends the processes that the threads run.
+        # os._exit() does not wait for the threads that grade notebooks. The processes that these threads have
+        # started end, too.
         os._exit(130)
     graded = best_attempts([_with_lateness(points.weighed(each), policy) for each in graded])
     rest = earlier.rest(graded, selected if _is_class(options.source) else selected.only(graded))
@@ -135,7 +135,7 @@ def grade(options: Options) -> int:
 def _print_end(
     out: Path, earlier: Earlier, graded: Sequence[Grade], rest: Sequence[Grade], took: float
 ) -> None:
-    """Print the changes since the last run, the unchanged results, and the last line."""
+    """Print the changes since the last run, the earlier results that stay, and a summary line."""
     lines = []
     if earlier.grades:
         found = changes(earlier.grades, [*graded, *rest])
@@ -194,14 +194,14 @@ def _is_class(source: Path) -> bool:
 
 
 def _class_list(lists: Lists, source: Path, handed_in: Iterable[Submission | Grade]) -> ClassList:
-    """Return the students who submitted in this or an earlier run, and the missing students."""
+    """Return the students who submitted in this or an earlier run, and the missing students of the roster."""
     there = [each for each in handed_in if not each.nothing and not (isinstance(each, Grade) and each.absent)]
     return lists.matched(origins_of(there), source)
 
 
 def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> Deadlines:
-    """Return the deadlines, with the extensions in the roster."""
-    # This call raises an error for an invalid number of days before the grading begins.
+    """Return the deadlines, with the extensions that the roster contains."""
+    # If the roster contains an invalid number of days, this call raises an error before the grading begins.
     extensions_of({str(each.line): each for each in lists.roster or ()})
     people = _class_list(lists, options.source, found).people
     zone = zone_of(options.time_zone) if options.time_zone else None
@@ -211,7 +211,7 @@ def _deadlines(options: Options, found: Sequence[Submission], lists: Lists) -> D
 def _dated(
     options: Options, found: Sequence[Submission], due: Deadlines, table: LateTable | None
 ) -> list[Submission]:
-    """Return the submissions to grade; each submission has its number of late days."""
+    """Return the submissions to grade; each submission contains the number of days that it is late."""
     zone = zone_of(options.time_zone) if options.time_zone else None
     times = options.times or (options.deadlines and options.moodle_worksheet) or ""
     asked = bool(options.deadlines or options.times)  # Without a deadline, times.csv is not read.
@@ -238,7 +238,7 @@ def _handed_in(options: Options, selected: Selection) -> list[Submission]:
 def _graded(
     options: Options, found: Sequence[Submission], extras: Extras, store: Store, regrade: Regrade
 ) -> Iterator[Grade]:
-    """Yield a grade for each submission: first the stored grades, and later each new grade when ready."""
+    """Yield a grade for each submission: first the stored grades, then each new grade when it is ready."""
     todo: dict[tuple[str, tuple[str, ...]], list[Submission]] = {}
     progress = Progress(total=len(found), unit="notebooks")
     for submission in found:

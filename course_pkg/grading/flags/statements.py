@@ -92,7 +92,7 @@ class _Reader:
 
 
 class _Form:
-    """Writes the normal form of one statement."""
+    """Creates the normal form of one statement, and stores the names that the statement sets and uses."""
 
     def __init__(self, reader: _Reader, statement: Statement, scopes: tuple[int, ...]) -> None:
         self._reader = reader
@@ -100,7 +100,7 @@ class _Form:
         self._scopes = scopes
 
     def of(self, node: ast.AST) -> str:
-        """Return the normal form of a node."""
+        """Return the normal form of a node of the syntax tree."""
         if isinstance(node, ast.Name):
             return self._name(node.id, stored=not isinstance(node.ctx, ast.Load))
         if isinstance(node, ast.arg):
@@ -140,7 +140,7 @@ class _Form:
         return f"{type(node).__name__}({','.join(self._fields(node))})"
 
     def _fields(self, node: ast.AST) -> Iterator[str]:
-        """Yield the normal forms of a node's fields, except statements, annotations, names and `ctx`."""
+        """Yield the normal forms of a syntax node's fields; skip statements, annotations, names and `ctx`."""
         for name, value in ast.iter_fields(node):
             if name in (*BLOCKS, "returns", "annotation", "ctx", "type_comment", "name"):
                 continue
@@ -206,6 +206,6 @@ def _bound(node: ast.AST) -> set[str]:
         elif isinstance(each, ast.ExceptHandler) and each.name:
             names.add(each.name)
         elif isinstance(each, ast.arg):
-            names.add(each.arg)  # This argument belongs to a lambda.
+            names.add(each.arg)  # Here, each argument is an argument of a lambda.
         todo += ast.iter_child_nodes(each)
     return names
