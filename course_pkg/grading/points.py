@@ -68,8 +68,8 @@ class PointsTable:
 def read_points(path: Path | None) -> PointsTable:
     """Return the points of all parts; points in the file at `path` replace the author's points.
 
-    Private parts must be declared before this call. Raises GradingError, with the position in the file and a
-    correction, if the file is not valid.
+    If there are private parts, call read_extras() before this function. Raises GradingError if the file is
+    not valid; the message contains the position in the file and a correction.
     """
     known = {part.check: part for chapter in chapters() for part in parts_of(chapter)}
     given = _read(path) if path else {}
@@ -142,7 +142,7 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _worth(part: Part, given: Any, path: Path | None) -> Worth:  # noqa: ANN401 -- any JSON value
-    """Convert the value of `part` in the file into the points of the part and of its goals."""
+    """Convert `given`, the value of `part` in the file, into the points of the part and of its goals."""
     if given == ALL_OR_NOTHING:
         return _all_or_nothing(part, part.points)
     if isinstance(given, dict):
@@ -197,8 +197,8 @@ def _with_points(part: Part, shares: Sequence[float]) -> tuple[Goal, ...]:
 def _points(value: Any, where: str, path: Path | None) -> float:  # noqa: ANN401 -- any JSON value
     """Return `value` as a number of points.
 
-    Raises GradingError if the value is not valid; `where` describes the place of the value in the error
-    message.
+    Raises GradingError if the value is not valid. The error message contains `where`, the place of the value
+    in the file.
     """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         form = f'"{ALL_OR_NOTHING}", or an object with the points of each goal'

@@ -2,11 +2,14 @@
 
 An instructor or a platform has put the student's name into the name of a folder or file.
 
-SUBMISSIONS/<student>/NN_topic.ipynb                          collected by hand; subfolders are allowed
-Full Name_12345_assignsubmission_file_/NN_topic.ipynb         Moodle; can be one file name without folders
-lastfirst_LATE_123_456_NN_topic-2.ipynb                       Canvas; LATE: after the deadline; -2: third try
-assignment_9_export/submission_456/NN_topic.ipynb             Gradescope, with submission_metadata.yml
-submitted/<student>/<assignment>/NN_topic.ipynb               nbgrader
+- SUBMISSIONS/<student>/NN_topic.ipynb is for files that an instructor collects; subfolders are allowed.
+- Full Name_12345_assignsubmission_file_/NN_topic.ipynb is from Moodle. The folder name and the file name can
+  also be joined into one file name.
+- lastfirst_LATE_123_456_NN_topic-2.ipynb is from Canvas. LATE means after the deadline, and -2 means the
+  third attempt.
+- assignment_9_export/submission_456/NN_topic.ipynb is from Gradescope. The file submission_metadata.yml
+  contains the names of the students.
+- submitted/<student>/<assignment>/NN_topic.ipynb is from nbgrader.
 
 A catkin package is a folder next to the notebooks: <student>/<package>/package.xml (see packages.py).
 """
@@ -29,12 +32,12 @@ CANVAS = re.compile(
 )
 GRADESCOPE = re.compile(r"submission_\d+")
 METADATA = "submission_metadata.yml"
-TIMES = "times.csv"  # `course collect` writes this file next to the students' folders
+TIMES = "times.csv"  # `course collect` writes this file into the folder that contains the students' folders.
 WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_export)", re.IGNORECASE)
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
-# Some systems add the ending .txt or .json.
+# Some browsers and platforms add .txt or .json to the name of a notebook.
 NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)
-# The keys are the folders in Gradescope's export, and the values are the submitters.
+# The keys are the folders in Gradescope's export, and the values are the students who submitted.
 Submitters = Mapping[str, Sequence[str]]
 
 
@@ -44,15 +47,17 @@ class Claim:
 
     student: str  # `student` is the student's name, or "" if the path does not contain it.
     stem: str  # `stem` is the file name that the student gave the notebook, or "" for any other file.
-    attempt: int = 0  # `attempt` is the number of the attempt, as the platform counts attempts.
+    # `attempt` is the number of the attempt in the file name; the first attempt has the number 0.
+    attempt: int = 0
     marked_late: bool = False
 
 
 def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
     """Return the students to whom a file belongs: one student, or all members of a group.
 
-    Only the name of the first folder is used, or the name of the file if there is no folder. The platform
-    chose this name. Students choose the names below this folder, and could use another student's name.
+    The student's name is read only from the first folder of the path, or from the file name if there is no
+    folder. The platform chose this name. Students choose all other names in the path, and could use another
+    student's name.
     """
     *folders, name = parts
     first = folders[0] if folders else name
@@ -66,7 +71,7 @@ def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
 
 
 def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -> tuple[str, str]:
-    """Return the name and the number of a student on the platform (MOODLE or CANVAS).
+    """Return the name and the number that a platform (MOODLE or CANVAS) uses for a student.
 
     Both values are "" if they are not known.
 
@@ -82,10 +87,7 @@ def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -
 
 
 def unwrapped(parts: Sequence[str], outer: int) -> tuple[str, ...]:
-    """Return a path without its outer folders, and without a folder that the platform added.
-
-    `outer` is the number of outer folders.
-    """
+    """Return a path without the first `outer` folders, and without a folder that the platform added."""
     inner = tuple(parts[outer:]) if len(parts) > outer else tuple(parts)
     return inner[1:] if len(inner) > 1 and WRAPPING.fullmatch(inner[0]) else inner
 
@@ -100,7 +102,7 @@ def _claim(student: str, name: str, *, late: bool = False) -> Claim:
 
 
 def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
-    """Return 1 if one outer folder contains all students' folders, and 0 otherwise.
+    """Return 1 if one folder contains all students' folders, and 0 otherwise.
 
     `archive` is the name of the zip without .zip, or "" for a folder.
     """
@@ -119,7 +121,7 @@ def wrapping(paths: Iterable[Sequence[str]], archive: str) -> int:
 
 
 def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
-    """Return the submitters of each folder of an export, as student numbers, addresses or names."""
+    """Return each folder's submitters in a Gradescope export: student numbers, email addresses or names."""
     return {
         folder: [_submitter(each) or folder for each in record.get(":submitters") or [{}]]
         for folder, record in gradescope_records(content).items()
@@ -128,12 +130,12 @@ def gradescope_submitters(content: bytes) -> dict[str, list[str]]:
 
 
 def gradescope_records(content: bytes) -> dict[str, dict[str, Any]]:
-    """Return the metadata of an export for each folder.
+    """Return the metadata of each folder in a Gradescope export.
 
     Raises GradingError if the metadata cannot be read.
 
-    The file is YAML; its keys are symbols of Ruby. Every scalar is read as a string, and YAML tags are
-    ignored.
+    The metadata are YAML; the keys are Ruby symbols, such as `:email`. Every scalar is read as a string, and
+    YAML tags are ignored.
     """
     loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
     try:

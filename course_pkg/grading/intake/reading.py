@@ -1,4 +1,4 @@
-"""Reads a student's notebook, which may have any format version and may be damaged.
+"""Reads a student's notebook in any version of the notebook format; the file can be damaged.
 
 The size of the input is limited.
 """
@@ -38,7 +38,7 @@ WRONG = (
 
 @dataclass(frozen=True)
 class StudentCell:
-    """One cell with the data that grading needs."""
+    """The data of one notebook cell that grading needs."""
 
     id: str
     kind: str  # The value is "code", "markdown" or "raw".
@@ -64,7 +64,7 @@ def read_cells(content: bytes) -> list[StudentCell]:
 
 
 def slimmed(cells: Sequence[StudentCell]) -> bytes:
-    """Return a notebook with only the data for grading.
+    """Return a notebook with only the data that grading needs.
 
     The result contains no outputs, because the outputs of all students' notebooks would fill the memory.
     """
@@ -102,10 +102,10 @@ def _parsed(content: bytes) -> dict[str, Plain]:
 
 
 def _all_cells(data: dict[str, Plain]) -> object:
-    """Return the cells of a notebook of any format; up to version 3, the cells are in worksheets.
+    """Return a notebook's cells; in notebooks up to format version 3, the cells are in the list "worksheets".
 
-    nbformat can convert an old notebook, but validates it first. For a long notebook, the validation takes
-    seconds and writes the whole content to a log.
+    The library nbformat is not used, because it validates an old notebook before the conversion. The
+    validation of a long notebook takes seconds and writes the whole content to a log.
     """
     sheets = data.get("worksheets")
     if "cells" in data or not isinstance(sheets, list):
