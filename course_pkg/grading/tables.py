@@ -19,8 +19,8 @@ def table_bytes(path: Path, what: str, largest: int = LARGEST) -> bytes:
 
     `what` describes the file in error messages, such as "table of late days".
 
-    Raises GradingError if the file cannot be read, has more than `largest` bytes, or is not CSV but a
-    spreadsheet.
+    Raises GradingError if the file cannot be read, has more than `largest` bytes, or is a spreadsheet in
+    place of a CSV file.
     """
     try:
         with path.open("rb") as file:
@@ -52,7 +52,7 @@ def table_rows(path: Path, what: str) -> list[list[str]]:
 
 
 def delimiter_of(text: str) -> str:
-    """Return the separator of the columns: the most frequent separator in the first line."""
+    """Return the separator of a CSV text: the most frequent of comma, semicolon and tab in the first line."""
     first = text.partition("\n")[0]
     return max(",;\t", key=first.count)
 

@@ -1,7 +1,7 @@
 """Builds the notebook that is graded.
 
-This notebook is the course's solution notebook (the reference) with a student's answers; all other cells of
-the student are left out.
+This notebook is the course's solution notebook (the reference) with a student's answers in the exercise
+cells; all other cells of the student are left out.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from course_pkg.grading.grade import Flag
 from course_pkg.grading.reports.gradebook import Book, name_of
 from course_pkg.grading.reports.page import paragraph, text
 
-OTHERS = 10  # A flag lists at most this many other students.
+OTHERS = 10  # For one flag, a report lists at most this many other students.
 ABOUT = (
     "A flag is a reason to look at an answer yourself. A flag does not change points, and the "
     "feedback for students contains no flags."
@@ -22,7 +22,7 @@ Flagged = tuple[str, str, Flag]  # The tuple contains the student, the chapter a
 
 
 def flag_sections(book: Book) -> Iterator[str]:
-    """Yield the section about flags, with a list of students for each kind.
+    """Yield the section about flags, with a list of students for each kind of flags.
 
     Without flags, yield nothing.
     """

@@ -1,4 +1,4 @@
-"""The dask cluster of `course grade --scheduler`: waits for workers, and detects when all have ended."""
+"""The dask cluster of `course grade --scheduler`: waits for workers, and detects the loss of all workers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from distributed import Client
 
 PATIENCE = 20.0  # A scheduler must respond, and a worker must connect, within this many s.
-INTERVAL = 1.0  # INTERVAL is the time in s between two polls of the workers, after all tasks were submitted.
+# INTERVAL is the time in s after which the run tests again whether the cluster still has workers.
+INTERVAL = 1.0
 AGAIN = "The finished grades are saved. Correct the problem above, and type the same command again."
 
 
@@ -43,7 +44,7 @@ class Cluster:
 
     @property
     def failures(self) -> tuple[type[BaseException], ...]:
-        """The exceptions that dask raises if the cluster cannot run a task.
+        """The types of exceptions that dask raises if the cluster cannot run a task.
 
         `explained` returns an error message for such an exception.
         """
@@ -52,7 +53,7 @@ class Cluster:
         return CancelledError, KilledWorker, ImportError, RuntimeError
 
     def explained(self, error: BaseException) -> GradingError:
-        """Return an error that explains one of the `failures` and says what the user can do."""
+        """Return an error that explains the exception `error` from dask, and says what the user can do."""
         if isinstance(error, CancelledError):
             return self._lost()
         if isinstance(error, (ImportError, RuntimeError)):
@@ -75,7 +76,7 @@ class Cluster:
 
 
 def no_workers(scheduler: str, patience: float) -> GradingError:
-    """Return the error for a scheduler without workers."""
+    """Return the error that is raised if a scheduler has no workers."""
     return GradingError(
         f"The dask scheduler at {scheduler} has had no worker for {patience:g} s, so nothing can be "
         "graded. Start workers with the following command, and then type your command again: "

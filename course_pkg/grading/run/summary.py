@@ -18,13 +18,13 @@ def status_of(graded: Sequence[Grade]) -> int:
 
 
 def last_line(graded: Sequence[Grade]) -> str:
-    """Return the last line, for example "45 graded, 22 need a look"."""
+    """Return the last line that a run prints, for example "45 graded, 22 need a look"."""
     looks = sum(map(needs_look, graded))
     return f"{len(graded) - looks} graded, {looks} {'needs' if looks == 1 else 'need'} a look"
 
 
 def about_empty(graded: Sequence[Grade]) -> list[str]:
-    """Return a line about students with empty folders, or no line if there are none."""
+    """Return a line about students with empty folders, or no line if there are no such students."""
     names = [name_of(grade.student) for grade in graded if grade.nothing]
     return (
         [f"These students handed in nothing, because their folders are empty: {_listed(names)}."]
@@ -34,7 +34,7 @@ def about_empty(graded: Sequence[Grade]) -> list[str]:
 
 
 def about_flags(grades: Sequence[Grade]) -> list[str]:
-    """Return a line about students with flags, or no line if there are none."""
+    """Return a line about students with flags, or no line if there are no such students."""
     count = len({grade.student for grade in grades if grade.flags})
     students = "1 student has" if count == 1 else f"{count} students have"
     return (

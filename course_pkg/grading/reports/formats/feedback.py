@@ -1,4 +1,4 @@
-"""feedback/<student>.html: the feedback for a student about the grade."""
+"""feedback/<student>.html: a page that explains the grade to the student."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def _printed(report: Report) -> str:
 
 
 def _cells(grade: Grade) -> Iterator[str]:
-    """Yield the result of nbval's run, with the cells that differ from the reference."""
+    """Yield the result of nbval, with the cells whose outputs differ from the outputs of the solution."""
     if not grade.cells:
         return
     others = [cell for cell in grade.cells if cell.outcome != "passed"]

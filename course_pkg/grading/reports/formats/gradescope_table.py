@@ -1,4 +1,4 @@
-"""gradescope.csv, in the layout of the file that Gradescope offers as a download of grades.
+"""gradescope.csv has the same layout as the file of grades that an instructor can download from Gradescope.
 
 Gradescope (Review Grades, Download Grades) writes Name, SID, Email, Sections, Total Score, Max Points,
 Status, Submission ID, and a column for each question, such as "1: Title (2.0 pts)". Programs that read grades
