@@ -21,25 +21,25 @@ LINES = 200
 ITEMS = 1_000  # ITEMS is the maximum number of entries of a list in a record.
 
 ANSI = re.compile(
-    # This part of the pattern matches escape sequences that set the title of the terminal or make a link.
+    # The next line matches escape sequences that set the title of the terminal or make a link.
     r"\x1b\][^\x07\x1b]*(?:\x07|\x1b\\)?"
-    # This part of the pattern matches escape sequences that set colours or move the cursor.
+    # The next line matches escape sequences that set colours or move the cursor.
     r"|(?:\x1b\[|\x9b)[0-?]*[ -/]*[@-~]?"
     r"|\x1b[PX^_][^\x1b]*(?:\x1b\\)?"  # This part matches strings that control the terminal.
     r"|\x1b[ -/]*[0-~]?"
 )
 UNSEEN = re.compile(
-    # These are the control characters, without tab, line feed and carriage return.
+    # The next line contains all control characters except tab, line feed and carriage return.
     "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f"
-    # These characters change the direction of the text, or are invisible.
+    # The next two lines contain characters that change the direction of the text, or are invisible.
     "\u00ad\u061c\u180e\u200b\u200e\u200f\u2060-\u206f\ufeff\ufff9-\ufffb"
     "\u202a-\u202e\U000e0000-\U000e007f]"
 )
-# The pattern matches halves of surrogate pairs, and code points that are not characters.
+# ILLEGAL matches halves of surrogate pairs, and code points that are not characters.
 ILLEGAL = re.compile("[\ud800-\udfff\ufdd0-\ufdef\ufffe\uffff]")
 BREAKS = re.compile("\r\n?|[\u2028\u2029]")
-# In a spreadsheet, a formula begins with one of these characters. Some spreadsheets also accept the last
-# four, which are full-width characters.
+# In a spreadsheet, a formula begins with a character in FORMULA. Only some spreadsheets accept the last four,
+# which are full-width characters.
 FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 DEVICES = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 PLAIN_NAME = re.compile(r"[a-z0-9][a-z0-9._-]*")
@@ -105,7 +105,7 @@ def identity(name: str) -> str:
 def file_name(name: str) -> str:
     """Return a safe file name for `name`.
 
-    The result is never the name of a device or a path to another folder.
+    The returned name is never the name of a device or a path to another folder.
 
     Different names get different file names: each changed name gets a suffix. The file names differ even on a
     file system that ignores case.

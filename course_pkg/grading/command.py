@@ -42,7 +42,7 @@ from course_pkg.sandbox.linux.bubblewrap import require_sandbox
 from course_pkg.setup.progress import Progress
 from course_pkg.state import write_json
 
-# For each processor core, this many submissions are checked at the same time, because a check mostly waits.
+# A_CORE is the number of submissions that each processor core checks at the same time; a check mostly waits.
 A_CORE = 2
 
 
@@ -71,7 +71,7 @@ class Options:
     roster: Path | None = None
     moodle_worksheet: Path | None = None
     points: Path | None = None
-    # nbval runs the notebooks of these students: "all", "none", or "missing" (students with missing points).
+    # nbval runs the notebooks of all students ("all"), of students with missing points ("missing"), or none.
     validate: str = "missing"
     flags: tuple[str, ...] = ()  # Only these kinds of flags are reported; an empty tuple means all kinds.
 
@@ -171,7 +171,7 @@ def grade_one(
 ) -> int:
     """Grade one notebook and write the result into the file `out`.
 
-    A job array of a cluster uses this function.
+    Each job of a job array on a cluster calls this function for one notebook.
     """
     require_references()
     found = submissions(notebook)
@@ -189,7 +189,7 @@ def grade_one(
 
 
 def _is_class(source: Path) -> bool:
-    """Return whether the source contains all students' submissions, not only one notebook."""
+    """Return whether `source` contains the submissions of a class, not only one notebook."""
     return not (source.is_file() and NOTEBOOK.fullmatch(source.name))
 
 

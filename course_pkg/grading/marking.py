@@ -19,8 +19,8 @@ from course_pkg.sandbox.job import PartJob, PartResult, WorkFile
 
 Run = Callable[[PartJob], PartResult]
 LONGEST_CODE = 20_000  # LONGEST_CODE is the maximum number of characters of a part's code in the feedback.
-# A part is run at most this many times. It is run again if a sandbox worker fails, because an answer cannot
-# cause this failure.
+# TRIES is the maximum number of runs of a part. A part is run again if a sandbox worker fails, because an
+# answer cannot cause this failure.
 TRIES = 2
 
 

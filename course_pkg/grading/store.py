@@ -62,7 +62,7 @@ class Store:
     def keep(self, grade: Grade) -> None:
         """Store `grade` under its key, unless a part could not be examined.
 
-        The next run examines such a part again.
+        If a part could not be examined, the next run examines the part again.
         """
         if any(report.verdict is Verdict.UNDECIDED for report in grade.reports):
             self.drop(grade.key)

@@ -115,7 +115,8 @@ def _grade(submission: Submission, points: PointsTable, run: Run) -> Grade:
 def _runner(deadline: Deadline, private: str, *, weaker: bool) -> Iterator[Run]:
     """Yield a function that runs one part of the submission.
 
-    If the time limit of the autograder is reached, the function stops the part and runs no other part.
+    If the time limit of the autograder is reached, the yielded function stops the part and runs no other
+    part.
     """
     with SandboxWorker(users=weaker, private=private) as worker:
 

@@ -49,7 +49,7 @@ def read_settings(path: Path) -> Settings:
 def days_late(metadata: Path) -> float | None:
     """Return how many days late the submission is, or None if `metadata` contains no usable times.
 
-    If the student has an extension, the metadata contain the student's own deadline. Format:
+    If the student has an extension, Gradescope's metadata contain the student's own deadline. Format:
     https://gradescope-autograders.readthedocs.io/en/latest/submission_metadata/.
     """
     try:

@@ -17,7 +17,7 @@ DAY = 86_400.0  # s
 
 @dataclass(frozen=True)
 class Deadlines:
-    """The deadlines; the keys are chapters, and the key "" means all chapters without a key."""
+    """The deadlines of chapters; the deadline with the key "" applies to all chapters without a key."""
 
     by_chapter: Mapping[str, datetime]
     grace: timedelta = timedelta()
@@ -26,8 +26,8 @@ class Deadlines:
     def due(self, student: str, chapter: str) -> datetime | None:
         """Return a student's deadline for a chapter, or None; the grace period is not included.
 
-        An extension does not change the time of day of a deadline, even if summer time begins or ends in
-        between.
+        An extension does not change the time of day of a deadline, even if summer time begins or ends during
+        the extension.
         """
         deadline = self.by_chapter.get(chapter, self.by_chapter.get(""))
         if deadline is None:

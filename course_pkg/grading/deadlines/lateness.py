@@ -60,7 +60,7 @@ class Lateness:
 def attempts_to_grade(
     submissions: Sequence[Submission], attempts: str, when: Callable[[Submission], datetime | None]
 ) -> list[Submission]:
-    """Return all attempts if the best attempt counts, or only the last attempts if these count.
+    """Return all attempts if the best attempt counts, or only the last attempts if the last attempt counts.
 
     If all attempts have known and different times, the last attempt is the attempt with the latest time.
     Otherwise, the last attempt is the attempt with the highest number or the newest file.

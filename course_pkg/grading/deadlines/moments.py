@@ -15,8 +15,8 @@ ISO = re.compile(
 )
 OFFSET = re.compile(r"(?:UTC)?([+-])(\d\d):?(\d\d)", re.IGNORECASE)
 MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
-# An example is "Sunday, 1 November 2026, 11:59 PM". In some languages, Moodle writes the month before the
-# day.
+# Moodle writes a time such as "Sunday, 1 November 2026, 11:59 PM". In some languages, the month comes before
+# the day.
 WRITTEN = re.compile(
     r"(?:[a-z]+,?\s+)?(?:(?P<day>\d{1,2})\.?\s+(?P<month>[a-z]{3,9})|(?P<month2>[a-z]{3,9})\s+(?P<day2>\d{1,2})),?\s+"
     r"(?P<year>\d{4}),?\s+(?:at\s+)?(?P<hour>\d{1,2}):(?P<minute>\d\d)(?::\d\d)?\s*(?P<half>[ap]\.?m\.?)?",

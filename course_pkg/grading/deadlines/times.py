@@ -1,10 +1,11 @@
 """Finds the time of a submission in a table, or in the files that a platform adds to a download.
 
-A table such as times.csv has the columns student and submitted, and optionally chapter and file. No option is
-needed for a file times.csv in the folder of the submissions. Moodle's grading worksheet contains the time in
-the column "Last modified (submission)"; a student's row is found by the number in the folder's name. For
-Gradescope, the time is the value of `:created_at` in submission_metadata.yml. For nbgrader, the time is in
-submitted/STUDENT/ASSIGNMENT/timestamp.txt; this file is read only with `--times nbgrader`.
+A table such as times.csv has the columns student and submitted, and optionally chapter and file. If times.csv
+is in the folder of the submissions, the file is used without an option. Moodle's grading worksheet contains
+the time in the column "Last modified (submission)"; a student's row is found by the number in the name of the
+student's folder. For Gradescope, the time is the value of `:created_at` in submission_metadata.yml. For
+nbgrader, the time is in submitted/STUDENT/ASSIGNMENT/timestamp.txt; this file is read only with `--times
+nbgrader`.
 """
 
 from __future__ import annotations

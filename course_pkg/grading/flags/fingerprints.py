@@ -22,7 +22,7 @@ from course_pkg.grading.flags.syntax import UNREADABLE, is_python, tree
 from course_pkg.grading.flags.tokens import cpp_statements
 from course_pkg.grading.flags.work import Answer
 
-# If a function, a class or another block contains at least this many statements, the block is one feature.
+# If a function, a class or another block contains at least BLOCK statements, the block is one feature.
 BLOCK = 3
 PAIRS = 400  # A name with more pairs is ignored, because a name in many lines is not characteristic.
 LONG = 12  # A characteristic string has at least this many characters.
@@ -112,8 +112,8 @@ def _python_words(source: str, module: ast.Module) -> Iterator[str]:
             if token.type == tokenize.COMMENT:
                 yield from _long(token.string)
     except (tokenize.TokenError, SyntaxError, ValueError):
-        # The tokenizer stops at an IPython magic or an unterminated string. The comments above have already
-        # been found.
+        # The tokenizer stops at an IPython magic or an unterminated string. The comments before the error
+        # have already been found.
         pass
     for node in ast.walk(module):
         if isinstance(node, ast.Constant) and isinstance(node.value, str):

@@ -5,16 +5,15 @@ with fewer than ten statements. The rest of the code is divided into features (s
 feature has a weight. If s of n students have the feature, its weight is log2(n / s) bits. The similarity of
 two answers is twice the weight of their common features, divided by the sum of the weights of both answers.
 
-Two short answers to the same exercise can be similar by chance. Therefore, a pair is flagged for one of two
-reasons:
+Two short answers to the same exercise can be similar by chance. Therefore, a pair of students is flagged only
+in one of two cases. In the first case, they have one nearly identical answer, and enough of the code, or of
+the comments, strings and names, occurs in the answer of at most one other student.
 
-- The students have one nearly identical answer. Enough of its code, or of its comments, strings and names,
-  occurs in the answer of at most one other student.
-- The students have several nearly identical answers. For each of these answers, p is the fraction of all
-  pairs of students in which the two answers are at least as similar. This fraction is an estimate of the
-  probability that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p) is more than
-  MARGIN above log2 of the number of pairs. On average, fewer than one pair of a class is then flagged by
-  coincidence.
+In the second case, a pair of students has several nearly identical answers. For each of these answers, p is
+the fraction of all pairs of students in which the two answers are at least as similar. This fraction is an
+estimate of the probability that the similarity is a coincidence. A pair is flagged if the sum of log2(1 / p)
+is more than MARGIN above log2 of the number of pairs. On average, fewer than one pair of a class is then
+flagged by coincidence.
 """
 
 from __future__ import annotations
@@ -35,11 +34,11 @@ FEW = 3  # Even in a small class, code is compared if at most this many students
 SMALL = 30  # For a smaller class, the weights are computed as for a class of this size.
 ALIKE = 0.9  # Nearly identical answers have at least this similarity.
 SAME = 0.95  # If a single answer is the reason for a flag, its similarity must be at least this high.
-# One answer is enough to flag a pair if the two answers have this many features of the code in common, and at
-# most one other student has these features.
+# One answer is enough to flag a pair if the two answers have at least OWN_CODE features of the code in
+# common, and at most one other student has these features.
 OWN_CODE = 15
-# One answer is also enough if the two answers have this many comments, strings or names in common, and at
-# most one other student has them.
+# One answer is also enough to flag a pair if the two answers have at least OWN_WORDS comments, strings or
+# names in common, and at most one other student has them.
 OWN_WORDS = 3
 MARGIN = 1.0  # bits
 NOTHING = Fingerprint(0)

@@ -18,7 +18,8 @@ from course_pkg.grading.flags.syntax import Function, is_text
 COMMUTATIVE = (ast.Add, ast.Mult, ast.BitAnd, ast.BitOr, ast.BitXor)
 MIRRORED = {ast.Gt: ast.Lt, ast.GtE: ast.LtE}
 BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
-# The tuple contains the scope that binds the name (0: the module; -1: attributes), and the name.
+# A Name contains the number of the scope that binds a name (0 is the module, -1 means attributes), and the
+# name.
 Name = tuple[int, str]
 
 
@@ -29,7 +30,7 @@ class Statement:
     form: str  # `form` is the normal form of the statement.
     line: int
     parent: int  # `parent` is the index of the enclosing statement, or -1 at the top level.
-    # The statement assigns values to these names of the program.
+    # `binds` contains the names of the program to which the statement assigns values.
     binds: set[Name] = field(default_factory=set)
     uses: set[Name] = field(default_factory=set)  # The statement reads these names of the program.
 

@@ -40,7 +40,7 @@ def line_of(answer: Answer, number: int) -> str:
 
 
 def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
-    """Return the objects to which imported names refer, such as {"Trigger": "std_srvs.srv.Trigger"}."""
+    """Return the full name for each imported name, such as "std_srvs.srv.Trigger" for "Trigger"."""
     found: dict[str, str] = {}
     for each in trees:
         for node in ast.walk(each):
@@ -57,7 +57,7 @@ def imports(trees: Iterable[ast.Module]) -> dict[str, str]:
 def aliases(module: ast.Module, known: Mapping[str, str]) -> dict[str, str]:
     """Return `known`, with an additional entry for each name in `module` that refers to an imported object.
 
-    After `file = Path("x")`, the result contains {"file": "pathlib.Path"}, so that calls of the path's
+    After `file = Path("x")`, the result contains "pathlib.Path" for "file", so that calls of the path's
     methods can be found.
     """
     names = {**known, **imports([module])}

@@ -38,8 +38,8 @@ class Entry:
     path: str  # `path` is the path in the submitted folder or archive, with / between folders.
     modified: float  # `modified` is a time in s since 1970.
     read: Callable[[], bytes]
-    # The value is True if the file's owner has the permission to execute the file. Without stored
-    # permissions, the value is False.
+    # `executable` is True if the file's owner has the permission to execute the file. Without stored
+    # permissions, `executable` is False.
     executable: bool = False
 
     @property

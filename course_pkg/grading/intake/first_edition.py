@@ -55,7 +55,7 @@ RENUMBERED = (
     RenumberedChapter("13_go_further", "Go further", "16"),
 )
 
-# This chapter has the same number in the first and in the current edition, but the numbers of its exercises
+# Chapter 03 has the same number in the first and in the current edition, but the numbers of its exercises
 # differ.
 CHOOSE = RenumberedChapter(
     "03_choose",

@@ -15,7 +15,8 @@ from course_pkg.grading.intake.archive import is_litter, leads_out
 from course_pkg.grading.intake.naming import WRAPPING, Submitters, claims, unwrapped
 from course_pkg.grading.store import FOLDER
 
-# Students' folders are searched to this depth, because a platform can put them into one or two other folders.
+# DEPTH is the maximum depth of a student's folder, because a platform can put it into one or two other
+# folders.
 DEPTH = 3
 PROBLEM = f"{NOTHING}: the folder {{}} contains no file."
 
@@ -50,8 +51,8 @@ def handed_in_nothing(
 def require_other_folder(source: Path, out: Path) -> None:
     """Raise GradingError if `out` is `source`, or a non-empty folder inside `source`.
 
-    Reports in such a folder would be mixed with the submissions. If `out` contains the results of an earlier
-    run, no error is raised.
+    In the folder of the submissions, the reports would be mixed with the submissions. If `out` contains the
+    results of an earlier run, no error is raised.
     """
     if not source.is_dir() or not out.is_dir() or (out / FOLDER).is_dir():
         return

@@ -2,14 +2,17 @@
 
 An instructor or a platform has put the student's name into the name of a folder or file.
 
-- SUBMISSIONS/<student>/NN_topic.ipynb is for files that an instructor collects; subfolders are allowed.
-- Full Name_12345_assignsubmission_file_/NN_topic.ipynb is from Moodle. The folder name and the file name can
-  also be joined into one file name.
-- lastfirst_LATE_123_456_NN_topic-2.ipynb is from Canvas. LATE means after the deadline, and -2 means the
-  third attempt.
-- assignment_9_export/submission_456/NN_topic.ipynb is from Gradescope. The file submission_metadata.yml
-  contains the names of the students.
-- submitted/<student>/<assignment>/NN_topic.ipynb is from nbgrader.
+An instructor who collects the files uses SUBMISSIONS/<student>/NN_topic.ipynb; subfolders are allowed.
+
+Moodle uses Full Name_12345_assignsubmission_file_/NN_topic.ipynb, or one file name without a folder.
+
+Canvas uses lastfirst_LATE_123_456_NN_topic-2.ipynb. LATE means after the deadline, and -2 means the third
+attempt.
+
+Gradescope uses assignment_9_export/submission_456/NN_topic.ipynb. The file submission_metadata.yml contains
+the names of the students.
+
+The program nbgrader uses submitted/<student>/<assignment>/NN_topic.ipynb.
 
 A catkin package is a folder next to the notebooks: <student>/<package>/package.xml (see packages.py).
 """
@@ -37,7 +40,7 @@ WRAPPING = re.compile(r"(submitted|submissions?|abgaben|download|assignment_\d+_
 AGAIN = re.compile(r"(?:-(?P<canvas>\d+)|\s*\((?P<browser>\d+)\))$")
 # Some browsers and platforms add .txt or .json to the name of a notebook.
 NOTEBOOK = re.compile(r"(?P<stem>.*)\.ipynb(?:\.txt|\.json)?", re.IGNORECASE)
-# The keys are the folders in Gradescope's export, and the values are the students who submitted.
+# For each folder in Gradescope's export, Submitters contains the students who submitted.
 Submitters = Mapping[str, Sequence[str]]
 
 
@@ -73,7 +76,7 @@ def claims(parts: Sequence[str], submitters: Submitters) -> list[Claim]:
 def number_of(student: str, origins: Iterable[str], platform: re.Pattern[str]) -> tuple[str, str]:
     """Return the name and the number that a platform (MOODLE or CANVAS) uses for a student.
 
-    Both values are "" if they are not known.
+    The name and the number are "" if they are not known.
 
     The number is read only from names that the platform chose. For example, a student with the name `s_17`
     has no number.

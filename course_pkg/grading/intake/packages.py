@@ -55,7 +55,8 @@ class Found:
     def called(self, names: Sequence[str]) -> str:
         """Return the name of the package if `names` contains this name, or else the name of the folder.
 
-        `names` contains the names of the packages that parts need. If it contains neither name, return "".
+        `names` contains the names of the packages that parts need. If it contains neither the name of the
+        package nor the name of the folder, return "".
         """
         return next((name for name in (self.package.name, self.folder) if name in names), "")
 
@@ -134,7 +135,7 @@ def attached(
 
     `given` contains the submissions with notebooks, and `packages` contains the packages of each student.
     `wanted` contains the graded chapters; an empty list means all chapters. Without a notebook for a chapter,
-    a package becomes a submission only if a part of the chapter needs one of its files.
+    a package becomes a submission only if a part of the chapter needs a file of the package.
     """
     if not packages:
         return list(given)

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from course_pkg.errors import GradingError
 from course_pkg.types.fields import Plain
 
-# A file may contain at most this many lists and objects. Without this limit, a file of 20 MiB with short
-# lists would need half a GB of memory.
+# BRACKETS is the maximum number of lists and objects in a file. Without this limit, a file of 20 MiB with
+# short lists would need half a GB of memory.
 BRACKETS = 500_000
 CELLS = 50_000
 PREFIXES = {
@@ -26,6 +26,7 @@ PREFIXES = {
     b"%pdf": "the file is a PDF of the notebook; hand in the .ipynb itself",
     b"pk\x03\x04": "the file is a zip with the name of a notebook; hand in the .ipynb itself",
 }
+# A damaged notebook in an old format causes the errors in WRONG.
 WRONG = (
     KeyError,
     AttributeError,
@@ -33,7 +34,7 @@ WRONG = (
     ValueError,
     IndexError,
     RecursionError,
-)  # A damaged notebook in an old format causes these errors.
+)
 
 
 @dataclass(frozen=True)

@@ -158,7 +158,7 @@ def _layout(entries: Sequence[Entry], archive: str) -> tuple[int, dict[str, list
 def _is_metadata(entry: Entry, outer: int) -> bool:
     """Return whether Gradescope, and not a student, wrote the file.
 
-    Gradescope's own file is not in a student's folder.
+    The metadata file from Gradescope is not in a student's folder.
     """
     return unwrapped(_inside(entry), outer) == (METADATA,)
 

@@ -29,7 +29,7 @@ OTHER = "The result of the cell is different from the result with the right answ
 def finding(words: str) -> str:
     """Return a sentence that tells the student the result of a cell, or "" if `words` is empty.
 
-    `words` is the text of nbval about this cell.
+    `words` is the text that nbval has printed about a cell.
     """
     text = COLOUR.sub("", words)
     if not text.strip():

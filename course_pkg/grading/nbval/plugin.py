@@ -2,7 +2,8 @@
 
 The run of pytest fails if the check of a part failed, did not run, or is missing. The result of the run is
 only feedback, because student code can forge the notebook's outputs, which contain the result. If the
-variable COURSE_NBVAL_RECORD contains the name of a file, one JSON object per cell is appended to this file.
+environment variable COURSE_NBVAL_RECORD contains the name of a file, one JSON object per cell is appended to
+this file.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from course_pkg.checking.parts import chapters, parts_of
 
 RECORD = "COURSE_NBVAL_RECORD"
 WORDS = 40000  # WORDS is the maximum number of characters of a failure's text.
-# These are the names of the user properties that the plug-in adds to a pytest report.
+# PART and MISSING are the names of the user properties that the plug-in adds to a pytest report.
 PART, MISSING = "part", "missing"
 CALL = re.compile(r"""^\s*check\(["'](\d\d\.\d+)["']\)""", re.MULTILINE)
 SEEN = pytest.StashKey[bool]()

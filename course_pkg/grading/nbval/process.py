@@ -26,18 +26,18 @@ from course_pkg.sandbox.linux import confinement, namespaces
 from course_pkg.sandbox.supervisor import MASTER_PORT, MEMORY_INTERVAL, run_master, too_much_memory_below
 from course_pkg.waiting import Deadline, at_this_load
 
-# If a cell runs too long, nbval ends the kernel within this time in s.
+# If a cell runs too long, nbval ends the kernel within SILENCE s.
 SILENCE = 15.0
-# This limit in bytes applies to the total memory of pytest and all nodes of a chapter.
+# TOGETHER is the limit in bytes for the total memory of pytest and all nodes of a chapter.
 TOGETHER = 2 * confinement.TOGETHER
 KERNEL = "sandboxed"
-# In the first edition of the course, `progress` had the name `results`.
+# In the first edition of the course, the function `progress` had the name `results`.
 OVERVIEW = re.compile(r"\b(progress|results)\(")
 OWN = "/student/.course"
 # The folders `notebooks` and `workspace` have the same parent folder, as in a checkout.
 NOTEBOOKS, WORKSPACE = "/student/notebooks", "/student/workspace"
-# A kernel with this environment variable ends if the id of its parent process is 1. In the sandbox, the id of
-# the parent process is always 1, so the variable is removed.
+# A kernel with the environment variable JPY_PARENT_PID ends if the id of its parent process is 1. In the
+# sandbox, the id of the parent process is always 1, so this variable is removed.
 ORPHANED = ("--unsetenv", "JPY_PARENT_PID")
 
 
@@ -70,8 +70,8 @@ def _run_within_limits(command: list[str], record: Path, silence: float) -> bool
     Kill the processes of the command if they use too much memory, or if the file `record` does not grow for
     `silence` s.
 
-    Returns True if the file did not grow for this time. nbval itself waits for ever if the connections of a
-    kernel are damaged.
+    Returns True if `record` did not grow for `silence` s. The reason for this limit is that nbval waits for
+    ever if the connections of a kernel are damaged.
     """
     size, deadline = 0, Deadline(silence)
     with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:

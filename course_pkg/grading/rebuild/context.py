@@ -14,12 +14,12 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-# A cell with more characters is not parsed, because the parsing would take too much time.
+# A cell with more than LONGEST characters is not parsed, because the parsing would take too much time.
 LONGEST = 20_000
-# A cell with magics and more lines is not parsed, because the time that IPython needs grows with the square
-# of the number of lines.
+# A cell with magics and more than MAGICAL lines is not parsed, because the time that IPython needs grows with
+# the square of the number of lines.
 MAGICAL = 300
-# These nodes of the syntax tree have a separate scope: later cells cannot use the names that are assigned in
+# The syntax nodes in SCOPES have a separate scope: later cells cannot use the names that are assigned in
 # them.
 SCOPES = (
     *(ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef, ast.Lambda),

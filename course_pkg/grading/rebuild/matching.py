@@ -48,7 +48,7 @@ class Matching:
     ) -> None:
         """`given` contains the sources of the solution notebook's cells that are not exercises.
 
-        The keys are the ids of the cells.
+        The keys of `given` are the ids of the cells.
         """
         self._cells = cells
         self._given = given

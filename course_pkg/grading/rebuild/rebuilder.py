@@ -1,7 +1,7 @@
 """Builds the notebook that is graded.
 
 This notebook is the course's solution notebook (the reference) with a student's answers in the exercise
-cells; all other cells of the student are left out.
+cells. All other cells of the student are left out.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ class Rebuilt:
     """The notebook that is graded; each exercise is either in `answers` or in `missing`."""
 
     notebook: Notebook  # The exercise cells have no outputs, so nbval does not compare their outputs.
-    # The keys are the exercises, and the values are the sources that run. A source can be the unchanged
+    # `answers` contains the source that runs for each exercise; it can be the source of the unchanged
     # exercise cell.
     answers: Mapping[str, str]
-    # The keys are the exercises without an answer, and each value is the reason that the student sees.
+    # `missing` contains the exercises without an answer; each value is the reason that the student sees.
     missing: Mapping[str, str] = field(default_factory=dict)
     untouched: frozenset[str] = frozenset()  # The student did not change the cells of these exercises.
     notes: tuple[str, ...] = ()  # Each note tells the student about something unusual in the notebook.

@@ -29,7 +29,7 @@ class Wanted:
     blank: str  # `blank` is the unchanged exercise cell that students get.
     first_line: str  # `first_line` is the cell magic in the first line, such as `%%writefile src/Area.srv`.
     names: frozenset[str]  # A student's answer has to define these names at the top level.
-    # These are the lines of the exercise cell that define no name, such as rospy.Service(…).
+    # `wiring` contains the lines of the exercise cell that define no name, such as rospy.Service(…).
     wiring: frozenset[str]
 
     @property

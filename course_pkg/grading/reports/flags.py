@@ -40,7 +40,7 @@ def flag_sections(book: Book) -> Iterator[str]:
 
 
 def flag_words(book: Book, student: str) -> str:
-    """Return the flags of a student as one text, such as "05.2, line 3: It opens a file."."""
+    """Return the flags of a student as one text: the part, the line and the reason of each flag."""
     return " | ".join(_line(chapter, flag) for owner, chapter, flag in _flagged(book) if owner == student)
 
 

@@ -15,11 +15,11 @@ from course_pkg.grading.reports.gradebook import Book
 from course_pkg.grading.roster.class_list import ClassList
 
 Writer = Callable[[Book, Path], None]
-# Only the reports in this tuple contain students without a submission in this run. The reports for platforms
-# do not contain these students, so that a platform does not change their points.
+# Only the reports in WITH_ABSENT contain students who have no submission in this run. The reports for
+# platforms do not contain these students, so that a platform does not change their points.
 WITH_ABSENT = ("class_page", "feedback", "records", "table")
-# A platform stores one score from each of these reports, so these reports contain only the chapters of this
-# run.
+# A platform stores one score from each report in OF_ASSIGNMENT, so these reports contain only the chapters of
+# this run.
 OF_ASSIGNMENT = ("gradescope", "gradescope_table", "moodle_worksheet")
 
 

@@ -216,7 +216,7 @@ def _row(path: Path, line: int, cells: Mapping[str, str]) -> Override:
 
 
 def _part(path: Path, line: int, cell: str) -> str:
-    """Return the id of the part that a cell contains: "05.2" for each of "Part 05.2", "05.2" and "5.2"."""
+    """Return the id of the part in a cell, which is "05.2" for the cells "Part 05.2", "05.2" and "5.2"."""
     named = cell.strip()
     part = two_digits(named.removeprefix(PREFIX.strip()))
     if not re.fullmatch(r"\d\d(\.\d+){1,2}", part):

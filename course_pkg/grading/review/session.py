@@ -120,7 +120,7 @@ class Session:
 
         In the result, `shown` is the number of the first answer whose row was restored.
 
-        Raises ValueError if there is nothing to undo, or if another program has changed one of these rows.
+        Raises ValueError if there is nothing to undo, or if another program has changed one of the rows.
         """
         if not self._steps:
             raise ValueError("there is no change to undo")

@@ -15,7 +15,7 @@ from course_pkg.grading.roster.worksheet import Participant, Worksheet, read_wor
 
 ROSTER, WORKSHEET = "the roster", "Moodle's worksheet"
 SHOWN = 10  # SHOWN is the maximum number of names in one sentence.
-# The keys are the students, and the values are the paths of the submitted files.
+# For each student, Origins contains the paths of the submitted files.
 Origins = Mapping[str, Sequence[str]]
 
 
@@ -31,10 +31,10 @@ class ClassList:
     found: int = 0  # `found` is the number of students on the roster who have a submission.
     missing: tuple[Person, ...] = ()  # These students are on the roster, but have no submission.
     strangers: tuple[str, ...] = ()  # These students have a submission, but are not on the roster.
-    # The keys are the students who were not found, and the values are the reasons.
+    # `unclear` contains the students who were not found; each value is the reason.
     unclear: Mapping[str, str] = field(default_factory=dict)
     worksheet: Worksheet | None = None
-    # The keys are the students' names, and the values are the participants in the worksheet.
+    # `participants` contains the participant in the worksheet for each student.
     participants: Mapping[str, Participant] = field(default_factory=dict)
     unlisted: tuple[str, ...] = ()  # These students have a submission, but are not in the worksheet.
 
@@ -137,7 +137,7 @@ class _Search:
         self._title = title
         self.found: dict[str, Person] = {}
         self.unclear: dict[str, str] = {}
-        # These are the numbers of the lines that belong, or can belong, to a student.
+        # `lines` contains the numbers of the lines that belong, or can belong, to a student.
         self.lines: set[int] = set()
 
     def decided(self, student: str) -> bool:

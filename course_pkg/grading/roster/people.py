@@ -33,7 +33,7 @@ ALIASES = {
     "username": ("username", "user name", "login", "login id", "sis login id"),
     "section": ("section", "sections"),
 }
-# Canvas adds these two rows to each exported gradebook.
+# Canvas adds the two rows in NO_STUDENTS to each exported gradebook.
 NO_STUDENTS = ("Points Possible", "Student, Test")
 
 

@@ -4,14 +4,14 @@ An instructor switches on the feedback type "Offline grading worksheet" of an as
 worksheet ("Download grading worksheet"). Later, the instructor uploads the copy with the grades ("Upload
 grading worksheet").
 
-The layout is from Moodle's source. mod/assign/gradingtable.php writes the columns Identifier ("Participant
-12345"), Full name, further fields such as Email address or ID number, Status, Group, Marker, Grade, Maximum
-grade (or Scale), Marking workflow state, Grade can be changed, Last modified (submission), Online text, Last
-modified (grade), Feedback comments. Most of these columns are optional; if submissions are anonymous, the
-name is missing. The names of the columns and the word "Participant" are in the user's language.
-mod/assign/feedback/offline/importgradeslib.php finds the columns by exactly these names, takes the number
-from the end of the identifier, and refuses a file without one of its columns. locallib.php in the same folder
-ignores a grade that is empty, above the maximum, or locked.
+The layout is from the source code of Moodle. The file mod/assign/gradingtable.php writes the columns
+Identifier ("Participant 12345"), Full name, further fields such as Email address or ID number, Status, Group,
+Marker, Grade, Maximum grade (or Scale), Marking workflow state, Grade can be changed, Last modified
+(submission), Online text, Last modified (grade), Feedback comments. Most of these columns are optional; if
+submissions are anonymous, the name is missing. The names of the columns and the word "Participant" are in the
+user's language. The file mod/assign/feedback/offline/importgradeslib.php finds the columns by exactly these
+names, takes the number from the end of the identifier, and refuses a file if a column is missing that it
+needs. The file locallib.php in the same folder ignores a grade that is empty, above the maximum, or locked.
 """
 
 from __future__ import annotations
@@ -132,8 +132,9 @@ class Worksheet:
 
         The keys of `graded` are the indices of the participants' rows.
 
-        All other bytes of the file do not change. A grade is a number such as "7.5". If the maximum grade in
-        a row has a decimal comma, the new grade in this row also gets a decimal comma.
+        Only the cells with grades and feedback change; all other bytes of the file do not change. A grade is
+        a number such as "7.5". If the maximum grade in a row has a decimal comma, the new grade in this row
+        also gets a decimal comma.
         """
         changed = deepcopy(self._records)
         for place, (grade, feedback) in graded.items():

@@ -117,7 +117,7 @@ def cluster_of(scheduler: str, patience: float = PATIENCE) -> Iterator[Cluster]:
             raise no_workers(scheduler, patience) from error
         yield Cluster(client, client.get_executor(pure=False), scheduler, patience)
     finally:
-        # Without this timeout, close() would wait for a scheduler that has ended.
+        # Without the timeout of 1 s, close() would wait for a scheduler that has ended.
         with suppress(OSError, TimeoutError):
             client.close(timeout=1)
 

@@ -14,7 +14,7 @@ from course_pkg.errors import GradingError
 from course_pkg.grading import clean
 from course_pkg.grading.grade import IN_PACKAGES, Grade, Submission
 
-# Moodle and Canvas add a number of this form to the end of a student's name.
+# PLATFORM_ID matches the number that Moodle and Canvas add to the end of a student's name.
 PLATFORM_ID = re.compile(r"_\d+$")
 
 
@@ -81,7 +81,7 @@ def selection(students: Sequence[str], chapters: Sequence[str], parts: Sequence[
 
 
 def two_digits(number: str) -> str:
-    """Return a chapter or part with two digits for the chapter: "05" for "5", and "05.1" for "5.1"."""
+    """Return the id of a chapter or part with two digits for the chapter, such as "05.1" for "5.1"."""
     chapter, dot, rest = number.strip().partition(".")
     return f"{chapter.zfill(2)}{dot}{rest}"
 
@@ -106,7 +106,7 @@ def merged(base: Grade, again: Grade) -> Grade:
 
 
 def _student(name: str, known: Sequence[str]) -> str:
-    """Return the full name of the student with the name `name`.
+    """Return the full name of the student that `name` means.
 
     The number that a platform adds to a student's name can be missing in `name`.
     """

@@ -1,1 +1,1 @@
-"""One module for each report; `write(book, out)` writes a report about the grades `book` into `out`."""
+"""One module for each report; `write(book, out)` writes the grades `book` into files in the folder `out`."""

@@ -1,4 +1,4 @@
-"""moodle.csv, for Moodle's menu Grades, Import, CSV file.
+"""moodle.csv can be imported into Moodle with the menu Grades, Import, CSV file.
 
 During the import, Moodle asks for the meaning of each column.
 
@@ -22,7 +22,7 @@ from course_pkg.grading.grade import Grade
 from course_pkg.grading.reports.files import put_table
 from course_pkg.grading.reports.gradebook import Book, about_lateness, name_of, points
 
-LONG = 3_000  # A feedback has at most this many characters.
+LONG = 3_000  # A feedback text has at most this many characters.
 
 
 def write(book: Book, out: Path) -> None:
