@@ -84,7 +84,7 @@ class CellOutcome:
 
 @dataclass(frozen=True)
 class Flag:
-    """A reason for the instructor to examine a student's work. A flag changes no points.
+    """A reason for the instructor to examine a student's work.
 
     Students never see a flag.
     """
@@ -116,7 +116,7 @@ class Grade:
     code: dict[str, str] = field(default_factory=dict)
     private: tuple[str, ...] = ()  # Students see the points of these parts, but not the reports.
     handed_in: str = ""  # `handed_in` is the digest of the submission.
-    flags: tuple[Flag, ...] = ()  # Only the instructor sees the flags.
+    flags: tuple[Flag, ...] = ()
     # `absent` is True if the grade is from an earlier run, and this run has no submission of the student for
     # the chapter.
     absent: bool = False

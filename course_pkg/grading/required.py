@@ -17,7 +17,7 @@ def require_references(asked: Sequence[str] = (), root: Path | None = None) -> N
 
     By default, the files of all chapters are checked. Grading finds the chapter of a submission by a
     comparison with all solutions. Therefore, if the solution of a chapter were missing, submissions for this
-    chapter would get no points. `root` is the path of the checkout.
+    chapter would get no points. `root` is the checkout.
     """
     missing = list(_missing(asked or chapters(), NotebookStore(root).root))
     if missing:

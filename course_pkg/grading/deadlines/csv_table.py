@@ -1,4 +1,4 @@
-"""Reads a CSV table; each row is a dictionary, and its keys are the names of the columns."""
+"""Reads a CSV table in which the first line contains the names of the columns."""
 
 from __future__ import annotations
 

@@ -5,9 +5,8 @@ The folders that catkin writes (build, devel, install) are left out. The name of
 package.xml, as in ROS. However, if no part needs a package with this name, but a part needs a package with
 the name of the folder, the name of the folder is used.
 
-A link or a device in a package is not read, and a note in the grade reports the link or device. All other
-files of the package are examined. A package that is too large is not examined. If two packages have the same
-name, the newest package is used.
+A link or a device in a package is not read, and a note in the grade reports the link or device. A package
+that is too large is not examined. If two packages have the same name, the newest package is used.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Reads a student's notebook in any version of the notebook format; the file can be damaged.
-
-The size of the input is limited.
-"""
+"""Reads a student's notebook in any version of the notebook format; the file can be damaged."""
 
 from __future__ import annotations
 

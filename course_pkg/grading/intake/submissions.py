@@ -121,10 +121,7 @@ class _File:
 
 
 def _packages(files: Sequence[_File]) -> tuple[dict[str, list[Found]], list[_File]]:
-    """Return the packages of each student, and all files that belong to no package.
-
-    Files that catkin generated are left out.
-    """
+    """Return the packages of each student, and the other submitted files."""
     packages: dict[str, list[Found]] = {}
     others: list[_File] = []
     for _, group in groupby(sorted(files, key=lambda each: each.path), lambda each: each.path[:1]):

@@ -85,7 +85,7 @@ def _is_passed(headline: str) -> bool:
 
 
 def _missing(item: pytest.Item) -> Sequence[str]:
-    """Return the parts of the chapter for which the notebook has no check.
+    """Return the parts that the notebook does not check.
 
     Only the first call for a notebook returns parts; later calls return an empty sequence.
     """

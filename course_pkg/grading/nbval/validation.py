@@ -1,7 +1,4 @@
-"""Runs a graded notebook with nbval, and finds the cells whose outputs differ from those of the solution.
-
-The results earn no points.
-"""
+"""Runs a graded notebook with nbval, and finds the cells whose outputs differ from those of the solution."""
 
 from __future__ import annotations
 
@@ -74,5 +71,4 @@ def outcomes_of(notebook: Notebook, *, timeout: float = LIMIT, cell: int = CELL)
 
 
 def _first_line(source: str) -> str:
-    """Return the first non-empty line of a cell."""
     return next((line for line in source.splitlines() if line.strip()), "")[:LINE]

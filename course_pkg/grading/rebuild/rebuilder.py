@@ -17,7 +17,7 @@ from course_pkg.grading.rebuild.defusing import defuse
 from course_pkg.grading.rebuild.matching import Match, Matching
 from course_pkg.grading.rebuild.wanted import defined, every_wanted, used
 
-NOTES = 40  # At most this many notes are given, because more notes would not help the student.
+NOTES = 40  # At most this many notes are given to a student.
 
 
 @dataclass(frozen=True)

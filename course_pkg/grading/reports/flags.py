@@ -1,7 +1,4 @@
-"""Flags in the instructor's reports: a section of class.html, and a column of grades.csv.
-
-The feedback for students never contains a flag.
-"""
+"""Flags in the instructor's reports: a section of class.html, and a column of grades.csv."""
 
 from __future__ import annotations
 

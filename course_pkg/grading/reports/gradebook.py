@@ -71,10 +71,7 @@ class Book:
         return round(sum(grade.earned for grade in self.of(student)), 2)
 
     def counted(self, student: str) -> list[str]:
-        """Return the chapters that count for a student, even if the student has no submission.
-
-        The assigned chapters count; see the class Asked.
-        """
+        """Return the chapters that count for a student, even if the student has no submission."""
         return self._asked.counted(student, self._by_student.get(student, []), self.chapters)
 
     def possible_for(self, student: str) -> float:

@@ -33,8 +33,6 @@ def write_reports(
 
     `class_list` contains the students' identities and the missing students. `asked` contains the chapters of
     this run; by default, it contains all chapters of `grades`.
-
-    Each module in `formats` writes one report with its function `write(book, out)`.
     """
     book = Book(grades, class_list, asked)
     chapters = asked.chapters if asked else ()

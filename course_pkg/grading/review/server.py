@@ -27,7 +27,7 @@ WAIT = 0.05  # s
 
 
 def application(session: Session, token: str, port: Callable[[], int]) -> Application:
-    """Return the application; `port` returns the port at which the server listens."""
+    """Return the web application; `port` returns the port at which the server listens."""
     shared = {"session": session, "token": token, "port": port, "templates": templates_in(HERE)}
     return Application(
         [

@@ -22,10 +22,7 @@ AGAIN = "The finished grades are saved. Correct the problem above, and type the 
 
 
 class Cluster:
-    """An executor that uses a dask cluster, and the number of threads in the cluster.
-
-    `require` raises GradingError if the scheduler has ended, or if no worker was connected for `patience` s.
-    """
+    """An executor that uses a dask cluster, and the number of threads in the cluster."""
 
     def __init__(self, client: Client, executor: Executor, scheduler: str, patience: float) -> None:
         self._client, self._scheduler, self._patience = client, scheduler, patience
@@ -34,7 +31,7 @@ class Cluster:
         self.workers = max(1, sum(client.ncores().values()))
 
     def require(self) -> None:
-        """Raise GradingError if no worker can continue the run."""
+        """Raise GradingError if the scheduler has ended, or if no worker was connected for `patience` s."""
         if self._client.status != "running":
             raise self._lost()
         if self._client.scheduler_info(n_workers=-1)["workers"]:
@@ -44,10 +41,7 @@ class Cluster:
 
     @property
     def failures(self) -> tuple[type[BaseException], ...]:
-        """The types of exceptions that dask raises if the cluster cannot run a task.
-
-        `explained` returns an error message for such an exception.
-        """
+        """The types of exceptions that dask raises if the cluster cannot run a task."""
         from distributed.scheduler import KilledWorker
 
         return CancelledError, KilledWorker, ImportError, RuntimeError

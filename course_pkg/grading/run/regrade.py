@@ -17,7 +17,7 @@ class Regrade:
 
     selected: Selection
     earlier: Earlier
-    fresh: bool = False  # With --fresh, the selected notebooks are graded again, even if nothing has changed.
+    fresh: bool = False
 
     @property
     def again(self) -> bool:

@@ -73,13 +73,11 @@ def _code(code: str) -> str:
 
 
 def _review(report: Report) -> str:
-    """Return the instructor's points and comment for this part."""
     sentences = (f"<p>{clean.html(sentence)}</p>" for sentence in report.about_review())
     return f'<div class="review">{"".join(sentences)}</div>' if report.review else ""
 
 
 def _credits(report: Report) -> str:
-    """Return the points of each goal."""
     items = "".join(f"<li>{text(line, 600)}</li>" for line in report.credits())
     return f"{paragraph(GOALS)}<ul>{items}</ul>" if items else ""
 
